@@ -1,0 +1,414 @@
+/* libjam: jammed packings of hard spheres, made and analysed.
+ *
+ * The only public header. C99. SPDX-License-Identifier: MIT
+ *
+ * Life of a packing: jam_create or jam_read -> jam_run, jam_compress (event-driven
+ * molecular dynamics) -> jam_crunch (iterated linear programming down to the jamming
+ * point) -> jam_report_get, jam_contacts, jam_forces, jam_hessian, jam_modes.
+ *
+ * Conventions, said once
+ * - Lengths are in the user's unit; the box is a periodic cube of side `box` (default 1).
+ *   m = k_B T = 1, so a velocity component has unit variance. Packing fraction, reduced
+ *   pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth rates are dimensionless.
+ * - sigma is always a DIAMETER. The growth rate is G = (d<sigma>/dt) / sqrt(kT/m), with
+ *   <sigma> the mean diameter. (Skoge-Donev code: radius rate g at mean v^2 = 1, so
+ *   G = 2 sqrt(d) g, 3.464 g in d = 3.)
+ * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
+ *   and a Julia d-by-n matrix. Indices are 0-based.
+ * - Arrays in: pointer and length in elements, checked. Arrays out: the caller's buffer,
+ *   its length in elements and `needed`; NULL and 0 only ask for the size; a buffer that
+ *   is too short gives JAM_E_BUFFER with `needed` set and nothing written.
+ * - Status: 0 done; > 0 stopped early, state valid and kept; < 0 failed, state as before
+ *   the call unless said otherwise. The text of the last failure of this thread is in
+ *   jam_last_error(). Outputs are written only when the status is >= 0.
+ * - Option structs: first member struct_size; fill with jam_X_options_init(&o, sizeof o),
+ *   then change what differs. A NULL option pointer means all defaults.
+ * - Threads: distinct handles are independent. On one handle const calls may run together;
+ *   any other call must be alone (a second one gets JAM_E_BUSY). jam_cancel may be called
+ *   from any thread or signal handler at any time.
+ * - The same seed, build and options give the same packing bit for bit on one thread.
+ */
+#ifndef JAM_JAM_H
+#define JAM_JAM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__) && !defined(SWIG)
+#define JAM_API __attribute__((visibility("default")))
+#else
+#define JAM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ABI number of this header, equal to the SOVERSION of the library. @since 0.1 */
+#define JAM_ABI 0
+/* Largest dimension compiled in. @since 0.1 */
+#define JAM_MAX_DIM 8
+
+/* ------------------------------------------------------------------ status and text */
+
+/* Status of a call: a jam_status_code. @since 0.1 */
+typedef int32_t jam_status;
+
+/* All status codes; values are ABI and never reused. @since 0.1 */
+typedef enum jam_status_code {
+  JAM_OK = 0,                /* done: the target was reached */
+  JAM_CANCELLED = 1,         /* jam_cancel or a callback asked to stop */
+  JAM_LIMIT = 2,             /* a limit on work or time came before the target */
+  JAM_NOT_CONVERGED = 3,     /* the method stopped making progress; state is the best so far */
+  JAM_PRECISION = 4,         /* the target lies beyond what the numbers can resolve */
+  JAM_NOT_JAMMED = 5,        /* there is no jammed network to work on */
+  JAM_AMBIGUOUS = 6,         /* the answer is not unique; the text says which was returned */
+  JAM_E_NULL = -1,           /* a pointer that is needed is NULL */
+  JAM_E_STRUCT_SIZE = -2,    /* struct_size is zero or larger than this library knows */
+  JAM_E_ARGUMENT = -3,       /* a value is out of its range */
+  JAM_E_DIMENSION = -4,      /* dim is not in 2..JAM_MAX_DIM */
+  JAM_E_NONFINITE = -5,      /* NaN or infinity where a number is needed */
+  JAM_E_OVERLAP = -6,        /* spheres overlap; the text names the worst pair */
+  JAM_E_UNPLACEABLE = -7,    /* the random start cannot reach the packing fraction */
+  JAM_E_BUFFER = -8,         /* the caller's buffer is too short; *needed says how much */
+  JAM_E_MEMORY = -9,         /* out of memory */
+  JAM_E_IO = -10,            /* a file cannot be opened, read or written */
+  JAM_E_FORMAT = -11,        /* a file does not have the format; the text names the line */
+  JAM_E_STATE = -12,         /* the handle has no such result yet, e.g. forces before crunch */
+  JAM_E_SOLVER = -13,        /* no LP or eigenvalue solver gave an answer that checks out */
+  JAM_E_TOO_FEW = -14,       /* too few spheres for what was asked */
+  JAM_E_BUSY = -15,          /* another call is running on this handle */
+  JAM_E_UNSUPPORTED = -16,   /* not available in this build or for this model */
+  JAM_E_INTERNAL = -17       /* a bug in libjam; please report the text */
+} jam_status_code;
+
+/* Why a run ended (jam_md_report.stop_reason, jam_report.stop_reason). @since 0.1 */
+typedef enum jam_stop_reason {
+  JAM_STOP_NONE = 0,             /* has not run */
+  JAM_STOP_PRESSURE = 1,         /* MD reached its pressure */
+  JAM_STOP_PACKING_FRACTION = 2, /* MD reached its packing fraction */
+  JAM_STOP_COLLISIONS = 3,       /* MD made its collisions per particle */
+  JAM_STOP_WALL_TIME = 4,        /* the wall-clock limit came first */
+  JAM_STOP_CANCELLED = 5,        /* jam_cancel or a callback */
+  JAM_STOP_STALLED = 6,          /* no progress: MD time or LP gain stopped moving */
+  JAM_STOP_PRECISION = 7,        /* gaps are at the resolution of the coordinates */
+  JAM_STOP_CONVERGED = 8,        /* crunch: both tolerances met, certificate computed */
+  JAM_STOP_LP_LIMIT = 9,         /* crunch: max_lps came first */
+  JAM_STOP_SOLVER = 10,          /* crunch: no LP answer passed the checks */
+  JAM_STOP_UNJAMMED = 11         /* crunch: converged without a rigid network */
+} jam_stop_reason;
+
+/* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
+JAM_API const char *jam_version(void);
+/* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
+JAM_API int32_t jam_abi_version(void);
+/* One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1 */
+JAM_API const char *jam_status_string(jam_status code);
+/* One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1 */
+JAM_API const char *jam_stop_string(int32_t reason);
+/* Text of this thread's last failed call, with the name and value at fault; "" when none.
+ * Valid until this thread's next jam call that fails. Threads: per thread. @since 0.1 */
+JAM_API const char *jam_last_error(void);
+
+/* ------------------------------------------------------------------ the system */
+
+/* N spheres in a periodic cube; opaque. Made by jam_create, jam_read or jam_copy. @since 0.1 */
+typedef struct jam_system jam_system;
+
+/* What to do with overlaps in given positions. @since 0.1 */
+typedef enum jam_overlap_policy {
+  JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
+  JAM_OVERLAP_SHRINK = 1  /* scale all diameters until the worst pair just touches */
+} jam_overlap_policy;
+
+/* Pair distance. @since 0.1 */
+typedef enum jam_model {
+  JAM_MODEL_EUCLID = 0, /* |r_i - r_j|, nearest images */
+  JAM_MODEL_MK = 1      /* Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts */
+} jam_model;
+
+/* Options of jam_create and jam_read. @since 0.1 */
+typedef struct jam_create_options {
+  uint32_t struct_size;    /* sizeof(jam_create_options) */
+  int32_t dim;             /* 2..8, default 3. A file's own dimension wins. */
+  int64_t n;               /* number of spheres, 1..2^31-1; default 0: taken from the arrays */
+  int64_t seed;            /* of every random stream, default 1; recorded */
+  double box;              /* side of the cube, > 0, default 1 */
+  double packing_fraction; /* of a random start, > 0, default 0.2 */
+  int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
+  int32_t model;           /* jam_model, default EUCLID */
+  double mk_zeta;          /* MK shift strength, >= 0; default infinity: shifts uniform in the box */
+} jam_create_options;
+
+/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
+ * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
+
+/* Makes a system. Example: examples/c/first.c
+ * o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
+ * [0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
+ * diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they
+ * are taken as they are (and must be given); for a random start only their ratios count.
+ * out: the new handle, owned by the caller, freed by jam_destroy.
+ * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
+ * JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
+ * Threads: any. @since 0.1 */
+JAM_API jam_status jam_create(const jam_create_options *o, const double *positions,
+                              size_t positions_len, const double *diameters,
+                              size_t diameters_len, jam_system **out);
+/* Deep copy of src with its results, without its callbacks. Threads: const on src.
+ * Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1 */
+JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
+/* Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1 */
+JAM_API void jam_destroy(jam_system *sys);
+
+/* What the system is now. @since 0.1 */
+typedef struct jam_info {
+  uint32_t struct_size;    /* set by the caller: sizeof(jam_info) */
+  int32_t dim;             /* d */
+  int64_t n;               /* number of spheres */
+  int64_t seed;            /* as recorded at creation */
+  double box;              /* side of the cube */
+  double packing_fraction; /* sum of sphere volumes over box^d */
+  double diameter_mean;    /* mean diameter, unit of box */
+  double pressure;         /* reduced pressure p last measured by MD, NaN before */
+  int32_t model;           /* jam_model */
+  int32_t monodisperse;    /* 1 when all diameters are equal */
+} jam_info;
+
+/* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_info_get(const jam_system *sys, jam_info *info);
+
+/* View of positions (n, d) in [0, box). The pointer is good for the life of the handle; its
+ * content changes only at the end of calls that move spheres. Threads: const.
+ * Errors: JAM_E_NULL. @since 0.1 */
+JAM_API jam_status jam_positions_view(const jam_system *sys, const double **view, size_t *view_len);
+/* View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
+JAM_API jam_status jam_diameters_view(const jam_system *sys, const double **view, size_t *view_len);
+/* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
+ * jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
+JAM_API jam_status jam_velocities_view(const jam_system *sys, const double **view, size_t *view_len);
+
+/* Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
+/* Replaces velocities (n, d). The next MD call uses them as they are, rescaled to kT/m = 1 only by
+ * jam_compress. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
+/* Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
+
+/* ------------------------------------------------------------------ progress, log, cancel */
+
+/* Which part reports progress. @since 0.1 */
+typedef enum jam_phase {
+  JAM_PHASE_RUN = 1,      /* NVE molecular dynamics */
+  JAM_PHASE_COMPRESS = 2, /* molecular dynamics with growth */
+  JAM_PHASE_CRUNCH = 3,   /* one LP or re-linearised Newton step done */
+  JAM_PHASE_POLISH = 4,   /* refinement of the final network */
+  JAM_PHASE_ANALYSE = 5   /* long analysis calls */
+} jam_phase;
+
+/* Given to the progress callback; valid during the call only. @since 0.1 */
+typedef struct jam_progress {
+  uint32_t struct_size;     /* sizeof(jam_progress) as the library knows it */
+  int32_t phase;            /* jam_phase */
+  double packing_fraction;  /* now */
+  double pressure;          /* MD: reduced pressure of the last window, NaN before */
+  double gain;              /* crunch: sqrt(Gamma) - 1 of the last step */
+  double max_step;          /* crunch: largest |s_i| over mean diameter */
+  double seconds;           /* since the call began */
+  double fraction;          /* 0..1 where known, else NaN */
+  int64_t collisions;       /* MD: so far in this call */
+  int64_t steps;            /* crunch: LPs so far; analysis: items done */
+  int64_t factorisations;   /* crunch: so far */
+} jam_progress;
+
+/* Progress callback, on the calling thread. Non-zero return stops the call with JAM_CANCELLED
+ * and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel
+ * and the jam_*_view and const getters of the state before the call. @since 0.1 */
+typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
+/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user);
+
+/* Log levels. @since 0.1 */
+typedef enum jam_log_level {
+  JAM_LOG_NONE = 0,    /* silent, the default */
+  JAM_LOG_WARNING = 1, /* what a user should know, e.g. a fallback solver was used */
+  JAM_LOG_INFO = 2,    /* a line a stage or LP */
+  JAM_LOG_DEBUG = 3    /* solver detail */
+} jam_log_level;
+
+/* Log callback: one line without newline, valid during the call. @since 0.1 */
+typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
+/* Sets (or with NULL removes) the log callback and its level. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
+/* Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
+ * stops. Sets an atomic flag only. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1 */
+JAM_API jam_status jam_cancel(jam_system *sys);
+
+/* ------------------------------------------------------------------ files */
+
+/* File formats. @since 0.1 */
+typedef enum jam_format {
+  JAM_FORMAT_AUTO = 0,  /* by name: .xyz and .extxyz are XYZ, all else PLAIN */
+  JAM_FORMAT_PLAIN = 1, /* line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more
+                         * column; then a position a line, 17 digits; box side after line 3's
+                         * value when it is not 1: `<diameter> box <L>` */
+  JAM_FORMAT_XYZ = 2    /* extended XYZ: Lattice, Properties=id:I:1:pos:R:d:radius:R:1:contacts:I:1 */
+} jam_format;
+
+/* Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
+ * plain files that give none; NULL for defaults. Nothing is allocated before the data is there.
+ * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), and those of jam_create. Threads: any. @since 0.1 */
+JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
+/* Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
+ * gives the same bits. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1 */
+JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
+
+/* ------------------------------------------------------------------ molecular dynamics */
+
+/* Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1 */
+typedef struct jam_run_options {
+  uint32_t struct_size;           /* sizeof(jam_run_options) */
+  int32_t reserved;               /* 0 */
+  double collisions_per_particle; /* to make, > 0, default 100 */
+  double wall_time;               /* seconds, > 0, default infinity */
+} jam_run_options;
+
+/* One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1 */
+typedef struct jam_compress_options {
+  uint32_t struct_size;           /* sizeof(jam_compress_options) */
+  int32_t reserved;               /* 0 */
+  double growth_rate;             /* G > 0, default 1e-2 */
+  double pressure;                /* target reduced pressure, > 1, default 500 */
+  double packing_fraction;        /* target, > 0, default infinity */
+  double collisions_per_particle; /* limit, > 0, default infinity */
+  double wall_time;               /* limit in seconds, > 0, default infinity */
+} jam_compress_options;
+
+/* What MD did. @since 0.1 */
+typedef struct jam_md_report {
+  uint32_t struct_size;         /* set by the caller: sizeof(jam_md_report) */
+  int32_t stop_reason;          /* jam_stop_reason */
+  int64_t collisions;           /* in this call */
+  int64_t events;               /* collisions, list updates, stale events */
+  double collisions_per_second; /* of wall time */
+  double pressure;              /* reduced, mean over the call (jam_run) or last window (jam_compress);
+                                 * the growth part is left out */
+  double pressure_error;        /* standard error of that mean from its windows; NaN with too few */
+  double packing_fraction;      /* at the end */
+  double time;                  /* simulated, unit box / sqrt(kT/m) */
+  double energy_drift;          /* jam_run: |K_end/K_start - 1| */
+  double max_overlap;           /* largest -h seen at the end and at list updates, >= 0 */
+  double seconds;               /* wall time */
+} jam_md_report;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_run_options_init(jam_run_options *o, size_t size);
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t size);
+
+/* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
+ * drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL.
+ * Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
+ * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+ * JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
+/* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
+ * that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
+ * 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
+ * Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
+ * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
+
+/* ------------------------------------------------------------------ crunch to the jamming point */
+
+/* How the LPs are solved. @since 0.1 */
+typedef enum jam_lp_solver {
+  JAM_LP_IPM = 0, /* libjam's interior point on the particle graph; Clp if it fails */
+  JAM_LP_CLP = 1  /* Clp's dual simplex: slow, independent */
+} jam_lp_solver;
+
+/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1 */
+typedef struct jam_crunch_options {
+  uint32_t struct_size;    /* sizeof(jam_crunch_options) */
+  int32_t lp_solver;       /* jam_lp_solver, default IPM */
+  int32_t max_lps;         /* >= 1, default 1000 (CALiPPSO: max_iters) */
+  int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 */
+  double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence) */
+  double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence) */
+  double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 */
+  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0) */
+  double step_bound;       /* bound on each |s_i| component; 0, the default: adapts (sbound) */
+  double wall_time;        /* limit in seconds, > 0, default infinity */
+} jam_crunch_options;
+
+/* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
+typedef struct jam_report {
+  uint32_t struct_size;     /* set by the caller: sizeof(jam_report) */
+  int32_t jammed;           /* 1: converged to a rigid network that carries balanced forces */
+  int32_t stop_reason;      /* jam_stop_reason */
+  int32_t lp_solver;        /* jam_lp_solver that gave the last LP */
+  double packing_fraction;  /* phi_J when jammed */
+  double diameter_mean;     /* unit of box */
+  int64_t contacts;         /* pairs with a force, rattlers left out */
+  int64_t rattlers;         /* removed again and again until every sphere left has d+1 contacts */
+  int64_t stable;           /* n - rattlers = N' */
+  int64_t bucklers;         /* stable spheres with exactly d+1 contacts */
+  int64_t one_ss;           /* d (N' - 1) + 1: contacts of a single state of self-stress */
+  int64_t excess_contacts;  /* contacts - one_ss: 0 isostatic, > 0 hyperstatic */
+  int64_t lp_solves;        /* LPs solved in full */
+  int64_t factorisations;   /* Cholesky factorisations */
+  double gain;              /* sqrt(Gamma) - 1 of the last LP */
+  double max_step;          /* largest |s_i| of a stable sphere in the last LP, mean diameters */
+  double max_overlap;       /* largest -h over all pairs, >= 0 */
+  double force_residual;    /* largest |sum_j f_ij n_ij| over mean force */
+  double gamma_residual;    /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
+  double min_force;         /* smallest contact force over the mean */
+  double min_gap;           /* smallest h of a pair of stable spheres that is no contact */
+  double max_contact_gap;   /* largest |h| of a contact */
+  double duality_gap;       /* of the last LP, relative to Gamma */
+  double force_scale;       /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
+  double seconds;           /* wall time of crunch */
+  double seconds_factor;    /* of it in factorisations */
+  double seconds_assemble;  /* of it in neighbour lists and assembly */
+  double seconds_solve;     /* of it in triangular solves */
+} jam_report;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
+/* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
+ * 106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.
+ * Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
+ * valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+ * JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
+ * JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report);
+/* The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1 */
+JAM_API jam_status jam_report_get(const jam_system *sys, jam_report *report);
+
+/* ------------------------------------------------------------------ contact network */
+
+/* Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
+ * Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1 */
+JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+/* Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Gaps h of the contacts, length contacts. Threads: const. Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
+ * Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JAM_JAM_H */

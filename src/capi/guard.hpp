@@ -1,0 +1,119 @@
+// The one barrier between C++ and C: every entry point runs guard(lambda).
+#pragma once
+#include <cmath>
+#include <cstring>
+#include <new>
+#include "capi/system.hpp"
+#include "core/error.hpp"
+
+namespace jam {
+
+// Thread-local text of jam_last_error; set_last_error never allocates.
+void set_last_error(const char *text) noexcept;
+
+// Runs f() and maps what it throws to a status and text. f returns jam_status.
+template <class F>
+jam_status guard(F &&f) noexcept {
+  try {
+    return f();
+  } catch (const Error &e) {
+    set_last_error(e.what());
+    return e.code();
+  } catch (const std::bad_alloc &) {
+    set_last_error("out of memory");
+    return JAM_E_MEMORY;
+  } catch (const std::exception &e) {
+    set_last_error(e.what());
+    return JAM_E_INTERNAL;
+  } catch (...) {
+    set_last_error("unknown exception inside libjam");
+    return JAM_E_INTERNAL;
+  }
+}
+
+// A const call on a handle: checks the handle inside the try.
+template <class F>
+jam_status guard_const(const jam_system *sys, F &&f) noexcept {
+  return guard([&] {
+    if (!sys) fail(JAM_E_NULL, "sys is NULL");
+    return f();
+  });
+}
+
+// A verb on a handle: takes the busy flag for its length and resets the cancel flag at its end.
+template <class F>
+jam_status guard_verb(jam_system *sys, F &&f) noexcept {
+  return guard([&] {
+    if (!sys) fail(JAM_E_NULL, "sys is NULL");
+    if (sys->busy.exchange(true)) fail(JAM_E_BUSY, "another call is running on this handle");
+    struct Release {
+      jam_system *s;
+      ~Release() { s->monitor.end(); s->busy.store(false); }
+    } release{sys};
+    sys->monitor.begin();
+    return f();
+  });
+}
+
+inline void need(const void *pointer, const char *name) {
+  if (!pointer) fail(JAM_E_NULL, "%s is NULL", name);
+}
+
+// Copies a caller's option struct into a full one: fields the caller's header did not know keep their defaults.
+// `full` holds the defaults; NULL options leave it so.
+template <class T>
+void take_options(const T *options, T &full) {
+  if (!options) return;
+  const uint32_t size = options->struct_size;
+  if (size < sizeof(uint32_t) || size > sizeof(T))
+    fail(JAM_E_STRUCT_SIZE, "struct_size is %u, this library knows up to %zu", size, sizeof(T));
+  std::memcpy(static_cast<void *>(&full), options, size);
+  full.struct_size = sizeof(T);
+}
+
+// Writes as much of `full` as the caller's struct holds and leaves the caller's struct_size.
+template <class T>
+void check_out_struct(const T *out, const char *name) {
+  if (!out) return;
+  if (out->struct_size < sizeof(uint32_t) || out->struct_size > sizeof(T))
+    fail(JAM_E_STRUCT_SIZE, "%s->struct_size is %u, this library knows up to %zu", name, out->struct_size, sizeof(T));
+}
+template <class T>
+void give_struct(const T &full, T *out) {
+  if (!out) return;
+  const uint32_t size = out->struct_size;
+  std::memcpy(static_cast<void *>(out), &full, size);
+  out->struct_size = size;
+}
+// Body of every jam_X_options_init.
+template <class T>
+jam_status init_options(T *out, size_t size, T defaults) noexcept {
+  return guard([&]() -> jam_status {
+    need(out, "o");
+    if (size < sizeof(uint32_t) || size > sizeof(T))
+      fail(JAM_E_STRUCT_SIZE, "size is %zu, this library knows up to %zu", size, sizeof(T));
+    defaults.struct_size = static_cast<uint32_t>(size);
+    std::memcpy(static_cast<void *>(out), &defaults, size);
+    return JAM_OK;
+  });
+}
+
+// Fills a caller's array of out_len elements: the one rule of style "count, then fill".
+template <class T>
+jam_status give_array(const T *data, size_t count, T *out, size_t out_len, size_t *needed) {
+  if (!out && out_len != 0) fail(JAM_E_NULL, "output array is NULL but its length is %zu", out_len);
+  if (!out && !needed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+  if (needed) *needed = count;
+  if (!out) return JAM_OK;
+  if (out_len < count) fail(JAM_E_BUFFER, "output array holds %zu elements, %zu are needed", out_len, count);
+  if (count) std::memcpy(out, data, count * sizeof(T));
+  return JAM_OK;
+}
+
+inline void check_array_in(const double *x, size_t len, const char *name) {
+  if (len && !x) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
+  for (size_t k = 0; k < len; ++k)
+    if (!std::isfinite(x[k])) fail(JAM_E_NONFINITE, "%s[%zu] is %g", name, k, x[k]);
+}
+
+}  // namespace jam

@@ -1,0 +1,35 @@
+// Errors inside libjam: one exception type that carries a status and a bounded text.
+#pragma once
+#include <cstdarg>
+#include <cstdio>
+#include <exception>
+#include "jam/jam.h"
+
+namespace jam {
+
+// Thrown anywhere below src/capi, turned into a status there. Holds its text inline so that
+// throwing never needs the heap beyond the exception object itself.
+class Error : public std::exception {
+ public:
+  Error(jam_status code, const char *text) noexcept : code_(code) {
+    std::snprintf(text_, sizeof text_, "%s", text);
+  }
+  const char *what() const noexcept override { return text_; }
+  jam_status code() const noexcept { return code_; }
+
+ private:
+  jam_status code_;
+  char text_[400];
+};
+
+// Throws Error with a printf-style text that should name the value at fault.
+[[noreturn]] __attribute__((format(printf, 2, 3))) inline void fail(jam_status code, const char *format, ...) {
+  char text[400];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  throw Error(code, text);
+}
+
+}  // namespace jam

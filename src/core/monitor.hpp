@@ -1,0 +1,59 @@
+// What a long call needs to stay in touch: cancel flag, progress and log callbacks, clocks.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdarg>
+#include <cstdio>
+#include "jam/jam.h"
+
+namespace jam {
+
+inline double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// One per handle. cancel() is safe from signal handlers: it only sets a lock-free flag.
+class Monitor {
+ public:
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  // Called by capi at the start of a verb; a cancel that came before still stops that verb.
+  void begin() { start_ = now_seconds(); last_ = start_ - 1.0; }
+  // Called by capi at the end of a verb.
+  void end() { cancelled_.store(false, std::memory_order_relaxed); }
+  double seconds() const { return now_seconds() - start_; }
+
+  // Returns true when the call must stop. Tells the callback at most every 0.05 s, or at once if forced.
+  bool report(jam_progress p, bool force = false) {
+    if (cancelled()) return true;
+    if (!progress) return false;
+    const double t = now_seconds();
+    if (!force && t - last_ < 0.05) return false;
+    last_ = t;
+    p.struct_size = sizeof p;
+    p.seconds = t - start_;
+    if (progress(&p, progress_user) != 0) cancel();
+    return cancelled();
+  }
+  __attribute__((format(printf, 3, 4))) void log(int level, const char *format, ...) const {
+    if (!log_fn || level > log_level) return;
+    char line[400];
+    va_list args;
+    va_start(args, format);
+    std::vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    log_fn(level, line, log_user);
+  }
+
+  jam_progress_fn progress = nullptr;
+  void *progress_user = nullptr;
+  jam_log_fn log_fn = nullptr;
+  void *log_user = nullptr;
+  int log_level = JAM_LOG_NONE;
+
+ private:
+  std::atomic<bool> cancelled_{false};
+  double start_ = 0.0, last_ = 0.0;
+};
+
+}  // namespace jam

@@ -1,0 +1,35 @@
+// The state that every layer works on: spheres in a periodic cube.
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+#include "jam/jam.h"
+
+namespace jam {
+
+struct Packing {
+  int dim = 3;
+  double box = 1.0;
+  int64_t seed = 1;
+  int32_t model = JAM_MODEL_EUCLID;
+  double mk_zeta = std::numeric_limits<double>::infinity();
+  std::vector<double> position;  // (n, dim), in [0, box)
+  std::vector<double> diameter;  // n
+  std::vector<double> velocity;  // (n, dim), kT/m = 1; all zero until MD draws them
+  double pressure = std::numeric_limits<double>::quiet_NaN();  // last measured by MD
+  bool has_velocity = false;
+
+  size_t n() const { return diameter.size(); }
+};
+
+// Volume of a sphere of unit diameter: pi^(d/2) (1/2)^d / Gamma(1 + d/2).
+double unit_sphere_volume(int dim);
+double packing_fraction(const Packing &p);
+double diameter_mean(const Packing &p);
+double diameter_max(const Packing &p);
+// Puts x into [0, box), also for values like -1e-20 that would round up to box.
+double wrap(double x, double box);
+
+}  // namespace jam

@@ -1,0 +1,45 @@
+// Pairs of spheres within a cutoff, with the image (and in the MK model the quenched shift) of each.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+#include "core/packing.hpp"
+
+namespace jam {
+
+// Structure of arrays; r_ij = position_i - position_j + offset_ij. i < j, or i == j for an image of itself
+// (then r_ij = offset_ij whatever the sphere does). One pair of spheres can stand here several times, once an image.
+struct PairList {
+  std::vector<int32_t> i, j;
+  std::vector<double> offset;  // (count, dim)
+  size_t size() const { return i.size(); }
+  void clear() { i.clear(); j.clear(); offset.clear(); }
+};
+
+// All pairs with |r_ij| < reach + slope * sigma_ij, every image, sorted by (i, j) and then image.
+// O(n) by cells when the box holds at least three of them, else all images by brute force. MK: brute force.
+// JAM_E_MEMORY-like failures surface as std::bad_alloc.
+PairList find_pairs(const Packing &p, double reach, double slope);
+// The same by looking at every pair and every image: the reference for tests.
+PairList find_pairs_brute(const Packing &p, double reach, double slope);
+
+// Smallest h = |r_ij| / sigma_ij - 1 over all pairs and its pair; h = +inf with no pair closer than 2 sigma_max.
+struct ClosestPair {
+  double gap;
+  int32_t i, j;
+};
+ClosestPair closest_pair(const Packing &p);
+
+// Squared length of r_ij of pair k.
+inline double pair_vector(const Packing &p, const PairList &pairs, size_t k, double *r) {
+  const int d = p.dim;
+  const double *a = &p.position[static_cast<size_t>(pairs.i[k]) * d], *b = &p.position[static_cast<size_t>(pairs.j[k]) * d];
+  double r2 = 0.0;
+  for (int c = 0; c < d; ++c) {
+    r[c] = (a[c] - b[c]) + pairs.offset[k * d + c];
+    r2 += r[c] * r[c];
+  }
+  return r2;
+}
+
+}  // namespace jam

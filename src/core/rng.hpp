@@ -1,0 +1,44 @@
+// Counter-based random numbers: value = f(seed, stream, counter), so that streams are independent of
+// the order in which they are used and nothing but a counter need be saved.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+namespace jam {
+
+// Every use of randomness has its number here, once, for ever (a change would change packings).
+enum class Stream : uint64_t {
+  rsa_positions = 1,
+  velocities = 2,
+  mk_shift = 3,
+  analysis_start = 4,
+};
+
+// Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.
+inline uint64_t mix64(uint64_t x) {
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+class Rng {
+ public:
+  Rng(int64_t seed, Stream stream, uint64_t counter = 0)
+      : key_(mix64(mix64(static_cast<uint64_t>(seed)) ^ (static_cast<uint64_t>(stream) << 32))), counter_(counter) {}
+  uint64_t bits() { return mix64(key_ ^ mix64(counter_++)); }
+  // Uniform in [0, 1), 53 bits.
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+  // Standard normal by Box and Muller; one of the pair is thrown away so that no state but the counter exists.
+  double normal() {
+    const double u = 1.0 - uniform();
+    const double v = uniform();
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586476925 * v);
+  }
+  uint64_t counter() const { return counter_; }
+
+ private:
+  uint64_t key_, counter_;
+};
+
+}  // namespace jam

@@ -1,0 +1,153 @@
+// Header section "the system": create, copy, destroy, info, views, setters; progress, log, cancel.
+#include <memory>
+#include <utility>
+
+#include "capi/guard.hpp"
+#include "core/create.hpp"
+#include "core/pairs.hpp"
+
+using namespace jam;
+
+void jam_system::commit(const Packing &result) noexcept {
+  std::copy(result.position.begin(), result.position.end(), packing.position.begin());
+  std::copy(result.diameter.begin(), result.diameter.end(), packing.diameter.begin());
+  std::copy(result.velocity.begin(), result.velocity.end(), packing.velocity.begin());
+  packing.pressure = result.pressure;
+  packing.has_velocity = result.has_velocity;
+}
+
+namespace {
+jam_status view(const jam_system *sys, const std::vector<double> Packing::*member, const double **out, size_t *len) noexcept {
+  return guard_const(sys, [&]() -> jam_status {
+    need(out, "view");
+    need(len, "view_len");
+    *out = (sys->packing.*member).data();
+    *len = (sys->packing.*member).size();
+    return JAM_OK;
+  });
+}
+}  // namespace
+
+extern "C" {
+
+jam_status jam_create_options_init(jam_create_options *o, size_t size) { return init_options(o, size, default_create_options()); }
+
+jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len, const double *diameters,
+                      size_t diameters_len, jam_system **out) {
+  return guard([&]() -> jam_status {
+    need(out, "out");
+    jam_create_options full = default_create_options();
+    take_options(o, full);
+    auto sys = std::make_unique<jam_system>();
+    sys->packing = make_packing(full, positions, positions_len, diameters, diameters_len);
+    *out = sys.release();
+    return JAM_OK;
+  });
+}
+
+jam_status jam_copy(const jam_system *src, jam_system **out) {
+  return guard([&]() -> jam_status {
+    need(src, "src");
+    need(out, "out");
+    auto sys = std::make_unique<jam_system>();
+    sys->packing = src->packing;
+    sys->contacts = src->contacts;
+    sys->report = src->report;
+    sys->has_report = src->has_report;
+    *out = sys.release();
+    return JAM_OK;
+  });
+}
+
+void jam_destroy(jam_system *sys) { delete sys; }
+
+jam_status jam_info_get(const jam_system *sys, jam_info *info) {
+  return guard_const(sys, [&]() -> jam_status {
+    need(info, "info");
+    check_out_struct(info, "info");
+    const Packing &p = sys->packing;
+    jam_info full{};
+    full.dim = p.dim;
+    full.n = static_cast<int64_t>(p.n());
+    full.seed = p.seed;
+    full.box = p.box;
+    full.packing_fraction = packing_fraction(p);
+    full.diameter_mean = diameter_mean(p);
+    full.pressure = p.pressure;
+    full.model = p.model;
+    full.monodisperse = 1;
+    for (double s : p.diameter)
+      if (s != p.diameter[0]) full.monodisperse = 0;
+    give_struct(full, info);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_positions_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::position, v, len); }
+jam_status jam_diameters_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::diameter, v, len); }
+jam_status jam_velocities_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::velocity, v, len); }
+
+jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len) {
+  return guard_verb(sys, [&]() -> jam_status {
+    Packing p = sys->packing;
+    need(positions, "positions");
+    if (positions_len != p.position.size()) fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
+    check_array_in(positions, positions_len, "positions");
+    for (size_t k = 0; k < positions_len; ++k) p.position[k] = wrap(positions[k], p.box);
+    settle_overlaps(p, JAM_OVERLAP_REFUSE);
+    sys->commit(p);
+    sys->drop_results();
+    return JAM_OK;
+  });
+}
+
+jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len) {
+  return guard_verb(sys, [&]() -> jam_status {
+    std::vector<double> &v = sys->packing.velocity;
+    need(velocities, "velocities");
+    if (velocities_len != v.size()) fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
+    check_array_in(velocities, velocities_len, "velocities");
+    std::copy(velocities, velocities + velocities_len, v.begin());
+    sys->packing.has_velocity = true;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_scale_diameters(jam_system *sys, double factor) {
+  return guard_verb(sys, [&]() -> jam_status {
+    if (!(factor > 0.0) || !std::isfinite(factor)) fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
+    Packing p = sys->packing;
+    for (double &s : p.diameter) s *= factor;
+    if (factor > 1.0) settle_overlaps(p, JAM_OVERLAP_REFUSE);
+    sys->commit(p);
+    sys->drop_results();
+    return JAM_OK;
+  });
+}
+
+jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user) {
+  return guard_verb(sys, [&]() -> jam_status {
+    sys->monitor.progress = callback;
+    sys->monitor.progress_user = user;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user) {
+  return guard_verb(sys, [&]() -> jam_status {
+    if (level < JAM_LOG_NONE || level > JAM_LOG_DEBUG) fail(JAM_E_ARGUMENT, "level is %d, not a jam_log_level", level);
+    sys->monitor.log_fn = callback;
+    sys->monitor.log_level = level;
+    sys->monitor.log_user = user;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_cancel(jam_system *sys) {
+  return guard_const(sys, [&]() -> jam_status {
+    sys->monitor.cancel();
+    return JAM_OK;
+  });
+}
+
+}  // extern "C"

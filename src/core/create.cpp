@@ -1,0 +1,180 @@
+#include "core/create.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/pairs.hpp"
+#include "core/rng.hpp"
+
+namespace jam {
+namespace {
+
+void check_options(const jam_create_options &o) {
+  if (o.dim < 2 || o.dim > JAM_MAX_DIM) fail(JAM_E_DIMENSION, "dim is %d, supported are 2..%d", o.dim, JAM_MAX_DIM);
+  if (o.n < 0 || o.n > INT32_MAX) fail(JAM_E_ARGUMENT, "n is %lld, it must be in 1..2^31-1", static_cast<long long>(o.n));
+  if (!(o.box > 0.0) || !std::isfinite(o.box)) fail(JAM_E_ARGUMENT, "box is %g, it must be positive and finite", o.box);
+  if (o.overlap != JAM_OVERLAP_REFUSE && o.overlap != JAM_OVERLAP_SHRINK)
+    fail(JAM_E_ARGUMENT, "overlap is %d, not a jam_overlap_policy", o.overlap);
+  if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK) fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
+  if (o.model == JAM_MODEL_MK && !(o.mk_zeta >= 0.0)) fail(JAM_E_ARGUMENT, "mk_zeta is %g, it must be >= 0", o.mk_zeta);
+}
+
+size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t diameters_len) {
+  size_t n = static_cast<size_t>(o.n);
+  if (positions_len % static_cast<size_t>(o.dim))
+    fail(JAM_E_ARGUMENT, "positions_len is %zu, not a multiple of dim %d", positions_len, o.dim);
+  if (n == 0) n = positions_len ? positions_len / o.dim : diameters_len;
+  if (n == 0) fail(JAM_E_ARGUMENT, "n is 0 and no arrays are given");
+  if (n > INT32_MAX) fail(JAM_E_ARGUMENT, "n is %zu, it must be in 1..2^31-1", n);
+  if (positions_len && positions_len != n * o.dim)
+    fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, n * o.dim);
+  if (diameters_len > 1 && diameters_len != n) fail(JAM_E_ARGUMENT, "diameters_len is %zu, it must be 1 or n = %zu", diameters_len, n);
+  if (positions_len && diameters_len == 0) fail(JAM_E_ARGUMENT, "positions are given without diameters");
+  return n;
+}
+
+std::vector<double> take_diameters(size_t n, const double *diameters, size_t len) {
+  for (size_t k = 0; k < len; ++k)
+    if (!(diameters[k] > 0.0) || !std::isfinite(diameters[k]))
+      fail(std::isfinite(diameters[k]) ? JAM_E_ARGUMENT : JAM_E_NONFINITE, "diameters[%zu] is %g, it must be positive and finite", k, diameters[k]);
+  if (len == n) return {diameters, diameters + n};
+  return std::vector<double>(n, len == 1 ? diameters[0] : 1.0);
+}
+
+// Cells no smaller than the largest diameter, as linked lists: spheres come one by one.
+class GrowingCells {
+ public:
+  GrowingCells(const Packing &p, double cutoff) : p_(p) {
+    const double fit = p.box / cutoff, enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim));
+    side_ = std::max<int64_t>(1, static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough)));
+    if (side_ < 3) side_ = 1;
+    int64_t cells = 1;
+    for (int c = 0; c < p.dim; ++c) cells *= side_;
+    head_.assign(static_cast<size_t>(cells), -1);
+    next_.assign(p.n(), -1);
+  }
+  void add(int32_t i) {
+    const int64_t cell = cell_of(&p_.position[static_cast<size_t>(i) * p_.dim]);
+    next_[i] = head_[cell];
+    head_[cell] = i;
+  }
+  // True when a sphere of diameter sigma at x overlaps one that is there (nearest images).
+  bool blocked(const double *x, double sigma) const { return side_ == 1 ? in_cell(0, x, sigma) : visit(p_.dim - 1, 0, x, sigma); }
+
+ private:
+  int64_t index(double x) const {
+    return std::min(static_cast<int64_t>(x / p_.box * static_cast<double>(side_)), side_ - 1);
+  }
+  int64_t cell_of(const double *x) const {
+    int64_t cell = 0;
+    for (int c = p_.dim - 1; c >= 0; --c) cell = cell * side_ + index(x[c]);
+    return cell;
+  }
+  bool visit(int c, int64_t cell, const double *x, double sigma) const {
+    if (c < 0) return in_cell(cell, x, sigma);
+    for (int64_t step = -1; step <= 1; ++step)
+      if (visit(c - 1, cell * side_ + (index(x[c]) + step + side_) % side_, x, sigma)) return true;
+    return false;
+  }
+  bool in_cell(int64_t cell, const double *x, double sigma) const {
+    for (int32_t j = head_[cell]; j >= 0; j = next_[j]) {
+      const double touch = 0.5 * (sigma + p_.diameter[j]);
+      double r2 = 0.0;
+      for (int c = 0; c < p_.dim; ++c) {
+        double dx = x[c] - p_.position[static_cast<size_t>(j) * p_.dim + c];
+        dx -= p_.box * std::nearbyint(dx / p_.box);
+        r2 += dx * dx;
+      }
+      if (r2 < touch * touch) return true;
+    }
+    return false;
+  }
+  const Packing &p_;
+  int64_t side_;
+  std::vector<int32_t> head_, next_;
+};
+
+}  // namespace
+
+jam_create_options default_create_options() {
+  jam_create_options o{};
+  o.struct_size = sizeof o;
+  o.dim = 3;
+  o.seed = 1;
+  o.box = 1.0;
+  o.packing_fraction = 0.2;
+  o.overlap = JAM_OVERLAP_REFUSE;
+  o.model = JAM_MODEL_EUCLID;
+  o.mk_zeta = std::numeric_limits<double>::infinity();
+  return o;
+}
+
+void place_at_random(Packing &p) {
+  const size_t n = p.n();
+  const int d = p.dim;
+  p.position.assign(n * d, 0.0);
+  if (diameter_max(p) > p.box) fail(JAM_E_UNPLACEABLE, "the largest diameter %g does not fit the box %g; packing fraction reached: 0", diameter_max(p), p.box);
+  std::vector<int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
+  GrowingCells cells(p, diameter_max(p));
+  Rng rng(p.seed, Stream::rsa_positions);
+  double placed = 0.0;
+  const int64_t most_tries = 200000;  // a sphere: well below saturation one of some hundred points is free
+  const int64_t most_total = 20000 * static_cast<int64_t>(n) + most_tries;
+  int64_t total = 0;
+  for (int32_t i : order) {
+    double *x = &p.position[static_cast<size_t>(i) * d];
+    int64_t tries = 0;
+    do {
+      if (++tries > most_tries || ++total > most_total)
+        fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f", placed, packing_fraction(p));
+      for (int c = 0; c < d; ++c) x[c] = wrap(p.box * rng.uniform(), p.box);
+    } while (cells.blocked(x, p.diameter[i]));
+    cells.add(i);
+    placed += unit_sphere_volume(d) * std::pow(p.diameter[i] / p.box, d);
+  }
+}
+
+void settle_overlaps(Packing &p, int32_t policy) {
+  const ClosestPair worst = closest_pair(p);
+  if (worst.gap >= -overlap_tolerance) return;
+  if (policy == JAM_OVERLAP_REFUSE)
+    fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+  if (worst.gap <= -1.0 + 1e-12) fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
+  for (double &s : p.diameter) s *= 1.0 + worst.gap;
+}
+
+Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len, const double *diameters,
+                     size_t diameters_len) {
+  check_options(o);
+  if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
+  if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
+  const size_t n = count_spheres(o, positions_len, diameters_len);
+  for (size_t k = 0; k < positions_len; ++k)
+    if (!std::isfinite(positions[k])) fail(JAM_E_NONFINITE, "positions[%zu] is %g (sphere %zu, component %zu)", k, positions[k], k / o.dim, k % o.dim);
+  Packing p;
+  p.dim = o.dim;
+  p.box = o.box;
+  p.seed = o.seed;
+  p.model = o.model;
+  p.mk_zeta = o.mk_zeta;
+  p.diameter = take_diameters(n, diameters, diameters_len);
+  if (positions_len) {
+    p.position.resize(n * o.dim);
+    for (size_t k = 0; k < n * o.dim; ++k) p.position[k] = wrap(positions[k], p.box);
+    settle_overlaps(p, o.overlap);
+  } else {
+    if (!(o.packing_fraction > 0.0) || !std::isfinite(o.packing_fraction))
+      fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
+    const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
+    for (double &s : p.diameter) s *= scale;
+    place_at_random(p);
+  }
+  p.velocity.assign(n * o.dim, 0.0);
+  return p;
+}
+
+}  // namespace jam

@@ -1,0 +1,192 @@
+// Pair lists by cells, and by brute force over all images for small boxes.
+#include "core/pairs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace jam {
+namespace {
+
+struct Candidate {
+  int32_t j;
+  std::array<double, JAM_MAX_DIM> offset;
+};
+
+void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &found) {
+  std::sort(found.begin(), found.end(), [dim](const Candidate &a, const Candidate &b) {
+    if (a.j != b.j) return a.j < b.j;
+    return std::lexicographical_compare(a.offset.begin(), a.offset.begin() + dim, b.offset.begin(), b.offset.begin() + dim);
+  });
+  for (const Candidate &c : found) {
+    list.i.push_back(i);
+    list.j.push_back(c.j);
+    list.offset.insert(list.offset.end(), c.offset.begin(), c.offset.begin() + dim);
+  }
+  found.clear();
+}
+
+// All images of one pair within `cutoff`, by depth-first choice of one shift a component.
+class ImageScan {
+ public:
+  ImageScan(const Packing &p, double cutoff_max)
+      : p_(p), reach_(static_cast<int>(std::floor(cutoff_max / p.box + 0.5))) {}
+
+  void scan(int32_t i, int32_t j, double cutoff, std::vector<Candidate> &found) {
+    i_ = i, j_ = j, cutoff2_ = cutoff * cutoff, found_ = &found;
+    descend(0, 0.0, 0);
+  }
+
+ private:
+  // sign: that of the first non-zero shift so far; of the images of a sphere with itself one of each +- pair is kept.
+  void descend(int c, double r2, int sign) {
+    const int d = p_.dim;
+    if (c == d) {
+      if (i_ == j_ && sign <= 0) return;
+      now_.j = j_;
+      found_->push_back(now_);
+      return;
+    }
+    const double dx = p_.position[static_cast<size_t>(i_) * d + c] - p_.position[static_cast<size_t>(j_) * d + c];
+    const double nearest = -std::nearbyint(dx / p_.box);
+    for (int m = -reach_; m <= reach_; ++m) {
+      const double shift = (nearest + m) * p_.box;
+      const double x = dx + shift;
+      if (r2 + x * x >= cutoff2_) continue;
+      now_.offset[c] = shift;
+      descend(c + 1, r2 + x * x, sign != 0 || i_ != j_ ? sign : m);
+    }
+  }
+
+  const Packing &p_;
+  const int reach_;
+  int32_t i_ = 0, j_ = 0;
+  double cutoff2_ = 0.0;
+  Candidate now_{};
+  std::vector<Candidate> *found_ = nullptr;
+};
+
+double pair_cutoff(const Packing &p, int32_t i, int32_t j, double reach, double slope) {
+  return reach + slope * 0.5 * (p.diameter[i] + p.diameter[j]);
+}
+
+// Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
+class CellGrid {
+ public:
+  CellGrid(const Packing &p, int64_t side) : dim_(p.dim), side_(side) {
+    int64_t cells = 1;
+    for (int c = 0; c < dim_; ++c) cells *= side_;
+    start_.assign(static_cast<size_t>(cells) + 1, 0);
+    const int32_t n = static_cast<int32_t>(p.n());
+    home_.resize(n);
+    for (int32_t i = 0; i < n; ++i) {
+      int64_t cell = 0;
+      for (int c = dim_ - 1; c >= 0; --c) {
+        const auto k = static_cast<int64_t>(p.position[static_cast<size_t>(i) * dim_ + c] / p.box * static_cast<double>(side_));
+        cell = cell * side_ + std::min(std::max<int64_t>(k, 0), side_ - 1);
+      }
+      home_[i] = cell;
+      ++start_[static_cast<size_t>(cell) + 1];
+    }
+    for (size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
+    members_.resize(n);
+    std::vector<int32_t> fill(start_.begin(), start_.end() - 1);
+    for (int32_t i = 0; i < n; ++i) members_[fill[home_[i]]++] = i;
+  }
+  // Calls f(j) for every member of the 3^d cells around i.
+  template <class F>
+  void around(int32_t i, F &&f) const {
+    std::array<int64_t, JAM_MAX_DIM> at{};
+    int64_t rest = home_[i];
+    for (int c = 0; c < dim_; ++c) {
+      at[c] = rest % side_;
+      rest /= side_;
+    }
+    visit(dim_ - 1, 0, at, f);
+  }
+
+ private:
+  template <class F>
+  void visit(int c, int64_t cell, const std::array<int64_t, JAM_MAX_DIM> &at, F &&f) const {
+    if (c < 0) {
+      for (int32_t k = start_[cell]; k < start_[cell + 1]; ++k) f(members_[k]);
+      return;
+    }
+    for (int64_t step = -1; step <= 1; ++step) {
+      const int64_t k = (at[c] + step + side_) % side_;
+      visit(c - 1, cell * side_ + k, at, f);
+    }
+  }
+  int dim_;
+  int64_t side_;
+  std::vector<int64_t> home_;
+  std::vector<int32_t> start_, members_;
+};
+
+}  // namespace
+
+PairList find_pairs_brute(const Packing &p, double reach, double slope) {
+  PairList list;
+  std::vector<Candidate> found;
+  ImageScan images(p, reach + slope * diameter_max(p));
+  const int32_t n = static_cast<int32_t>(p.n());
+  for (int32_t i = 0; i < n; ++i) {
+    for (int32_t j = i; j < n; ++j) images.scan(i, j, pair_cutoff(p, i, j, reach, slope), found);
+    append_sorted(list, i, p.dim, found);
+  }
+  return list;
+}
+
+PairList find_pairs(const Packing &p, double reach, double slope) {
+  const double cutoff = reach + slope * diameter_max(p);
+  // As many cells as spheres are enough; a side is never shorter than the cutoff.
+  const double fit = p.box / cutoff, enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
+  const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
+  // Nearest images are enough from three cells on: two cells in a row would already need a second image.
+  if (side < 4 || p.model != JAM_MODEL_EUCLID) return find_pairs_brute(p, reach, slope);
+  const CellGrid grid(p, side);
+  PairList list;
+  std::vector<Candidate> found;
+  Candidate now{};
+  const int d = p.dim;
+  for (int32_t i = 0; i < static_cast<int32_t>(p.n()); ++i) {
+    const double *a = &p.position[static_cast<size_t>(i) * d];
+    grid.around(i, [&](int32_t j) {
+      if (j <= i) return;
+      const double *b = &p.position[static_cast<size_t>(j) * d];
+      double r2 = 0.0;
+      for (int c = 0; c < d; ++c) {
+        const double dx = a[c] - b[c];
+        now.offset[c] = dx > 0.5 * p.box ? -p.box : dx < -0.5 * p.box ? p.box : 0.0;
+        const double x = dx + now.offset[c];
+        r2 += x * x;
+      }
+      const double rc = pair_cutoff(p, i, j, reach, slope);
+      if (r2 >= rc * rc) return;
+      now.j = j;
+      found.push_back(now);
+    });
+    append_sorted(list, i, d, found);
+  }
+  return list;
+}
+
+ClosestPair closest_pair(const Packing &p) {
+  for (const double slope : {1.1, 2.0}) {
+    const PairList pairs = find_pairs(p, 0.0, slope);
+    ClosestPair best{std::numeric_limits<double>::infinity(), -1, -1};
+    double r[JAM_MAX_DIM];
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
+      const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
+      if (gap < best.gap) best = {gap, pairs.i[k], pairs.j[k]};
+    }
+    if (best.i >= 0) return best;
+  }
+  return {std::numeric_limits<double>::infinity(), -1, -1};
+}
+
+}  // namespace jam

@@ -1,0 +1,24 @@
+// Packing files: the plain text format and extended XYZ (see jam_format in jam.h).
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/packing.hpp"
+
+namespace jam {
+
+// What a file says, checked line by line but not yet for overlaps.
+struct FileContent {
+  int dim = 0;
+  double box = 0.0;              // 0 when the file gives none
+  std::vector<double> position;  // (n, dim) as written, not wrapped
+  std::vector<double> diameter;  // n, or 1 for all
+};
+
+// Tells the format by its content. Memory grows with the data read, never with the count in the header.
+FileContent read_file(const char *path);
+
+// format: a jam_format. coordination (n) becomes the contacts column of XYZ; NULL leaves that column out.
+void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format);
+
+}  // namespace jam

@@ -1,0 +1,28 @@
+// A file that appears whole or not at all.
+#pragma once
+#include <string>
+
+namespace jam {
+
+// Text goes to a new file beside the target, which commit() renames onto it. Without commit nothing changes.
+// A symbolic link keeps pointing where it points; a target that is no regular file (/dev/stdout, a pipe) is
+// written in place. Every failure throws JAM_E_IO with the path and errno's text.
+class OutputFile {
+ public:
+  explicit OutputFile(const char *path);
+  ~OutputFile();
+  OutputFile(const OutputFile &) = delete;
+  OutputFile &operator=(const OutputFile &) = delete;
+  std::string &text() { return text_; }  // append here, then call flush_if_full now and then
+  void flush_if_full();
+  void commit();
+
+ private:
+  void flush();
+  [[noreturn]] void fail_errno(const char *what) const;
+  std::string path_, target_, temporary_;
+  std::string text_;
+  int fd_ = -1;
+};
+
+}  // namespace jam

@@ -1,0 +1,51 @@
+// Lines and numbers, the same in every locale of the host program.
+#pragma once
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jam/jam.h"
+
+namespace jam {
+
+// Reads a file line by line in bounded memory; errors are thrown with the path and errno's text.
+class LineReader {
+ public:
+  explicit LineReader(const char *path);
+  // The next line without its end (LF or CRLF) in `line`; false at the end of the file. A last line without an
+  // end is refused: a file cut inside its last number would else be read as a slightly different packing.
+  bool next(std::string_view &line);
+  // As next, skipping blank lines.
+  bool next_filled(std::string_view &line);
+  int64_t number() const { return number_; }  // of the line read last, from 1
+  // Throws with the path and the line read last before the text.
+  [[noreturn]] void fail(jam_status code, const char *format, ...) const __attribute__((format(printf, 3, 4)));
+
+ private:
+  struct Close {
+    void operator()(std::FILE *f) const { std::fclose(f); }
+  };
+  bool refill();
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::vector<char> buffer_;
+  size_t begin_ = 0, end_ = 0;
+  std::string line_;
+  int64_t number_ = 0;
+};
+
+// Splits at blanks and tabs.
+void split(std::string_view line, std::vector<std::string_view> &words);
+// The whole word as a number. Errors name the file, the line and the word: JAM_E_FORMAT, JAM_E_NONFINITE for nan and inf.
+double parse_number(const LineReader &in, std::string_view word);
+int64_t parse_count(const LineReader &in, std::string_view word, const char *what);
+// A word of a file, cut and cleaned for an error text.
+std::string shown(std::string_view word);
+
+// Appends x with 17 significant digits: enough for every double to come back with the same bits.
+void append_number(std::string &out, double x);
+
+}  // namespace jam

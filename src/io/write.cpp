@@ -1,0 +1,91 @@
+#include <string_view>
+
+#include "core/error.hpp"
+#include "io/files.hpp"
+#include "io/output_file.hpp"
+#include "io/text.hpp"
+
+namespace jam {
+namespace {
+
+bool ends_with(std::string_view name, std::string_view ending) {
+  return name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending;
+}
+
+void write_plain(const Packing &p, OutputFile &file) {
+  std::string &out = file.text();
+  bool each = false;
+  for (double s : p.diameter) each = each || s != p.diameter[0];
+  out += std::to_string(p.dim) + "\n" + std::to_string(p.n()) + "\n";
+  if (each)
+    out += "diameters";
+  else
+    append_number(out, p.diameter[0]);
+  if (p.box != 1.0) {
+    out += " box ";
+    append_number(out, p.box);
+  }
+  out += '\n';
+  for (size_t i = 0; i < p.n(); ++i) {
+    for (int c = 0; c < p.dim; ++c) {
+      if (c) out += ' ';
+      append_number(out, p.position[i * p.dim + c]);
+    }
+    if (each) {
+      out += ' ';
+      append_number(out, p.diameter[i]);
+    }
+    out += '\n';
+    file.flush_if_full();
+  }
+}
+
+// d = 2 gets a third coordinate of zero, since OVITO and ASE know only three; `dim` tells the reader so.
+void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
+  std::string &out = file.text();
+  const int columns = p.dim == 2 ? 3 : p.dim;
+  out += std::to_string(p.n()) + "\nLattice=\"";
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      if (row == column)
+        append_number(out, p.box);
+      else
+        out += '0';
+      if (row + column < 4) out += ' ';
+    }
+  out += "\" Properties=id:I:1:pos:R:" + std::to_string(columns) + ":radius:R:1";
+  if (coordination) out += ":contacts:I:1";
+  out += p.dim == 2 ? " pbc=\"T T F\"" : " pbc=\"T T T\"";
+  out += " dim=" + std::to_string(p.dim) + "\n";
+  for (size_t i = 0; i < p.n(); ++i) {
+    out += std::to_string(i);
+    for (int c = 0; c < columns; ++c) {
+      out += ' ';
+      if (c < p.dim)
+        append_number(out, p.position[i * p.dim + c]);
+      else
+        out += '0';
+    }
+    out += ' ';
+    append_number(out, 0.5 * p.diameter[i]);
+    if (coordination) out += ' ' + std::to_string((*coordination)[i]);
+    out += '\n';
+    file.flush_if_full();
+  }
+}
+
+}  // namespace
+
+void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format) {
+  if (format != JAM_FORMAT_AUTO && format != JAM_FORMAT_PLAIN && format != JAM_FORMAT_XYZ)
+    fail(JAM_E_ARGUMENT, "format is %d, not a jam_format", format);
+  const bool xyz = format == JAM_FORMAT_XYZ || (format == JAM_FORMAT_AUTO && (ends_with(path, ".xyz") || ends_with(path, ".extxyz")));
+  OutputFile file(path);
+  if (xyz)
+    write_xyz(p, coordination, file);
+  else
+    write_plain(p, file);
+  file.commit();
+}
+
+}  // namespace jam

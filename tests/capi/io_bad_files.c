@@ -1,0 +1,182 @@
+/* Files that are no packings: a clear error with the line, no handle, no memory for data that is not there. */
+#include "io_helpers.h"
+#include <sys/resource.h>
+
+static void plain_files(void **state) {
+  (void)state;
+  expect_refused("", JAM_E_FORMAT, "is empty");
+  expect_refused("\n\n", JAM_E_FORMAT, "is empty");
+  expect_refused("three\n2\n0.1\n", JAM_E_FORMAT, "line 1: 'three'");
+  expect_refused("3 2\n", JAM_E_FORMAT, "line 1");
+  expect_refused("3\n", JAM_E_FORMAT, "before the number of spheres");
+  expect_refused("1\n2\n0.1\n0.5\n0.2\n", JAM_E_DIMENSION, "line 1: the dimension is 1");
+  expect_refused("9\n2\n0.1\n", JAM_E_DIMENSION, "line 1: the dimension is 9");
+  expect_refused("3.0\n2\n0.1\n", JAM_E_FORMAT, "line 1: '3.0'");
+  expect_refused("3\n0\n0.1\n", JAM_E_ARGUMENT, "line 2: the number of spheres is 0");
+  expect_refused("3\n-5\n0.1\n", JAM_E_ARGUMENT, "-5");
+  expect_refused("3\n2147483648\n0.1\n", JAM_E_ARGUMENT, "2147483648");
+  expect_refused("3\n99999999999999999999999\n0.1\n", JAM_E_FORMAT, "line 2");
+  expect_refused("3\n2\n", JAM_E_FORMAT, "before the diameter");
+  expect_refused("3\n2\nabc\n", JAM_E_FORMAT, "line 3: 'abc'");
+  expect_refused("3\n2\n0\n", JAM_E_ARGUMENT, "line 3: the diameter is 0");
+  expect_refused("3\n2\n-0.1\n", JAM_E_ARGUMENT, "line 3: the diameter is -0.1");
+  expect_refused("3\n2\nnan\n", JAM_E_NONFINITE, "line 3: 'nan'");
+  expect_refused("3\n2\n0.1 box\n", JAM_E_FORMAT, "line 3");
+  expect_refused("3\n2\n0.1 box 0\n", JAM_E_ARGUMENT, "line 3: the box side is 0");
+  expect_refused("3\n2\n0.1 side 2\n", JAM_E_FORMAT, "line 3");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n", JAM_E_FORMAT, "after 1 of 2 spheres");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n0.5 0.6 0.7\n0.1 0.1 0.1\n", JAM_E_FORMAT, "line 6: there is more after the 2 spheres");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n0.5 0.6\n", JAM_E_FORMAT, "line 5: 2 columns, 3 are needed");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3 0.4\n", JAM_E_FORMAT, "line 4: 4 columns");
+  expect_refused("3\n2\n0.1\n0.1 0.2 x3\n", JAM_E_FORMAT, "line 4: 'x3' is not a number");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3e\n", JAM_E_FORMAT, "line 4: '0.3e'");
+  expect_refused("3\n2\n0.1\n0.1 0,2 0.3\n", JAM_E_FORMAT, "line 4: '0,2'");
+  expect_refused("3\n2\n0.1\n0.1 +-0.2 0.3\n", JAM_E_FORMAT, "line 4: '+-0.2'");
+  expect_refused("3\n2\n0.1\n0.1 nan 0.3\n", JAM_E_NONFINITE, "line 4: 'nan'");
+  expect_refused("3\n2\n0.1\n0.1 -inf 0.3\n", JAM_E_NONFINITE, "line 4: '-inf'");
+  expect_refused("3\n2\n0.1\n0.1 1e999 0.3\n", JAM_E_FORMAT, "line 4: '1e999' is outside the range");
+  expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6\n", JAM_E_FORMAT, "line 5: 2 columns, 3 are needed (coordinates and diameter)");
+  expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6 0\n", JAM_E_ARGUMENT, "line 5: the diameter is 0");
+  expect_refused("2\n2\n0.3\n0.1 0.2\n0.2 0.2\n", JAM_E_OVERLAP, "spheres 0 and 1");
+  expect_refused("2\n2\n0.1\n0.1 0.2\n0.5 0.6", JAM_E_FORMAT, "line 5: the file ends inside a line");
+}
+
+#define LATTICE "Lattice=\"1 0 0 0 1 0 0 0 1\" "
+static void xyz_files(void **state) {
+  (void)state;
+  expect_refused("0\n" LATTICE "\n", JAM_E_ARGUMENT, "number of spheres is 0");
+  expect_refused("1\n" LATTICE "\nA 0 0 0\n", JAM_E_FORMAT, "line 2: no Properties");
+  expect_refused("1\nProperties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "line 2: no Lattice");
+  expect_refused("1\n" LATTICE "Properties=pos:R:3\n0 0 0\n", JAM_E_FORMAT, "no radius");
+  expect_refused("1\n" LATTICE "Properties=radius:R:1\n0.1\n", JAM_E_FORMAT, "no pos");
+  expect_refused("1\n" LATTICE "Properties=pos:R\n", JAM_E_FORMAT, "name:type:columns");
+  expect_refused("1\n" LATTICE "Properties=pos:R:many:radius:R:1\n", JAM_E_FORMAT, "'many'");
+  expect_refused("1\n" LATTICE "Properties=pos:R:0:radius:R:1\n", JAM_E_FORMAT, "0 columns");
+  expect_refused("1\n" LATTICE "Properties=pos:R:9:radius:R:1\n", JAM_E_DIMENSION, "the dimension is 9");
+  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 dim=4\n0 0 0 0.1\n", JAM_E_FORMAT, "dim is 4");
+  expect_refused("1\nLattice=\"1 0 0\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "Lattice has 3 numbers");
+  expect_refused("1\nLattice=\"1 0 0 0 2 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED, "not a cube");
+  expect_refused("1\nLattice=\"1 0 0 0.5 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED, "not a cube");
+  expect_refused("1\nLattice=\"1 0 0 0 1 0 0 0 1 Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "not closed");
+  expect_refused("2\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "after 1 of 2");
+  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 0.1 7\n", JAM_E_FORMAT, "line 3: 5 columns");
+  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 -0.1\n", JAM_E_ARGUMENT, "the radius is -0.1");
+  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 nan 0 0.1\n", JAM_E_NONFINITE, "line 3");
+}
+
+/* A file cut at any byte is refused, but for the one cut that loses nothing needed: none here. */
+static void every_truncation(const char *name, double ratio) {
+  jam_system *sys = some_packing(3, 12, ratio, 1.0), *back = NULL;
+  char *text;
+  size_t size, cut;
+  assert_int_equal(jam_write(sys, in_scratch(name), JAM_FORMAT_AUTO), JAM_OK);
+  text = get_bytes(in_scratch(name), &size);
+  for (cut = 0; cut < size; ++cut) {
+    put_bytes(in_scratch("cut.dat"), text, cut);
+    if (jam_read(in_scratch("cut.dat"), NULL, &back) >= 0) fail_msg("%s cut to %zu of %zu bytes was read", name, cut, size);
+    assert_null(back);
+    assert_true(strlen(jam_last_error()) > 0);
+  }
+  put_bytes(in_scratch("cut.dat"), text, size);
+  assert_int_equal(jam_read(in_scratch("cut.dat"), NULL, &back), JAM_OK);
+  assert_same_bits(sys, back);
+  free(text);
+  jam_destroy(sys);
+  jam_destroy(back);
+}
+
+static void truncated(void **state) {
+  (void)state;
+  every_truncation("t.dat", 1.0);
+  every_truncation("t2.dat", 1.4);
+  every_truncation("t.xyz", 1.4);
+}
+
+/* A count of 2^31-1 in the header, and a line that never ends, must not take memory. */
+static void no_allocation_ahead(void **state) {
+  struct rusage before, after;
+  char *line = malloc(50u << 20);
+  (void)state;
+  assert_non_null(line);
+  memset(line, '7', 50u << 20);
+  getrusage(RUSAGE_SELF, &before);
+  expect_refused("8\n2147483647\ndiameters\n", JAM_E_FORMAT, "after 0 of 2147483647");
+  expect_refused("2147483647\n" LATTICE "Properties=pos:R:3:radius:R:1\n", JAM_E_FORMAT, "after 0 of 2147483647");
+  put_bytes(in_scratch("endless.dat"), line, 50u << 20);
+  {
+    jam_system *sys = NULL;
+    assert_int_equal(jam_read(in_scratch("endless.dat"), NULL, &sys), JAM_E_FORMAT);
+    assert_non_null(strstr(jam_last_error(), "line 1: longer than"));
+  }
+  getrusage(RUSAGE_SELF, &after);
+  assert_true(after.ru_maxrss - before.ru_maxrss < 20 * 1024); /* kilobytes */
+  free(line);
+}
+
+static void missing_and_null(void **state) {
+  jam_system *sys = NULL;
+  jam_create_options o;
+  (void)state;
+  assert_int_equal(jam_read(NULL, NULL, &sys), JAM_E_NULL);
+  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, &sys), JAM_E_IO);
+  assert_non_null(strstr(jam_last_error(), "none.dat"));
+  assert_non_null(strstr(jam_last_error(), strerror(ENOENT)));
+  assert_int_equal(jam_read("", NULL, &sys), JAM_E_IO);
+  assert_int_equal(jam_read(scratch, NULL, &sys), JAM_E_IO);
+  assert_non_null(strstr(jam_last_error(), strerror(EISDIR)));
+  memset(&o, 0, sizeof o);
+  assert_int_equal(jam_read(in_scratch("none.dat"), &o, &sys), JAM_E_STRUCT_SIZE);
+  jam_create_options_init(&o, sizeof o);
+  o.box = -1.0;
+  put_bytes(in_scratch("ok.dat"), "2\n1\n0.1\n0.5 0.5\n", 16);
+  assert_int_equal(jam_read(in_scratch("ok.dat"), &o, &sys), JAM_E_ARGUMENT);
+  assert_null(sys);
+}
+
+static void overlap_policy(void **state) {
+  const char text[] = "2\n2\n0.4\n0.1 0.5\n0.4 0.5\n";
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_info info;
+  (void)state;
+  info.struct_size = sizeof info;
+  put_bytes(in_scratch("o.dat"), text, strlen(text));
+  jam_create_options_init(&o, sizeof o);
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_E_OVERLAP);
+  o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_OK);
+  jam_info_get(sys, &info);
+  assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
+  jam_destroy(sys);
+}
+
+static void shared_file(void **state) {
+  jam_system *sys = NULL, *back = NULL;
+  jam_info info;
+  const char *path = JAM_TEST_SHARED "/ls-n1024-d3.dat";
+  (void)state;
+  if (access(path, R_OK)) {
+    print_message("%s is not there: skipped\n", path);
+    skip();
+  }
+  info.struct_size = sizeof info;
+  if (jam_read(path, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  jam_info_get(sys, &info);
+  assert_int_equal(info.n, 1024);
+  assert_true(info.packing_fraction > 0.6439 && info.packing_fraction < 0.6440);
+  assert_int_equal(jam_write(sys, in_scratch("shared.xyz"), JAM_FORMAT_AUTO), JAM_OK);
+  assert_int_equal(jam_read(in_scratch("shared.xyz"), NULL, &back), JAM_OK);
+  assert_same_bits(sys, back);
+  jam_destroy(sys);
+  jam_destroy(back);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(no_allocation_ahead), cmocka_unit_test(plain_files),    cmocka_unit_test(xyz_files),
+      cmocka_unit_test(truncated),           cmocka_unit_test(missing_and_null), cmocka_unit_test(overlap_policy),
+      cmocka_unit_test(shared_file),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

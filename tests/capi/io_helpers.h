@@ -1,0 +1,125 @@
+/* Shared by tests/capi/io_*.c: a scratch folder, files with given content, errors with text. */
+#ifndef JAM_TEST_IO_HELPERS_H
+#define JAM_TEST_IO_HELPERS_H
+#ifndef _XOPEN_SOURCE
+#define _XOPEN_SOURCE 700
+#endif
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "jam/jam.h"
+
+static char scratch[64];
+
+static inline int make_scratch(void **state) {
+  (void)state;
+  strcpy(scratch, "/tmp/jam-io-XXXXXX");
+  return mkdtemp(scratch) ? 0 : -1;
+}
+
+static inline int remove_scratch(void **state) {
+  char command[96];
+  (void)state;
+  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
+  return system(command);
+}
+
+static inline int count_files(void) {
+  int count = 0;
+  struct dirent *entry;
+  DIR *folder = opendir(scratch);
+  while ((entry = readdir(folder)) != NULL) count += entry->d_name[0] != '.';
+  closedir(folder);
+  return count;
+}
+
+static inline const char *in_scratch(const char *name) {
+  static char path[4][256];
+  static int turn = 0;
+  turn = (turn + 1) % 4;
+  snprintf(path[turn], sizeof path[turn], "%s/%s", scratch, name);
+  return path[turn];
+}
+
+static inline void put_bytes(const char *path, const char *bytes, size_t size) {
+  FILE *f = fopen(path, "wb");
+  assert_non_null(f);
+  assert_int_equal(fwrite(bytes, 1, size, f), size);
+  assert_int_equal(fclose(f), 0);
+}
+
+static inline char *get_bytes(const char *path, size_t *size) {
+  FILE *f = fopen(path, "rb");
+  char *bytes;
+  long end;
+  assert_non_null(f);
+  fseek(f, 0, SEEK_END);
+  end = ftell(f);
+  rewind(f);
+  bytes = malloc((size_t)end + 1);
+  *size = fread(bytes, 1, (size_t)end, f);
+  bytes[*size] = '\0';
+  fclose(f);
+  return bytes;
+}
+
+/* Reading `text` must give `status`, with `part` in the message, and no handle. */
+static inline void expect_refused(const char *text, jam_status status, const char *part) {
+  const char *path = in_scratch("bad.dat");
+  jam_system *sys = NULL;
+  jam_status got;
+  put_bytes(path, text, strlen(text));
+  got = jam_read(path, NULL, &sys);
+  if (got != status || !strstr(jam_last_error(), part))
+    fail_msg("status %d, expected %d; text '%s', expected '%s' in it; input:\n%s", got, status, jam_last_error(), part, text);
+  assert_null(sys);
+}
+
+/* n spheres at random, diameters 50:50 with the given ratio. */
+static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, double box) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  double *diameters = malloc((size_t)n * sizeof *diameters);
+  int64_t i;
+  for (i = 0; i < n; ++i) diameters[i] = i % 2 ? ratio : 1.0;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim;
+  o.n = n;
+  o.box = box;
+  o.seed = 7;
+  o.packing_fraction = 0.02; /* d = 8 saturates below 0.1 */
+  assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  free(diameters);
+  return sys;
+}
+
+static inline void assert_same_bits(const jam_system *a, const jam_system *b) {
+  const double *x, *y;
+  size_t x_len, y_len;
+  jam_info ia, ib;
+  ia.struct_size = sizeof ia;
+  ib.struct_size = sizeof ib;
+  assert_int_equal(jam_info_get(a, &ia), JAM_OK);
+  assert_int_equal(jam_info_get(b, &ib), JAM_OK);
+  assert_int_equal(ia.dim, ib.dim);
+  assert_int_equal(ia.n, ib.n);
+  assert_memory_equal(&ia.box, &ib.box, sizeof ia.box);
+  jam_positions_view(a, &x, &x_len);
+  jam_positions_view(b, &y, &y_len);
+  assert_int_equal(x_len, y_len);
+  assert_memory_equal(x, y, x_len * sizeof *x);
+  jam_diameters_view(a, &x, &x_len);
+  jam_diameters_view(b, &y, &y_len);
+  assert_int_equal(x_len, y_len);
+  assert_memory_equal(x, y, x_len * sizeof *x);
+}
+#endif

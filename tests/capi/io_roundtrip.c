@@ -1,0 +1,152 @@
+/* Write and read back gives the same bits, in every dimension, format, box and locale. */
+#include "io_helpers.h"
+#include <locale.h>
+
+static void round_trip(int32_t dim, double ratio, double box, const char *name, int32_t format) {
+  jam_system *sys = some_packing(dim, 60, ratio, box), *back = NULL;
+  const char *path = in_scratch(name);
+  assert_int_equal(jam_write(sys, path, format), JAM_OK);
+  if (jam_read(path, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
+  assert_same_bits(sys, back);
+  jam_destroy(back);
+  jam_destroy(sys);
+}
+
+static void all_round_trips(void) {
+  const double boxes[] = {1.0, 7.3, 1e-3}, ratios[] = {1.0, 1.4};
+  int32_t dim;
+  size_t b, r;
+  for (dim = 2; dim <= JAM_MAX_DIM; ++dim)
+    for (b = 0; b < 3; ++b)
+      for (r = 0; r < 2; ++r) {
+        round_trip(dim, ratios[r], boxes[b], "a.dat", JAM_FORMAT_AUTO);
+        round_trip(dim, ratios[r], boxes[b], "a.xyz", JAM_FORMAT_AUTO);
+        round_trip(dim, ratios[r], boxes[b], "a.extxyz", JAM_FORMAT_AUTO);
+        round_trip(dim, ratios[r], boxes[b], "a.txt", JAM_FORMAT_XYZ);
+        round_trip(dim, ratios[r], boxes[b], "b.xyz", JAM_FORMAT_PLAIN);
+      }
+}
+
+static void same_bits(void **state) {
+  (void)state;
+  all_round_trips();
+}
+
+/* A host program with a decimal comma must neither write nor read commas. Where no such locale is installed one is
+ * compiled into the scratch folder, if Debian's package `locales` is there. */
+static const char *set_comma_locale(void) {
+  const char *names[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "nl_NL.UTF-8"};
+  char command[256];
+  size_t k;
+  for (k = 0; k < 3; ++k)
+    if (setlocale(LC_ALL, names[k])) return names[k];
+  if (access("/usr/share/i18n/locales/de_DE", R_OK)) return NULL;
+  snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 >%s/localedef.log 2>&1", scratch, scratch);
+  if (system(command) != 0 || setenv("LOCPATH", scratch, 1) != 0) return NULL;
+  return setlocale(LC_ALL, "de_DE.UTF-8");
+}
+
+static void comma_locale(void **state) {
+  size_t size;
+  char *text;
+  (void)state;
+  if (!set_comma_locale()) {
+    print_message("no locale with a decimal comma is installed: skipped\n");
+    skip();
+  }
+  assert_int_equal(localeconv()->decimal_point[0], ',');
+  all_round_trips();
+  round_trip(3, 1.4, 7.3, "comma.dat", JAM_FORMAT_PLAIN);
+  setlocale(LC_ALL, "C");
+  text = get_bytes(in_scratch("comma.dat"), &size);
+  assert_null(strchr(text, ','));
+  free(text);
+}
+
+static void layout_of_plain(void **state) {
+  const double x[] = {0.25, 0.5, 0.75, 0.125}, s[] = {0.25, 0.125}, one = 0.25;
+  jam_create_options o;
+  jam_system *sys;
+  char *text;
+  size_t size;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = 2;
+  assert_int_equal(jam_create(&o, x, 4, &one, 1, &sys), JAM_OK);
+  assert_int_equal(jam_write(sys, in_scratch("one.dat"), JAM_FORMAT_AUTO), JAM_OK);
+  jam_destroy(sys);
+  text = get_bytes(in_scratch("one.dat"), &size);
+  assert_string_equal(text, "2\n2\n0.25\n0.25 0.5\n0.75 0.125\n");
+  free(text);
+  o.box = 2.0;
+  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_OK);
+  assert_int_equal(jam_write(sys, in_scratch("two.dat"), JAM_FORMAT_AUTO), JAM_OK);
+  assert_int_equal(jam_write(sys, in_scratch("two.xyz"), JAM_FORMAT_AUTO), JAM_OK);
+  jam_destroy(sys);
+  text = get_bytes(in_scratch("two.dat"), &size);
+  assert_string_equal(text, "2\n2\ndiameters box 2\n0.25 0.5 0.25\n0.75 0.125 0.125\n");
+  free(text);
+  text = get_bytes(in_scratch("two.xyz"), &size);
+  assert_string_equal(text,
+                      "2\nLattice=\"2 0 0 0 2 0 0 0 2\" Properties=id:I:1:pos:R:3:radius:R:1 pbc=\"T T F\" dim=2\n"
+                      "0 0.25 0.5 0 0.125\n1 0.75 0.125 0 0.0625\n");
+  free(text);
+}
+
+static jam_system *read_text(const char *text, const jam_create_options *o) {
+  jam_system *sys = NULL;
+  put_bytes(in_scratch("in.dat"), text, strlen(text));
+  if (jam_read(in_scratch("in.dat"), o, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  return sys;
+}
+
+static double coordinate(const jam_system *sys, size_t k) {
+  const double *x;
+  size_t len;
+  jam_positions_view(sys, &x, &len);
+  assert_true(k < len);
+  return x[k];
+}
+
+/* What other people's programs write: CRLF, blanks, plus signs, blank lines, further columns, other column orders. */
+static void tolerant_reader(void **state) {
+  jam_system *sys;
+  jam_info info;
+  jam_create_options o;
+  (void)state;
+  info.struct_size = sizeof info;
+  sys = read_text("3 \r\n2\r\n0.1\t\r\n+0.1 0.2 0.3 \r\n0.5  0.6\t0.7\r\n\r\n", NULL);
+  assert_true(coordinate(sys, 0) == 0.1);
+  assert_true(coordinate(sys, 5) == 0.7);
+  jam_destroy(sys);
+  sys = read_text("3\n1\n1e-1\n-0.25 1.5 0.3\n", NULL); /* outside the box: wrapped */
+  assert_true(coordinate(sys, 0) == 0.75);
+  assert_true(coordinate(sys, 1) == 0.5);
+  jam_destroy(sys);
+  sys = read_text("2\nanimation=no pbc=\"T T T\" Properties=species:S:1:radius:R:1:pos:R:3:move:I:2 step Lattice=\"4 0 0 0 4 0 0 0 4\"\n"
+                  "A 0.5 1 1 1 0 0\nB 0.25 3 3 3 0 0\n", NULL);
+  jam_info_get(sys, &info);
+  assert_int_equal(info.dim, 3);
+  assert_true(info.box == 4.0);
+  assert_true(coordinate(sys, 3) == 3.0);
+  jam_destroy(sys);
+  jam_create_options_init(&o, sizeof o); /* the options' box counts where the file gives none, the file's wins */
+  o.box = 2.0;
+  sys = read_text("2\n1\n0.1\n1.5 1.5\n", &o);
+  jam_info_get(sys, &info);
+  assert_true(info.box == 2.0);
+  assert_int_equal(info.dim, 2);
+  jam_destroy(sys);
+  sys = read_text("2\n1\n0.1 box 3\n1.5 1.5\n", &o);
+  jam_info_get(sys, &info);
+  assert_true(info.box == 3.0);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(same_bits),       cmocka_unit_test(comma_locale), cmocka_unit_test(layout_of_plain),
+      cmocka_unit_test(tolerant_reader),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

@@ -1,0 +1,122 @@
+/* Writing: whole or not at all, nothing left behind, nobody's file harmed. */
+#include "io_helpers.h"
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+static const char old_text[] = "what was here before\n";
+
+static void assert_untouched(const char *path) {
+  size_t size;
+  char *text = get_bytes(path, &size);
+  assert_string_equal(text, old_text);
+  free(text);
+}
+
+static void bad_targets(void **state) {
+  jam_system *sys = some_packing(3, 50, 1.0, 1.0);
+  int files = count_files();
+  (void)state;
+  assert_int_equal(jam_write(NULL, in_scratch("x.dat"), 0), JAM_E_NULL);
+  assert_int_equal(jam_write(sys, NULL, 0), JAM_E_NULL);
+  assert_int_equal(jam_write(sys, in_scratch("x.dat"), 3), JAM_E_ARGUMENT);
+  assert_int_equal(jam_write(sys, in_scratch("x.dat"), -1), JAM_E_ARGUMENT);
+  assert_int_equal(jam_write(sys, in_scratch("no/such/folder.dat"), 0), JAM_E_IO);
+  assert_non_null(strstr(jam_last_error(), strerror(ENOENT)));
+  assert_int_equal(jam_write(sys, scratch, 0), JAM_E_IO);
+  assert_non_null(strstr(jam_last_error(), strerror(EISDIR)));
+  assert_int_equal(jam_write(sys, "", 0), JAM_E_IO);
+  assert_int_equal(count_files(), files);
+  jam_destroy(sys);
+}
+
+/* A full disk: the special file /dev/full, and a file-size limit in the middle of the temporary file. */
+static void disk_full(void **state) {
+  jam_system *sys = some_packing(3, 400, 1.4, 1.0);
+  struct rlimit limit, small;
+  const char *path = in_scratch("precious.dat");
+  int files;
+  jam_status status;
+  (void)state;
+  if (access("/dev/full", W_OK) == 0) {
+    assert_int_equal(jam_write(sys, "/dev/full", 0), JAM_E_IO);
+    assert_non_null(strstr(jam_last_error(), strerror(ENOSPC)));
+    assert_int_equal(access("/dev/full", W_OK), 0); /* not renamed over */
+  }
+  put_bytes(path, old_text, strlen(old_text));
+  files = count_files();
+  signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  small = limit;
+  small.rlim_cur = 1000;
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  status = jam_write(sys, path, 0);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  assert_int_equal(status, JAM_E_IO);
+  assert_non_null(strstr(jam_last_error(), strerror(EFBIG)));
+  assert_int_equal(count_files(), files); /* no temporary file is left */
+  assert_untouched(path);
+  assert_int_equal(jam_write(sys, path, 0), JAM_OK); /* and it works when there is room again */
+  assert_int_equal(count_files(), files);
+  jam_destroy(sys);
+}
+
+static void special_files(void **state) {
+  jam_system *sys = some_packing(3, 5, 1.0, 1.0);
+  struct stat there;
+  (void)state;
+  assert_int_equal(jam_write(sys, "/dev/null", 0), JAM_OK);
+  assert_int_equal(stat("/dev/null", &there), 0);
+  assert_true(S_ISCHR(there.st_mode));
+  jam_destroy(sys);
+}
+
+static void links_and_modes(void **state) {
+  jam_system *sys = some_packing(3, 5, 1.0, 1.0), *back = NULL;
+  const char *real = in_scratch("real.dat"), *link = in_scratch("link.dat"), *dangling = in_scratch("dangling.dat");
+  struct stat there;
+  mode_t mask;
+  (void)state;
+  put_bytes(real, old_text, strlen(old_text));
+  assert_int_equal(chmod(real, 0640), 0);
+  assert_int_equal(symlink("real.dat", link), 0);
+  assert_int_equal(jam_write(sys, link, 0), JAM_OK);
+  assert_int_equal(lstat(link, &there), 0);
+  assert_true(S_ISLNK(there.st_mode)); /* the link still is one, its target has the packing and its old mode */
+  assert_int_equal(lstat(real, &there), 0);
+  assert_int_equal(there.st_mode & 0777, 0640);
+  assert_int_equal(jam_read(real, NULL, &back), JAM_OK);
+  assert_same_bits(sys, back);
+  jam_destroy(back);
+  assert_int_equal(symlink("later.dat", dangling), 0);
+  assert_int_equal(jam_write(sys, dangling, 0), JAM_OK);
+  assert_int_equal(lstat(in_scratch("later.dat"), &there), 0);
+  mask = umask(022);
+  umask(mask);
+  assert_int_equal(there.st_mode & 0777, 0666 & ~mask);
+  jam_destroy(sys);
+}
+
+static void read_only_file(void **state) {
+  jam_system *sys = some_packing(3, 5, 1.0, 1.0);
+  const char *path = in_scratch("readonly.dat");
+  (void)state;
+  if (geteuid() == 0) {
+    jam_destroy(sys);
+    print_message("root may write anything: skipped\n");
+    skip();
+  }
+  put_bytes(path, old_text, strlen(old_text));
+  assert_int_equal(chmod(path, 0444), 0);
+  assert_int_equal(jam_write(sys, path, 0), JAM_E_IO);
+  assert_untouched(path);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bad_targets),     cmocka_unit_test(disk_full),      cmocka_unit_test(special_files),
+      cmocka_unit_test(links_and_modes), cmocka_unit_test(read_only_file),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

@@ -174,6 +174,22 @@ PairList find_pairs(const Packing &p, double reach, double slope) {
   return list;
 }
 
+void wrap_positions(Packing &p, PairList &pairs) {
+  const size_t d = p.dim;
+  std::vector<double> shift(p.position.size(), 0.0);
+  bool any = false;
+  for (size_t k = 0; k < shift.size(); ++k) {
+    const double x = p.position[k], inside = wrap(x, p.box);
+    if (inside == x) continue;
+    shift[k] = std::nearbyint((x - inside) / p.box) * p.box;
+    p.position[k] = inside;
+    any = true;
+  }
+  if (!any) return;
+  for (size_t k = 0; k < pairs.size(); ++k)
+    for (size_t c = 0; c < d; ++c) pairs.offset[k * d + c] += shift[pairs.i[k] * d + c] - shift[pairs.j[k] * d + c];
+}
+
 ClosestPair closest_pair(const Packing &p) {
   for (const double slope : {1.1, 2.0}) {
     const PairList pairs = find_pairs(p, 0.0, slope);

@@ -30,6 +30,9 @@ struct ClosestPair {
 };
 ClosestPair closest_pair(const Packing &p);
 
+// Puts every sphere back into [0, box) and changes the offsets so that every r_ij stays as it is.
+void wrap_positions(Packing &p, PairList &pairs);
+
 // Squared length of r_ij of pair k.
 inline double pair_vector(const Packing &p, const PairList &pairs, size_t k, double *r) {
   const int d = p.dim;

@@ -1,0 +1,68 @@
+// Header section "crunch to the jamming point" and the arrays of the contact network.
+#include "capi/guard.hpp"
+#include "crunch/crunch.hpp"
+
+using namespace jam;
+
+namespace {
+template <class F>
+jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!sys->has_report) fail(JAM_E_STATE, "there is no contact network: call jam_crunch first");
+    return f(sys->contacts);
+  });
+}
+}  // namespace
+
+extern "C" {
+
+jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size) { return init_options(o, size, default_crunch_options()); }
+
+jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report) {
+  return guard_verb(sys, [&]() -> jam_status {
+    check_out_struct(report, "report");
+    jam_crunch_options full = default_crunch_options();
+    take_options(o, full);
+    CrunchResult result = crunch(sys->packing, full, sys->monitor);
+    // Also after a failure: the state reached is valid and nothing is lost.
+    sys->commit(result.packing);
+    sys->contacts = std::move(result.contacts);
+    sys->report = result.report;
+    sys->has_report = true;
+    give_struct(sys->report, report);
+    if (result.status < 0) fail(result.status, "%s", result.text.c_str());
+    return result.status;
+  });
+}
+
+jam_status jam_report_get(const jam_system *sys, jam_report *report) {
+  return with_contacts(sys, [&](const ContactNetwork &) -> jam_status {
+    need(report, "report");
+    check_out_struct(report, "report");
+    give_struct(sys->report, report);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+  return with_contacts(sys, [&](const ContactNetwork &c) {
+    std::vector<int32_t> flat;
+    flat.reserve(2 * c.size());
+    for (size_t k = 0; k < c.size(); ++k) flat.push_back(c.pairs.i[k]), flat.push_back(c.pairs.j[k]);
+    return give_array(flat.data(), flat.size(), iout, iout_len, needed);
+  });
+}
+jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.vector.data(), c.vector.size(), out, out_len, needed); });
+}
+jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.gap.data(), c.gap.size(), out, out_len, needed); });
+}
+jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.force.data(), c.force.size(), out, out_len, needed); });
+}
+jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.coordination.data(), c.coordination.size(), iout, iout_len, needed); });
+}
+
+}  // extern "C"

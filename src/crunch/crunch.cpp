@@ -1,0 +1,215 @@
+// The chain of LPs: neighbour radius and step bound, solve, check, step, until nothing moves.
+#include "crunch/crunch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "core/error.hpp"
+#include "crunch/relinearise.hpp"
+#include "lp/interior_point.hpp"
+
+namespace jam {
+
+jam_crunch_options default_crunch_options() {
+  jam_crunch_options o{};
+  o.struct_size = sizeof o;
+  o.lp_solver = JAM_LP_IPM;
+  o.max_lps = 1000;
+  o.threads = 1;
+  o.gain_tolerance = 1e-12;
+  o.step_tolerance = 1e-9;
+  o.lp_tolerance = 1e-15;
+  o.wall_time = std::numeric_limits<double>::infinity();
+  return o;
+}
+
+namespace {
+
+void check_options(const Packing &p, const jam_crunch_options &o) {
+  if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP) fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
+  if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
+  if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
+  const auto positive = [](double v, const char *name) {
+    if (!(v > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, v);
+  };
+  positive(o.gain_tolerance, "gain_tolerance");
+  positive(o.step_tolerance, "step_tolerance");
+  positive(o.lp_tolerance, "lp_tolerance");
+  positive(o.wall_time, "wall_time");
+  if (!(o.neighbour_radius >= 0.0)) fail(JAM_E_ARGUMENT, "neighbour_radius is %g, it must be >= 0", o.neighbour_radius);
+  if (!(o.step_bound >= 0.0)) fail(JAM_E_ARGUMENT, "step_bound is %g, it must be >= 0", o.step_bound);
+  if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
+  const ClosestPair worst = closest_pair(p);
+  if (worst.gap < -1e-9) fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+}
+
+class Chain {
+ public:
+  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor) : o_(o), monitor_(monitor), ipm_(system_) {
+    out_.packing = start;
+    out_.report.struct_size = sizeof out_.report;
+  }
+
+  CrunchResult run() {
+    try {
+      bound_ = first_bound();
+      if (!std::getenv("CHAIN")) { RelineariseControl c; c.target=std::getenv("TARGET")?atof(std::getenv("TARGET")):1e-9; c.threads = o_.threads; auto r = relinearise(out_.packing, c, system_, monitor_); if (r.reached) bound_ = 1e-3, last_gain_ = 1e-9;
+        monitor_.log(JAM_LOG_INFO, "relinearised: reached %d gap %.2e factorisations %d t %.3f", r.reached, r.gap, r.factorisations, monitor_.seconds()); }
+      while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
+    } catch (const Error &e) {
+      out_.status = e.code(), out_.text = e.what(), out_.report.stop_reason = JAM_STOP_SOLVER;
+    } catch (const std::bad_alloc &) {
+      out_.status = JAM_E_MEMORY, out_.text = "out of memory; the last good state is kept", out_.report.stop_reason = JAM_STOP_SOLVER;
+    }
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  // Displacements that about 2 d neighbours' worth of free room asks for: from the mean neighbour distance
+  // phi^(-1/d) at low density down to a tenth of a diameter near jamming.
+  double first_bound() const {
+    if (o_.step_bound > 0.0) return o_.step_bound;
+    const double spacing = std::pow(packing_fraction(out_.packing), -1.0 / out_.packing.dim);
+    const double jammed = std::pow(out_.packing.dim == 2 ? 0.84 : out_.packing.dim == 3 ? 0.64 : std::pow(2.0, 3.0 - out_.packing.dim) * 0.9, -1.0 / out_.packing.dim);
+    return std::max(0.1, 0.6 * (spacing - jammed) + 0.1);
+  }
+
+  void build_lp() {
+    Packing &p = out_.packing;
+    unit_ = diameter_mean(p);
+    reach_ = 2.2 * bound_ * unit_;
+    if (o_.neighbour_radius > 0.0) reach_ = std::max(0.0, o_.neighbour_radius * unit_ - diameter_max(p));
+    PairList pairs = find_pairs(p, reach_, 1.0);
+    if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", o_.neighbour_radius);
+    const bool same = pairs.i == pairs_.i && pairs.j == pairs_.j;
+    pairs_ = std::move(pairs);
+    if (!same) system_.set_graph(p.dim, static_cast<int32_t>(p.n()), pairs_, o_.threads);
+    lp_ = make_lp(p, pairs_, unit_);
+    lp_.bound = bound_;
+  }
+
+  bool acceptable(const LpSolution &x, LpCheck &check) const {
+    check = check_lp(lp_, x);
+    const double tight = early_ > 0 ? 1e-3 : 1e-6;
+    return x.solved && check.infeasibility < 1e-9 && check.gamma < 1e-6 && check.balance < tight && std::isfinite(x.g);
+  }
+
+  // The chosen solver first; then a cold interior point with small steps, then Clp.
+  void solve() {
+    LpCheck check;
+    if (o_.lp_solver == JAM_LP_IPM) {
+      IpmControl control;
+      control.tolerance = o_.lp_tolerance;
+      control.early_fraction = early_;
+      answer_ = ipm_.solve(lp_, control, &monitor_);
+      if (monitor_.cancelled()) return;
+      used_ = JAM_LP_IPM;
+      if (acceptable(answer_, check)) return keep(check);
+      monitor_.log(JAM_LOG_WARNING, "interior point: infeasibility %.1e balance %.1e sum_y %.1e; trying again", check.infeasibility, check.balance, check.gamma);
+      control.correctors = 0;
+      control.early_fraction = 0;
+      control.max_iterations = 200;
+      answer_ = ipm_.solve(lp_, control, &monitor_);
+      if (acceptable(answer_, check)) return keep(check);
+      monitor_.log(JAM_LOG_WARNING, "interior point failed: infeasibility %.1e balance %.1e; Clp takes over", check.infeasibility, check.balance);
+    }
+    answer_ = solve_lp_clp(lp_, 1e-9, o_.wall_time - monitor_.seconds());
+    used_ = JAM_LP_CLP;
+    if (acceptable(answer_, check)) return keep(check);
+    fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out (infeasibility %.1e, balance %.1e, |sum y - 1| %.1e)", check.infeasibility, check.balance, check.gamma);
+  }
+
+  void keep(const LpCheck &check) {
+    out_.report.lp_solver = used_;
+    out_.report.gamma_residual = check.gamma;
+    out_.report.duality_gap = std::fabs(check.gap);
+    ++out_.report.lp_solves;
+  }
+
+  void one_lp() {
+    build_lp();
+    early_ = last_gain_ > 1e-7 && o_.lp_solver == JAM_LP_IPM ? 0.02 : 0.0;
+    solve();
+    if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    const double alpha = take_step(out_.packing, pairs_, reach_, answer_, unit_);
+    network_ = find_network(lp_, answer_);
+    const double gain = std::sqrt(1.0 + std::max(answer_.g, 0.0)) - 1.0, step = largest_step(answer_, network_, lp_.dim);
+    out_.report.gain = gain;
+    out_.report.max_step = step;
+    out_.packing.pressure = std::numeric_limits<double>::quiet_NaN();
+    monitor_.log(JAM_LOG_INFO, "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
+                 static_cast<long long>(out_.report.lp_solves), gain, step, alpha, pairs_.size(), answer_.iterations, network_.active.size(),
+                 static_cast<long long>(network_.stable_count), bound_, packing_fraction(out_.packing));
+    jam_progress progress{};
+    progress.phase = JAM_PHASE_CRUNCH;
+    progress.packing_fraction = packing_fraction(out_.packing);
+    progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
+    progress.gain = gain;
+    progress.max_step = step;
+    progress.steps = out_.report.lp_solves;
+    progress.factorisations = system_.factorisations;
+    if (monitor_.report(progress, true)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    judge(gain, step, alpha);
+  }
+
+  void judge(double gain, double step, double alpha) {
+    if (gain <= o_.gain_tolerance && step <= o_.step_tolerance && early_ == 0.0) {
+      const bool rigid = network_.stable_count > 0 && static_cast<int64_t>(network_.active.size()) > lp_.dim * (network_.stable_count - 1);
+      return rigid ? stop(JAM_STOP_CONVERGED, JAM_OK) : stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+    }
+    if (alpha == 0.0) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+    if (out_.report.lp_solves >= o_.max_lps) return stop(JAM_STOP_LP_LIMIT, JAM_LIMIT);
+    if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
+    // Rounding floor: the gain is below tolerance and steps no longer fall.
+    idle_ = gain <= o_.gain_tolerance && step > 0.5 * last_step_ ? idle_ + 1 : 0;
+    if (idle_ >= 10) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+    last_gain_ = gain;
+    last_step_ = step;
+    if (o_.step_bound == 0.0) bound_ = std::min(std::max(5.0 * step, 1e-6), alpha < 1.0 ? 0.7 * bound_ : 0.5);
+  }
+
+  void stop(jam_stop_reason reason, jam_status status) { out_.report.stop_reason = reason, out_.status = status; }
+
+  void finish() {
+    jam_report &r = out_.report;
+    r.factorisations = system_.factorisations;
+    if (!answer_.y.empty() && !network_.stable.empty()) {
+      out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
+      if (r.stop_reason == JAM_STOP_CONVERGED) polish(out_.packing, out_.contacts, o_.threads);
+    } else {
+      out_.contacts.coordination.assign(out_.packing.n(), 0);
+    }
+    certify(out_.packing, out_.contacts, r);
+    r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < 1e-6 && r.min_force > 0.0;
+    if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+    r.seconds = monitor_.seconds();
+    r.seconds_factor = system_.seconds_factor;
+    r.seconds_assemble = system_.seconds_assemble;
+    r.seconds_solve = system_.seconds_solve;
+  }
+
+  const jam_crunch_options o_;
+  Monitor &monitor_;
+  CrunchResult out_;
+  NewtonSystem system_;
+  InteriorPoint ipm_;
+  PairList pairs_;
+  PackingLp lp_;
+  LpSolution answer_;
+  Network network_;
+  int32_t used_ = JAM_LP_IPM;
+  double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
+  double last_gain_ = 1.0, last_step_ = std::numeric_limits<double>::infinity();
+  int idle_ = 0;
+};
+
+}  // namespace
+
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
+  check_options(start, o);
+  return Chain(start, o, monitor).run();
+}
+
+}  // namespace jam

@@ -1,0 +1,55 @@
+// From any valid packing to a certified jammed one. Data flow:
+//   packing -> [pairs -> LP -> checked answer -> safe step]* -> contact network -> polish -> certificate
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/contacts.hpp"
+#include "core/monitor.hpp"
+#include "core/packing.hpp"
+#include "lp/newton_system.hpp"
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+jam_crunch_options default_crunch_options();
+
+struct CrunchResult {
+  Packing packing;          // always valid: the last good state
+  ContactNetwork contacts;  // of the last LP; empty if none was solved
+  jam_report report{};
+  jam_status status = JAM_OK;
+  std::string text;         // why, when status < 0
+};
+
+// Never throws for what happens after the first LP: the result carries the status. Throws for bad options.
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor);
+
+// ---- parts, one file each
+
+// step.cpp: moves p by alpha (s, g) with the largest alpha <= 1 for which no pair outside the list overlaps.
+// Offsets follow when spheres are wrapped. s in units of sigma_unit. Returns alpha (0: even tiny steps overlap, which only bad input can do).
+double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &answer, double sigma_unit);
+
+// network.cpp: pairs that carry force in the answer, spheres with fewer than d + 1 of them removed again and again.
+struct Network {
+  std::vector<size_t> active;     // indices into the LP's pairs, between stable spheres
+  std::vector<char> stable;       // n
+  std::vector<int32_t> contacts;  // n, number of active pairs
+  int64_t stable_count = 0;
+};
+Network find_network(const PackingLp &lp, const LpSolution &answer);
+// Largest |s| over stable spheres after taking out their mean; over all spheres if none is stable.
+double largest_step(const LpSolution &answer, const Network &network, int dim);
+// Contacts with unit vectors, gaps and forces (from the multipliers) of the packing p.
+ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer, const Network &network);
+
+// polish.cpp: closes the contacts by Newton steps on (positions, one common diameter factor) and projects the forces on
+// the null space of S^T. Returns false and changes nothing when a force would turn negative, another pair would
+// overlap, or nothing gets better.
+bool polish(Packing &p, ContactNetwork &contacts, int threads);
+
+// certificate.cpp: everything in the report that follows from packing and contacts alone.
+void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);
+
+}  // namespace jam

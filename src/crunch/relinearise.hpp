@@ -1,0 +1,25 @@
+// The re-linearising interior point: one barrier path for the true, curved problem instead of one for each LP.
+#pragma once
+#include "core/monitor.hpp"
+#include "core/packing.hpp"
+#include "lp/newton_system.hpp"
+
+namespace jam {
+
+struct RelineariseControl {
+  double target = 1e-9;      // stop when the duality gap, in units of Gamma, is below this
+  int max_factorisations = 400;
+  int threads = 1;
+  double wall_time = 1e300;  // of the monitor's clock
+};
+
+struct RelineariseResult {
+  bool reached = false;      // gap below target with balanced forces
+  double gap = 0.0;
+  int factorisations = 0;
+};
+
+// Moves p (always without overlap) towards its jamming point.
+RelineariseResult relinearise(Packing &p, const RelineariseControl &control, NewtonSystem &system, Monitor &monitor);
+
+}  // namespace jam

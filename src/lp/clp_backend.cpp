@@ -1,0 +1,62 @@
+// The packing LP by Clp's dual simplex: the independent check. The only file that includes Clp.
+#include <ClpSimplex.hpp>
+#include <CoinMessageHandler.hpp>
+#include <CoinPackedMatrix.hpp>
+
+#include <cmath>
+
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+// Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so the objective is -g.
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds) {
+  const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
+  std::vector<int> row_of, column_of;
+  std::vector<double> value;
+  for (int k = 0; k < rows; ++k) {
+    const int i = lp.pairs->i[k], j = lp.pairs->j[k];
+    for (int c = 0; c < d && i != j; ++c) {
+      const double a = lp.a[static_cast<size_t>(k) * d + c];
+      row_of.insert(row_of.end(), {k, k});
+      column_of.insert(column_of.end(), {i * d + c, j * d + c});
+      value.insert(value.end(), {a, -a});
+    }
+    row_of.push_back(k), column_of.push_back(columns - 1), value.push_back(-1.0);
+  }
+  // Triples with the same row and column (images of one pair never share a row) do not occur.
+  CoinPackedMatrix matrix(true, row_of.data(), column_of.data(), value.data(), static_cast<CoinBigIndex>(value.size()));
+  std::vector<double> low(columns, -lp.bound), high(columns, lp.bound), cost(columns, 0.0), row_low(rows), row_high(rows, COIN_DBL_MAX);
+  if (!std::isfinite(lp.bound)) {
+    std::fill(low.begin(), low.end(), -COIN_DBL_MAX);
+    std::fill(high.begin(), high.end(), COIN_DBL_MAX);
+  }
+  low.back() = -COIN_DBL_MAX, high.back() = COIN_DBL_MAX, cost.back() = -1.0;
+  for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k];
+
+  ClpSimplex model;
+  CoinMessageHandler silent;
+  silent.setLogLevel(0);
+  model.passInMessageHandler(&silent);
+  model.setLogLevel(0);
+  model.loadProblem(matrix, low.data(), high.data(), cost.data(), row_low.data(), row_high.data());
+  model.setPrimalTolerance(tolerance);
+  model.setDualTolerance(tolerance);
+  if (std::isfinite(seconds)) model.setMaximumWallSeconds(seconds);
+  LpSolution out;
+  model.dual();
+  out.solved = model.status() == 0;
+  out.iterations = model.numberIterations();
+  const double *x = model.primalColumnSolution(), *dual = model.dualRowSolution(), *activity = model.primalRowSolution();
+  out.s.assign(x, x + columns - 1);
+  out.g = x[columns - 1];
+  out.y.resize(rows);
+  out.w.resize(rows);
+  for (int k = 0; k < rows; ++k) {
+    out.y[k] = std::max(dual[k], 0.0);
+    out.w[k] = lp.c[k] + activity[k];
+  }
+  return out;
+}
+
+}  // namespace jam

@@ -1,0 +1,244 @@
+#include "lp/interior_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+
+void InteriorPoint::Direction::resize(size_t rows, size_t unknowns) {
+  for (auto *v : {&s, &zu, &zv}) v->resize(unknowns);
+  for (auto *v : {&y, &w}) v->resize(rows);
+}
+
+void InteriorPoint::Direction::add(const Direction &o) {
+  for (size_t k = 0; k < s.size(); ++k) s[k] += o.s[k], zu[k] += o.zu[k], zv[k] += o.zv[k];
+  for (size_t k = 0; k < y.size(); ++k) y[k] += o.y[k], w[k] += o.w[k];
+  g += o.g;
+}
+
+// Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly; y on the central path of
+// that point (all products equal, sum 1); the bounds share the mean product.
+void InteriorPoint::start() {
+  const PackingLp &lp = *lp_;
+  box_ = std::isfinite(lp.bound);
+  rows_ = lp.rows();
+  unknowns_ = static_cast<size_t>(lp.n) * lp.dim;
+  for (auto *v : {&s_, &rd_, &diagonal_, &rhs_, &targets_u_, &targets_v_}) v->assign(unknowns_, 0.0);
+  for (auto *v : {&y_, &w_, &rp_, &weight_, &row_, &targets_}) v->assign(rows_, 0.0);
+  for (auto *d : {&main_, &extra_, &trial_}) d->resize(rows_, unknowns_);
+  std::vector<double> sorted = lp.c;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
+  const double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.03 * (box_ ? std::min(1.0, lp.bound) : 1.0));
+  g_ = smallest - room;
+  double inverse = 0.0;
+  for (size_t k = 0; k < rows_; ++k) {
+    w_[k] = lp.c[k] - g_;
+    inverse += 1.0 / w_[k];
+  }
+  const double mu = 1.0 / inverse;
+  for (size_t k = 0; k < rows_; ++k) y_[k] = mu / w_[k];
+  const double z = box_ ? mu / lp.bound : 0.0;
+  gap_scale_ = mu * static_cast<double>(rows_);
+  u_.assign(unknowns_, lp.bound);
+  v_.assign(unknowns_, lp.bound);
+  zu_.assign(unknowns_, z);
+  zv_.assign(unknowns_, z);
+}
+
+void InteriorPoint::residuals() {
+  system_.transpose_times(lp_->a.data(), y_.data(), rd_.data());
+  double scale = 0.0, worst = 0.0, sum = 0.0;
+  for (size_t k = 0; k < unknowns_; ++k) {
+    rd_[k] += zv_[k] - zu_[k];
+    worst = std::max(worst, std::fabs(rd_[k]));
+  }
+  const int d = lp_->dim;
+  for (size_t k = 0; k < rows_; ++k) {
+    double a2 = 0.0;
+    for (int c = 0; c < d; ++c) a2 += lp_->a[k * d + c] * lp_->a[k * d + c];
+    scale += y_[k] * std::sqrt(a2);
+    sum += y_[k];
+  }
+  dual_norm_ = scale > 0.0 ? worst * static_cast<double>(unknowns_) / scale : worst;
+  rg_ = 1.0 - sum;
+  system_.rows_times(lp_->a.data(), s_.data(), row_.data());
+  for (size_t k = 0; k < rows_; ++k) rp_[k] = lp_->c[k] + row_[k] - g_ - w_[k];
+}
+
+double InteriorPoint::complementarity() const {
+  double sum = 0.0;
+  for (size_t k = 0; k < rows_; ++k) sum += y_[k] * w_[k];
+  if (box_)
+    for (size_t k = 0; k < unknowns_; ++k) sum += u_[k] * zu_[k] + v_[k] * zv_[k];
+  return sum;
+}
+
+bool InteriorPoint::converged() const {
+  const double gap = complementarity();
+  if (dual_norm_ > (gap > control_.tolerance ? 1e-3 : control_.balance) || std::fabs(rg_) > 1e-9) return false;
+  return gap <= control_.tolerance || (control_.early_fraction > 0 && g_ > 0 && gap <= control_.early_fraction * g_);
+}
+
+void InteriorPoint::weights() {
+  double mean = 0.0;
+  for (size_t k = 0; k < rows_; ++k) {
+    weight_[k] = y_[k] / w_[k];
+    mean += weight_[k];
+  }
+  // Without bounds translations (and spheres that no row holds) need a proximal diagonal: it leaves the fixed point alone.
+  const double ridge = 1e-12 * mean / static_cast<double>(unknowns_);
+  for (size_t k = 0; k < unknowns_; ++k) diagonal_[k] = ridge + (box_ ? zu_[k] / u_[k] + zv_[k] / v_[k] : 0.0);
+}
+
+void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv,
+                              bool full, Direction &out) {
+  double h = full ? rg_ : 0.0;
+  for (size_t k = 0; k < rows_; ++k) {
+    row_[k] = rc[k] / w_[k] - (full ? weight_[k] * rp_[k] : 0.0);
+    h -= row_[k];
+  }
+  system_.transpose_times(lp_->a.data(), row_.data(), rhs_.data());
+  for (size_t k = 0; k < unknowns_; ++k) {
+    if (full) rhs_[k] += rd_[k];
+    if (box_) rhs_[k] += rcv[k] / v_[k] - rcu[k] / u_[k];
+  }
+  system_.solve(rhs_.data(), h, out.s.data(), &out.g);
+  system_.rows_times(lp_->a.data(), out.s.data(), out.w.data());
+  for (size_t k = 0; k < rows_; ++k) {
+    out.w[k] += (full ? rp_[k] : 0.0) - out.g;
+    out.y[k] = rc[k] / w_[k] - weight_[k] * out.w[k];
+  }
+  if (box_)
+    for (size_t k = 0; k < unknowns_; ++k) {
+      out.zu[k] = (rcu[k] + zu_[k] * out.s[k]) / u_[k];
+      out.zv[k] = (rcv[k] - zv_[k] * out.s[k]) / v_[k];
+    }
+}
+
+InteriorPoint::Steps InteriorPoint::longest(const Direction &d) const {
+  Steps a{1e30, 1e30};
+  const auto limit = [](double x, double dx, double &step) {
+    if (dx < 0.0) step = std::min(step, -x / dx);
+  };
+  for (size_t k = 0; k < rows_; ++k) {
+    limit(w_[k], d.w[k], a.primal);
+    limit(y_[k], d.y[k], a.dual);
+  }
+  if (box_)
+    for (size_t k = 0; k < unknowns_; ++k) {
+      limit(u_[k], -d.s[k], a.primal);
+      limit(v_[k], d.s[k], a.primal);
+      limit(zu_[k], d.zu[k], a.dual);
+      limit(zv_[k], d.zv[k], a.dual);
+    }
+  return {std::min(1.0, a.primal), std::min(1.0, a.dual)};
+}
+
+double InteriorPoint::mu_after(const Direction &d, const Steps &a) const {
+  double sum = 0.0;
+  for (size_t k = 0; k < rows_; ++k) sum += (w_[k] + a.primal * d.w[k]) * (y_[k] + a.dual * d.y[k]);
+  if (box_)
+    for (size_t k = 0; k < unknowns_; ++k)
+      sum += (u_[k] - a.primal * d.s[k]) * (zu_[k] + a.dual * d.zu[k]) + (v_[k] + a.primal * d.s[k]) * (zv_[k] + a.dual * d.zv[k]);
+  return sum / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
+}
+
+void InteriorPoint::predictor_corrector(Direction &d) {
+  for (size_t k = 0; k < rows_; ++k) targets_[k] = -y_[k] * w_[k];
+  if (box_)
+    for (size_t k = 0; k < unknowns_; ++k) targets_u_[k] = -u_[k] * zu_[k], targets_v_[k] = -v_[k] * zv_[k];
+  direction(targets_, targets_u_, targets_v_, true, d);
+  const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
+  const double ratio = mu_after(d, longest(d)) / mu;
+  const double target = std::max(ratio * ratio * ratio, 1e-8) * mu;
+  for (size_t k = 0; k < rows_; ++k) targets_[k] = target - y_[k] * w_[k] - d.w[k] * d.y[k];
+  if (box_)
+    for (size_t k = 0; k < unknowns_; ++k) {
+      targets_u_[k] = target - u_[k] * zu_[k] + d.s[k] * d.zu[k];
+      targets_v_[k] = target - v_[k] * zv_[k] - d.s[k] * d.zv[k];
+    }
+  direction(targets_, targets_u_, targets_v_, true, d);
+  centrality_correctors(d, target);
+}
+
+// Each corrector pulls products that a longer step would leave outside [0.1, 10] mu back to that band, and is kept
+// only if it lengthens the step.
+void InteriorPoint::centrality_correctors(Direction &d, double mu) {
+  const auto pull = [mu](double product) {
+    const double inside = std::min(std::max(product, 0.1 * mu), 10.0 * mu);
+    return std::max(inside - product, -10.0 * mu);
+  };
+  for (int round = 0; round < control_.correctors; ++round) {
+    const Steps now = longest(d);
+    if (now.primal > 0.9 && now.dual > 0.9) return;
+    const Steps aim{std::min(1.0, now.primal + 0.3), std::min(1.0, now.dual + 0.3)};
+    for (size_t k = 0; k < rows_; ++k) targets_[k] = pull((w_[k] + aim.primal * d.w[k]) * (y_[k] + aim.dual * d.y[k]));
+    if (box_)
+      for (size_t k = 0; k < unknowns_; ++k) {
+        targets_u_[k] = pull((u_[k] - aim.primal * d.s[k]) * (zu_[k] + aim.dual * d.zu[k]));
+        targets_v_[k] = pull((v_[k] + aim.primal * d.s[k]) * (zv_[k] + aim.dual * d.zv[k]));
+      }
+    direction(targets_, targets_u_, targets_v_, false, extra_);
+    trial_ = d;
+    trial_.add(extra_);
+    const Steps better = longest(trial_);
+    if (better.primal + better.dual < now.primal + now.dual + 0.03) return;
+    std::swap(d, trial_);
+  }
+}
+
+void InteriorPoint::move(const Direction &d, const Steps &a) {
+  for (size_t k = 0; k < rows_; ++k) {
+    w_[k] += a.primal * d.w[k];
+    y_[k] += a.dual * d.y[k];
+  }
+  for (size_t k = 0; k < unknowns_; ++k) {
+    s_[k] += a.primal * d.s[k];
+    if (!box_) continue;
+    u_[k] -= a.primal * d.s[k];
+    v_[k] += a.primal * d.s[k];
+    zu_[k] += a.dual * d.zu[k];
+    zv_[k] += a.dual * d.zv[k];
+  }
+  g_ += a.primal * d.g;
+}
+
+LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor) {
+  lp_ = &lp;
+  control_ = control;
+  start();
+  LpSolution out;
+  const int before = system_.factorisations;
+  double best_merit = std::numeric_limits<double>::infinity();
+  int idle = 0;
+  for (;; ++out.iterations) {
+    residuals();
+    const double gap = complementarity();
+    if (monitor) monitor->log(JAM_LOG_DEBUG, "ipm %2d gap %.2e balance %.1e sum_y %.1e g %.15f", out.iterations, gap, dual_norm_, rg_, g_);
+    if (converged()) {
+      out.solved = true;
+      break;
+    }
+    // Nothing more to win: rounding rules. Good enough if the gap is near the tolerance all the same.
+    const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
+    idle = merit < 0.7 * best_merit ? 0 : idle + 1;
+    best_merit = std::min(best_merit, merit);
+    if (idle >= 6 || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
+      out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= control.balance;
+      break;
+    }
+    weights();
+    if (!system_.factorise(lp.a.data(), weight_.data(), diagonal_.data())) break;
+    predictor_corrector(main_);
+    Steps a = longest(main_);
+    if (!std::isfinite(main_.g) || !(a.primal > 0.0) || !(a.dual > 0.0)) break;
+    const double keep = 1.0 - std::min(0.05, std::max(1e-6, 0.1 * gap));
+    move(main_, {a.primal < 1.0 ? keep * a.primal : 1.0, a.dual < 1.0 ? keep * a.dual : 1.0});
+  }
+  out.factorisations = system_.factorisations - before;
+  out.s = s_, out.g = g_, out.y = y_, out.w = w_;
+  return out;
+}
+
+}  // namespace jam

@@ -1,0 +1,62 @@
+// Primal-dual interior point for the packing LP: Mehrotra's predictor-corrector (SIAM J. Optim. 2, 575 (1992)) with
+// Gondzio's multiple centrality correctors (Comput. Optim. Appl. 6, 137 (1996)), since here a triangular solve costs
+// a few percent of a factorisation.
+#pragma once
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "lp/newton_system.hpp"
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+struct IpmControl {
+  double tolerance = 1e-15;   // on sum of complementarity products, which is the duality gap in units of Gamma
+  double early_fraction = 0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a chain)
+  double balance = 1e-6;      // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
+  int max_iterations = 80;
+  int correctors = 3;
+};
+
+class InteriorPoint {
+ public:
+  explicit InteriorPoint(NewtonSystem &system) : system_(system) {}
+  // system must hold the graph of lp.pairs. The answer carries `solved` when the tolerances were met or when no
+  // further digit could be won but the gap is within 1e3 of the tolerance. monitor may be NULL.
+  LpSolution solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor = nullptr);
+
+ private:
+  struct Direction {
+    std::vector<double> s, y, w, zu, zv;
+    double g = 0.0;
+    void resize(size_t rows, size_t unknowns);
+    void add(const Direction &other);
+  };
+  struct Steps {
+    double primal, dual;
+  };
+  void start();
+  void residuals();
+  double complementarity() const;
+  bool converged() const;
+  void weights();
+  // Solves for targets rc (rows) and rcu, rcv (bounds); `full`: with the primal and dual residuals.
+  void direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv, bool full, Direction &out);
+  Steps longest(const Direction &d) const;
+  double mu_after(const Direction &d, const Steps &a) const;
+  void predictor_corrector(Direction &d);
+  void centrality_correctors(Direction &d, double mu_target);
+  void move(const Direction &d, const Steps &a);
+
+  NewtonSystem &system_;
+  const PackingLp *lp_ = nullptr;
+  IpmControl control_;
+  bool box_ = false;
+  size_t rows_ = 0, unknowns_ = 0;
+  double g_ = 0.0, rg_ = 0.0, dual_norm_ = 0.0, gap_scale_ = 1.0;
+  std::vector<double> s_, y_, w_, u_, v_, zu_, zv_;
+  std::vector<double> rd_, rp_, weight_, diagonal_, rhs_, row_, targets_, targets_u_, targets_v_;
+  Direction main_, extra_, trial_;
+};
+
+}  // namespace jam

@@ -1,0 +1,153 @@
+#include "lp/newton_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/monitor.hpp"
+
+namespace jam {
+
+void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int threads) {
+  const double t0 = now_seconds();
+  dim_ = dim;
+  n_ = n;
+  pair_i_ = pairs.i;
+  pair_j_ = pairs.j;
+  edge_of_pair_.resize(pairs.size());
+  std::vector<int32_t> ei, ej;
+  // Pairs are sorted by (i, j, image): images of one pair are neighbours in the list.
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k]) {
+      edge_of_pair_[k] = -1;
+      continue;
+    }
+    if (ei.empty() || ei.back() != pairs.i[k] || ej.back() != pairs.j[k]) {
+      ei.push_back(pairs.i[k]);
+      ej.push_back(pairs.j[k]);
+    }
+    edge_of_pair_[k] = static_cast<int32_t>(ei.size()) - 1;
+  }
+  edges_ = ei.size();
+  cholesky_.analyse(dim, n, ei.data(), ej.data(), edges_, threads);
+  const size_t block = static_cast<size_t>(dim) * dim, unknowns = static_cast<size_t>(n) * dim;
+  diag_.resize(block * n);
+  off_.resize(block * edges_);
+  box_.resize(unknowns);
+  for (auto *v : {&column_, &column_solved_, &work_, &residual_, &correction_}) v->resize(unknowns);
+  row_work_.resize(pairs.size());
+  seconds_assemble += now_seconds() - t0;
+}
+
+template <int D>
+void NewtonSystem::assemble(const double *a, const double *weight) {
+  constexpr int B = D * D;
+  std::fill(diag_.begin(), diag_.end(), 0.0);
+  std::fill(off_.begin(), off_.end(), 0.0);
+  for (size_t k = 0; k < pair_i_.size(); ++k) {
+    if (edge_of_pair_[k] < 0) continue;
+    double *di = &diag_[static_cast<size_t>(pair_i_[k]) * B], *dj = &diag_[static_cast<size_t>(pair_j_[k]) * B];
+    double *e = &off_[static_cast<size_t>(edge_of_pair_[k]) * B];
+    const double *row = a + k * D;
+    for (int p = 0; p < D; ++p) {
+      const double wp = weight[k] * row[p];
+      for (int q = 0; q < D; ++q) {
+        const double v = wp * row[q];
+        di[p * D + q] += v;
+        dj[p * D + q] += v;
+        e[p * D + q] -= v;
+      }
+    }
+  }
+  for (int32_t i = 0; i < n_; ++i)
+    for (int p = 0; p < D; ++p) diag_[static_cast<size_t>(i) * B + p * (D + 1)] += box_[static_cast<size_t>(i) * D + p];
+}
+
+bool NewtonSystem::factorise(const double *a, const double *weight, const double *box) {
+  const double t0 = now_seconds();
+  a_ = a;
+  weight_ = weight;
+  std::copy(box, box + box_.size(), box_.begin());
+  switch (dim_) {
+    case 2: assemble<2>(a, weight); break;
+    case 3: assemble<3>(a, weight); break;
+    case 4: assemble<4>(a, weight); break;
+    case 5: assemble<5>(a, weight); break;
+    case 6: assemble<6>(a, weight); break;
+    case 7: assemble<7>(a, weight); break;
+    case 8: assemble<8>(a, weight); break;
+    default: fail(JAM_E_INTERNAL, "dimension %d in NewtonSystem", dim_);
+  }
+  const double t1 = now_seconds();
+  seconds_assemble += t1 - t0;
+  const int replaced = cholesky_.factorise(diag_.data(), off_.data());
+  ++factorisations;
+  const double t2 = now_seconds();
+  seconds_factor += t2 - t1;
+  if (replaced < 0) return false;
+  transpose_times(a, weight, column_.data());
+  delta_ = 0.0;
+  for (size_t k = 0; k < pair_i_.size(); ++k) delta_ += weight[k];
+  column_solved_ = column_;
+  cholesky_.solve(column_solved_.data());
+  double dot = 0.0;
+  for (size_t k = 0; k < column_.size(); ++k) dot += column_[k] * column_solved_[k];
+  schur_ = delta_ - dot;
+  // In exact arithmetic schur > 0; what rounding leaves below eps * delta says nothing.
+  if (!(schur_ > 1e-14 * delta_)) schur_ = 1e-14 * delta_;
+  seconds_solve += now_seconds() - t2;
+  return std::isfinite(schur_);
+}
+
+void NewtonSystem::solve_once(const double *rhs, double h, double *ds, double *dg) {
+  std::copy(rhs, rhs + column_.size(), ds);
+  cholesky_.solve(ds);
+  double dot = 0.0;
+  for (size_t k = 0; k < column_.size(); ++k) dot += column_[k] * ds[k];
+  *dg = (h + dot) / schur_;
+  for (size_t k = 0; k < column_.size(); ++k) ds[k] += *dg * column_solved_[k];
+}
+
+void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, int refine) {
+  const double t0 = now_seconds();
+  solve_once(rhs, h, ds, dg);
+  for (int step = 0; step < refine; ++step) {
+    rows_times(a_, ds, row_work_.data());
+    double rest = h;
+    for (size_t k = 0; k < row_work_.size(); ++k) {
+      row_work_[k] = weight_[k] * (row_work_[k] - *dg);
+      rest += row_work_[k];
+    }
+    transpose_times(a_, row_work_.data(), work_.data());
+    for (size_t k = 0; k < work_.size(); ++k) residual_[k] = rhs[k] - work_[k] - box_[k] * ds[k];
+    double dg_more;
+    solve_once(residual_.data(), rest, correction_.data(), &dg_more);
+    for (size_t k = 0; k < work_.size(); ++k) ds[k] += correction_[k];
+    *dg += dg_more;
+  }
+  seconds_solve += now_seconds() - t0;
+}
+
+void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {
+  for (size_t k = 0; k < pair_i_.size(); ++k) {
+    const double *si = s + static_cast<size_t>(pair_i_[k]) * dim_, *sj = s + static_cast<size_t>(pair_j_[k]) * dim_, *row = a + k * dim_;
+    double sum = 0.0;
+    for (int c = 0; c < dim_; ++c) sum += row[c] * (si[c] - sj[c]);
+    out[k] = sum;
+  }
+}
+
+void NewtonSystem::transpose_times(const double *a, const double *y, double *out) const {
+  std::fill(out, out + static_cast<size_t>(n_) * dim_, 0.0);
+  for (size_t k = 0; k < pair_i_.size(); ++k) {
+    double *oi = out + static_cast<size_t>(pair_i_[k]) * dim_, *oj = out + static_cast<size_t>(pair_j_[k]) * dim_;
+    const double *row = a + k * dim_;
+    for (int c = 0; c < dim_; ++c) {
+      const double v = y[k] * row[c];
+      oi[c] += v;
+      oj[c] -= v;
+    }
+  }
+}
+
+}  // namespace jam

@@ -1,0 +1,51 @@
+// The linear system of every interior-point step on the particle graph, shared by the LP solver and the
+// re-linearising crunch:
+//     [ A^T D A + diag(box)   -A^T D 1 ] [ds]   [R]
+//     [ -1^T D A               1^T D 1 ] [dg] = [h]
+// A^T D A has one d x d block a particle and a pair of particles; the Gamma column goes by a Schur complement.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/pairs.hpp"
+#include "lp/block_cholesky.hpp"
+
+namespace jam {
+
+class NewtonSystem {
+ public:
+  // Symbolic part; reused by every factorise() until the pairs change. Images of one pair share a block.
+  void set_graph(int dim, int32_t n, const PairList &pairs, int threads);
+  // a: (pairs, dim) rows; weight: D of each pair; box: n * dim values added to the diagonal. Keeps the pointers
+  // a and weight and a copy of box until the next call. False when the numbers are no longer finite.
+  bool factorise(const double *a, const double *weight, const double *box);
+  // Solves with `refine` steps of iterative refinement against the unassembled operator.
+  void solve(const double *rhs, double h, double *ds, double *dg, int refine = 1);
+
+  // out[k] = a_k . (s_i - s_j)
+  void rows_times(const double *a, const double *s, double *out) const;
+  // out += sum_k y_k a_k on i, minus on j (out is zeroed first)
+  void transpose_times(const double *a, const double *y, double *out) const;
+
+  int factorisations = 0;
+  double seconds_factor = 0.0, seconds_assemble = 0.0, seconds_solve = 0.0;
+  const BlockCholesky &cholesky() const { return cholesky_; }
+
+ private:
+  template <int D>
+  void assemble(const double *a, const double *weight);
+  void solve_once(const double *rhs, double h, double *ds, double *dg);
+
+  int dim_ = 0;
+  int32_t n_ = 0;
+  std::vector<int32_t> pair_i_, pair_j_, edge_of_pair_;  // edge -1: an image of one sphere with itself
+  size_t edges_ = 0;
+  BlockCholesky cholesky_;
+  std::vector<double> diag_, off_, box_;      // blocks
+  std::vector<double> column_, column_solved_;  // q = A^T D 1 and K^-1 q
+  double delta_ = 0.0, schur_ = 0.0;           // 1^T D 1, and minus q . K^-1 q
+  const double *a_ = nullptr, *weight_ = nullptr;
+  std::vector<double> row_work_, work_, residual_, correction_;
+};
+
+}  // namespace jam

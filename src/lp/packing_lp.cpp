@@ -1,0 +1,64 @@
+#include "lp/packing_lp.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+
+PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit) {
+  PackingLp lp;
+  const int d = p.dim;
+  lp.dim = d;
+  lp.n = static_cast<int32_t>(p.n());
+  lp.pairs = &pairs;
+  lp.a.resize(pairs.size() * d);
+  lp.c.resize(pairs.size());
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const double r2 = pair_vector(p, pairs, k, r);
+    const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
+    const double length = std::sqrt(r2);
+    lp.c[k] = (length - sigma) * (length + sigma) / (sigma * sigma);
+    const double scale = pairs.i[k] == pairs.j[k] ? 0.0 : 2.0 * sigma_unit / (sigma * sigma);
+    for (int c = 0; c < d; ++c) lp.a[k * d + c] = scale * r[c];
+  }
+  return lp;
+}
+
+LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
+  LpCheck out{0.0, 0.0, 0.0, 0.0};
+  const int d = lp.dim;
+  const PairList &pairs = *lp.pairs;
+  std::vector<double> force(static_cast<size_t>(lp.n) * d, 0.0);
+  double sum_y = 0.0, sum_yc = 0.0, sum_ya = 0.0;
+  for (size_t k = 0; k < lp.rows(); ++k) {
+    const double *a = &lp.a[k * d];
+    const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
+    double row = lp.c[k] - x.g, a2 = 0.0;
+    for (int c = 0; c < d; ++c) {
+      row += a[c] * (x.s[i + c] - x.s[j + c]);
+      force[i + c] += x.y[k] * a[c];
+      force[j + c] -= x.y[k] * a[c];
+      a2 += a[c] * a[c];
+    }
+    out.infeasibility = std::max(out.infeasibility, std::max(-row, -x.y[k]));
+    sum_y += x.y[k];
+    sum_yc += x.y[k] * lp.c[k];
+    sum_ya += x.y[k] * std::sqrt(a2);
+  }
+  double unbalanced = 0.0, at_bound = 0.0;
+  for (size_t k = 0; k < force.size(); ++k) {
+    out.infeasibility = std::max(out.infeasibility, std::fabs(x.s[k]) - lp.bound);
+    if (std::fabs(x.s[k]) > 0.999 * lp.bound)
+      at_bound += std::fabs(force[k]);  // the bound carries it
+    else
+      unbalanced = std::max(unbalanced, std::fabs(force[k]));
+  }
+  const double carrying = static_cast<double>(lp.dim) * lp.n;  // about as many contacts as degrees of freedom
+  out.balance = sum_ya > 0.0 ? unbalanced * carrying / sum_ya : 0.0;
+  out.gamma = std::fabs(sum_y - 1.0);
+  out.gap = sum_yc + (std::isfinite(lp.bound) ? lp.bound * at_bound : 0.0) - x.g;
+  return out;
+}
+
+}  // namespace jam

@@ -1,0 +1,50 @@
+// The linear program of one crunch step, and its answer.
+//
+// Units: lengths in mean diameters, each row divided by sigma_ij^2, so that with s the displacements and
+// g = Gamma - 1 the published LP (Artiaco et al., Phys. Rev. E 106, 055310 (2022), eq. 3) reads
+//     maximise g   subject to   w_e = c_e + a_e . (s_i - s_j) - g >= 0,   |s_ik| <= bound,
+//     a_e = 2 r_ij / sigma_ij^2,   c_e = |r_ij|^2 / sigma_ij^2 - 1.
+// Multipliers y_e = lambda_e sigma_e^2 then obey sum_e y_e = 1 and sum_j y_e a_e = 0 on every particle.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/pairs.hpp"
+
+namespace jam {
+
+struct PackingLp {
+  int dim = 3;
+  int32_t n = 0;
+  const PairList *pairs = nullptr;
+  std::vector<double> a;  // (pairs, dim)
+  std::vector<double> c;  // pairs
+  double bound = std::numeric_limits<double>::infinity();  // on each |s_ik|, mean diameters
+  size_t rows() const { return c.size(); }
+};
+
+struct LpSolution {
+  std::vector<double> s;  // (n, dim)
+  double g = 0.0;
+  std::vector<double> y, w;  // multipliers and slacks of the rows
+  int iterations = 0, factorisations = 0;
+  bool solved = false;  // the solver's own word; check_lp decides
+};
+
+// Residuals of an answer, computed here from the LP alone and not by a solver.
+struct LpCheck {
+  double infeasibility;  // largest violation of a row or bound
+  double balance;        // largest |sum y a|_k of a particle whose bounds are slack, over the mean of y |a|
+  double gamma;          // |sum y - 1|
+  double gap;            // upper bound - g, from sum y c + bound * sum |A^T y|
+};
+
+// Rows from the true distances of p. sigma_unit: the length that counts as 1.
+PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit);
+LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
+
+// Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call.
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds);
+
+}  // namespace jam

@@ -1,0 +1,52 @@
+"""Writes every generated file of the bindings from include/jam/jam.h. With --check only says what differs.
+
+usage: generate.py [--check] [--header FILE] [--swig PROGRAM]
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import emit_c
+import emit_fortran
+import emit_julia
+import emit_python
+import emit_swig
+from model import HeaderError, read_header
+
+ROOT = Path(__file__).resolve().parents[2]
+FILES = {
+    "bindings/julia/Jam/src/raw.jl": emit_julia.emit,
+    "bindings/fortran/jam.f90": emit_fortran.emit,
+    "bindings/python/jam_gen.i": emit_swig.emit,
+    "bindings/python/jam/_generated.py": emit_python.emit,
+    "tests/bindings/layout.c": emit_c.emit,
+}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--header", default=ROOT / "include/jam/jam.h")
+    parser.add_argument("--swig", default="swig")
+    args = parser.parse_args()
+    try:
+        api = read_header(args.header, args.swig)
+    except HeaderError as error:
+        sys.exit(f"{args.header}: {error}")
+    stale = []
+    for name, emit in FILES.items():
+        path, text = ROOT / name, emit(api)
+        if path.exists() and path.read_text() == text:
+            continue
+        stale.append(name)
+        if not args.check:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+    for name in stale:
+        print(("differs from the header: " if args.check else "written: ") + name)
+    if args.check and stale:
+        sys.exit("run: sh bindings/gen/regenerate.sh")
+
+
+if __name__ == "__main__":
+    main()

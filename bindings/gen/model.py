@@ -1,0 +1,242 @@
+"""Reads the public header into plain objects: `swig -xml` gives the declarations, the header text the comments.
+
+Everything that is generated starts from here, so this file holds the one table of types and the one place where the
+header's argument conventions (name + name_len, needed, view, options, callbacks) are recognised.
+"""
+import re
+import subprocess
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass, field
+from pathlib import Path
+
+# ctype: (bytes, Julia, Fortran, Python, numpy). Alignment equals size for all of them on LP64.
+TYPES = {
+    "double": (8, "Cdouble", "real(c_double)", "float", "float64"),
+    "int32_t": (4, "Int32", "integer(c_int32_t)", "int", "int32"),
+    "uint32_t": (4, "UInt32", "integer(c_int32_t)", "int", "uint32"),
+    "int64_t": (8, "Int64", "integer(c_int64_t)", "int", "int64"),
+    "uint64_t": (8, "UInt64", "integer(c_int64_t)", "int", "uint64"),
+    "size_t": (8, "Csize_t", "integer(c_size_t)", "int", "uint64"),
+    "char": (1, "Cchar", "character(kind=c_char)", "str", None),
+}
+ALIASES = {"jam_status": "int32_t"}  # typedefs of scalars in the header
+HANDLE = "jam_system"
+
+
+class HeaderError(Exception):
+    """The header has something that the rules of the project do not foresee."""
+
+
+@dataclass
+class Type:
+    base: str    # "double", "jam_report", "void", ...
+    stars: int   # levels of pointer
+    const: bool  # of what is pointed to (or of the innermost)
+
+    @property
+    def scalar(self):
+        return ALIASES.get(self.base, self.base)
+
+    def c(self):
+        return ("const " if self.const else "") + self.base + " " + "*" * self.stars
+
+
+@dataclass
+class Arg:
+    name: str
+    type: Type
+    role: str = ""  # see classify()
+
+
+@dataclass
+class Function:
+    name: str
+    result: Type
+    args: list
+    doc: str = ""
+
+
+@dataclass
+class Member:
+    name: str
+    type: str
+    offset: int = 0
+    doc: str = ""
+
+
+@dataclass
+class Struct:
+    name: str
+    members: list
+    size: int = 0
+    doc: str = ""
+
+
+@dataclass
+class Enum:
+    name: str
+    items: list  # (name, value, doc)
+    doc: str = ""
+
+
+@dataclass
+class Callback:
+    name: str
+    result: Type
+    args: list
+    doc: str = ""
+
+
+@dataclass
+class Api:
+    constants: list = field(default_factory=list)  # (name, value)
+    enums: list = field(default_factory=list)
+    structs: list = field(default_factory=list)
+    callbacks: list = field(default_factory=list)
+    functions: list = field(default_factory=list)
+
+    def struct(self, name):
+        return next((s for s in self.structs if s.name == name), None)
+
+
+def parse_type(text):
+    """SWIG's type string, e.g. p.q(const).double, to a Type."""
+    const, stars = False, 0
+    while True:
+        if text.startswith("p."):
+            stars, text = stars + 1, text[2:]
+        elif text.startswith("q(const)."):
+            const, text = True, text[9:]
+        else:
+            break
+    for word in ("struct ", "enum "):
+        text = text.removeprefix(word)
+    return Type(text, stars, const)
+
+
+def _attributes(node):
+    listing = node.find("attributelist")
+    return {} if listing is None else {a.get("name"): a.get("value") for a in listing.findall("attribute")}
+
+
+def _parms(node):
+    found = node.find("attributelist/parmlist")
+    for p in [] if found is None else found.findall("parm"):
+        a = _attributes(p)
+        if a["type"] != "void":
+            yield Arg(a.get("name", ""), parse_type(a["type"]))
+
+
+def _layout(struct):
+    at = align = 0
+    for m in struct.members:
+        size = TYPES[m.type][0]
+        at = (at + size - 1) // size * size
+        m.offset, at, align = at, at + size, max(align, size)
+    struct.size = (at + align - 1) // align * align
+
+
+def classify(args, callbacks, structs):
+    """Names the role of each argument by the header's conventions."""
+    names = {a.name: a for a in args}
+    for k, a in enumerate(args):
+        t, after = a.type, args[k + 1].name if k + 1 < len(args) else ""
+        if t.base == HANDLE:
+            a.role = "new_handle" if t.stars == 2 else "handle"
+        elif t.base in callbacks:
+            a.role = "callback"
+        elif t.base == "void":
+            a.role = "user"
+        elif t.stars == 1 and after == a.name + "_len" and args[k + 1].type.stars == 0:
+            a.role = "array_in" if t.const else "array_out"
+        elif t.base in structs:
+            a.role = "struct_in" if t.const else "struct_out"
+        elif t.base == "char" and t.stars == 1 and t.const:
+            a.role = "string"
+        elif t.stars == 2:
+            a.role = "view"
+        elif a.name.endswith("_len") and a.name[:-4] in names:
+            a.role = "view_len" if t.stars == 1 else "len"
+        elif t.stars == 1 and not t.const:
+            a.role = "scalar_out"  # `needed` among them
+        elif t.stars == 0 and t.scalar in TYPES:
+            a.role = "scalar"
+        else:
+            raise HeaderError(f"argument {a.name} of type {t.c()} follows no rule of the header")
+    return args
+
+
+def _clean(comment):
+    lines = [re.sub(r"^\s*\*? ?", "", line).rstrip() for line in comment.strip().splitlines()]
+    return "\n".join(lines).strip()
+
+
+def _comments(text):
+    """Doc comments by name: functions and types from the comment above, members and items from the one behind."""
+    docs = {}
+    comment = r"/\*((?:(?!\*/).)*)\*/\s*"
+    for m in re.finditer(comment + r"(?:JAM_API\s[^;(]*?\b(jam_\w+)\s*\(|typedef (?:struct|enum) (jam_\w+)|"
+                         r"typedef [^;(]*\(\*(jam_\w+)\)|typedef \w+ (jam_\w+);)", text, re.S):
+        docs[next(g for g in m.groups()[1:] if g)] = _clean(m.group(1))
+    for m in re.finditer(r"typedef (struct|enum) (jam_\w+) \{(.*?)\n\}", text, re.S):
+        pattern = r"\b(\w+);" if m.group(1) == "struct" else r"\b(JAM_\w+)\s*=\s*-?\d+,?"
+        for item in re.finditer(pattern + r"[ \t]*/\*((?:(?!\*/).)*)\*/", m.group(3), re.S):
+            docs[m.group(2), item.group(1)] = " ".join(_clean(item.group(2)).split())
+    return docs
+
+
+def read_header(header, swig="swig"):
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "jam.xml"
+        done = subprocess.run([swig, "-xml", "-module", "jam", "-o", str(out), str(header)], capture_output=True, text=True)
+        if done.returncode or not out.exists():
+            raise HeaderError(f"swig -xml failed: {done.stderr}")
+        root = ElementTree.parse(out).getroot()
+    docs = _comments(Path(header).read_text())
+    api = Api()
+    for node in root.iter():
+        if node.tag not in ("cdecl", "class", "enum", "constant"):
+            continue
+        a = _attributes(node)
+        name = a.get("name", "")
+        if node.tag == "constant" and name.startswith("JAM_"):
+            api.constants.append((name, int(a["value"])))
+        elif node.tag == "enum":
+            items = [_attributes(i) for i in node.findall("enumitem")]
+            api.enums.append(Enum(name, [(i["name"], int(i["enumvalue"]), docs.get((name, i["name"]), "")) for i in items],
+                                  docs.get(name, "")))
+        elif node.tag == "class" and name.startswith("jam_"):
+            members = []
+            for m in node.iter("cdecl"):
+                b = _attributes(m)
+                if b.get("kind") != "variable":
+                    continue
+                if b["type"] not in TYPES or b.get("decl"):
+                    raise HeaderError(f"{name}.{b['name']}: members are flat and of fixed width, not {b.get('decl')}{b['type']}")
+                members.append(Member(b["name"], b["type"], doc=docs.get((name, b["name"]), "")))
+            struct = Struct(name, members, doc=docs.get(name, ""))
+            _layout(struct)
+            api.structs.append(struct)
+        elif node.tag == "cdecl" and a.get("kind") == "typedef" and a.get("decl", "").startswith("p.f("):
+            api.callbacks.append(Callback(name, parse_type(a["type"]), list(_parms(node)), docs.get(name, "")))
+        elif node.tag == "cdecl" and a.get("kind") == "typedef" and a.get("decl") == "" and parse_type(a["type"]).base.startswith("p.f("):
+            raise HeaderError(f"callback typedef {name} not understood")
+        elif node.tag == "cdecl" and a.get("kind") == "function" and name.startswith("jam_"):
+            stars = a["decl"].rsplit(").", 1)[1].count("p.")
+            result = parse_type("p." * stars + a["type"])
+            api.functions.append(Function(name, result, list(_parms(node)), docs.get(name, "")))
+    callbacks, structs = {c.name for c in api.callbacks}, {s.name for s in api.structs}
+    for f in api.functions:
+        classify(f.args, callbacks, structs)
+    lower = [n.lower() for n in [c[0] for c in api.constants] + [i[0] for e in api.enums for i in e.items]
+             + [s.name for s in api.structs] + [f.name for f in api.functions] + [c.name for c in api.callbacks]]
+    twice = {n for n in lower if lower.count(n) > 1}
+    if twice:
+        raise HeaderError(f"names that Fortran cannot tell apart: {sorted(twice)}")
+    return api
+
+
+def options_init(api):
+    """{struct: init function} for the option structs."""
+    return {s.name: s.name + "_init" for s in api.structs if any(f.name == s.name + "_init" for f in api.functions)}

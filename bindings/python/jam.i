@@ -1,0 +1,170 @@
+// SWIG input of the raw Python layer: jam.raw holds every C function under its C name.
+// Arrays go through the buffer protocol, so nothing is copied here and no numpy header is needed. The GIL is released
+// around every call (swig -threads). A status below zero raises; above zero it is returned. The typemaps are tied to
+// the argument names of the header by jam_gen.i, which is generated.
+%module(package="jam") raw
+%{
+#include <string.h>
+#include "jam/jam.h"
+
+static PyObject *jam_error_factory = NULL; /* callable (status, text) -> exception */
+
+/* Raises the exception of a status below zero. An exception that a callback has already raised wins. */
+static void jam_raise(jam_status status) {
+  if (PyErr_Occurred()) return;
+  const char *text = jam_last_error();
+  if (!jam_error_factory) {
+    PyErr_SetString(PyExc_RuntimeError, text);
+    return;
+  }
+  PyObject *error = PyObject_CallFunction(jam_error_factory, "is", (int)status, text[0] ? text : jam_status_string(status));
+  if (error) {
+    PyErr_SetObject((PyObject *)Py_TYPE(error), error);
+    Py_DECREF(error);
+  }
+}
+
+/* A C-contiguous buffer whose items are of the kind (f, i, u; V for any) and size that C expects. */
+static int jam_buffer(PyObject *object, Py_buffer *view, int flags, const char *kind, size_t size, const char *name) {
+  memset(view, 0, sizeof *view);
+  if (object == Py_None) return 1;
+  if (PyObject_GetBuffer(object, view, flags | PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) return 0;
+  const char *format = view->format ? view->format : "B";
+  if (*format == '<' || *format == '=' || *format == '@') ++format;
+  const char *wanted = *kind == 'f' ? "d" : *kind == 'i' ? "ilq" : *kind == 'u' ? "ILQ" : *kind == 'c' ? "bBc" : NULL;
+  if ((size_t)view->itemsize != size || (wanted && (format[1] || !strchr(wanted, format[0])))) {
+    PyErr_Format(PyExc_TypeError, "%s: items of %zd bytes and format '%s' where C needs %zu bytes of kind '%s'", name,
+                 view->itemsize, format, size, kind);
+    PyBuffer_Release(view);
+    return 0;
+  }
+  return 1;
+}
+
+/* Progress trampoline: signals (Ctrl-C) first, then the user's callable. An exception stays set on this thread and is
+ * found when the call returns; the non-zero answer makes the library stop with a valid state. */
+static int32_t jam_on_progress(const jam_progress *progress, void *user) {
+  int32_t stop = 0;
+  PyGILState_STATE gil = PyGILState_Ensure();
+  if (PyErr_Occurred() || PyErr_CheckSignals() != 0) {
+    stop = 1;
+  } else if (user) {
+    jam_progress *copy = (jam_progress *)malloc(sizeof *copy);
+    PyObject *answer = NULL;
+    if (copy) {
+      *copy = *progress;
+      PyObject *proxy = SWIG_NewPointerObj(copy, SWIG_TypeQuery("jam_progress *"), SWIG_POINTER_OWN);
+      answer = proxy ? PyObject_CallFunctionObjArgs((PyObject *)user, proxy, NULL) : NULL;
+      Py_XDECREF(proxy);
+    }
+    const int truth = answer ? PyObject_IsTrue(answer) : -1;
+    stop = truth != 0;
+    Py_XDECREF(answer);
+  }
+  PyGILState_Release(gil);
+  return stop;
+}
+
+static void jam_on_log(int32_t level, const char *line, void *user) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  if (!PyErr_Occurred()) {
+    PyObject *answer = PyObject_CallFunction((PyObject *)user, "is", (int)level, line);
+    Py_XDECREF(answer); /* an exception stays set: the next progress report stops the call */
+  }
+  PyGILState_Release(gil);
+}
+%}
+
+%include <stdint.i>
+
+// ---- status: an exception below zero, or when a callback raised
+%typemap(out) jam_status {
+  if ($1 < 0 || PyErr_Occurred()) {
+    jam_raise($1);
+    SWIG_fail;
+  }
+  $result = PyLong_FromLong($1);
+}
+
+// ---- arrays in and out, as (name, name_len); FILL is a writable buffer of the caller, None only asks for the size
+%define IN_TYPE(T, KIND)
+%typemap(in, numinputs=1) (const T *IN, size_t IN_LEN) (Py_buffer view) {
+  if (!jam_buffer($input, &view, PyBUF_SIMPLE, KIND, sizeof(T), "$1_name")) SWIG_fail;
+  $1 = (T *)view.buf;
+  $2 = (size_t)view.len / sizeof(T);
+}
+%typemap(arginit) (const T *IN, size_t IN_LEN) { memset(&view$argnum, 0, sizeof view$argnum); }
+%typemap(freearg) (const T *IN, size_t IN_LEN) { PyBuffer_Release(&view$argnum); }
+%typemap(doc) (const T *IN, size_t IN_LEN) "$1_name: buffer of T"
+%enddef
+%define FILL_TYPE(T, KIND)
+%typemap(in, numinputs=1) (T *FILL, size_t FILL_LEN) (Py_buffer view) {
+  if (!jam_buffer($input, &view, PyBUF_WRITABLE, KIND, sizeof(T), "$1_name")) SWIG_fail;
+  $1 = (T *)view.buf;
+  $2 = (size_t)view.len / sizeof(T);
+}
+%typemap(arginit) (T *FILL, size_t FILL_LEN) { memset(&view$argnum, 0, sizeof view$argnum); }
+%typemap(freearg) (T *FILL, size_t FILL_LEN) { PyBuffer_Release(&view$argnum); }
+%enddef
+IN_TYPE(double, "f")
+IN_TYPE(int32_t, "i")
+IN_TYPE(int64_t, "i")
+IN_TYPE(uint64_t, "u")
+FILL_TYPE(double, "f")
+FILL_TYPE(int32_t, "i")
+FILL_TYPE(int64_t, "i")
+FILL_TYPE(uint64_t, "u")
+FILL_TYPE(size_t, "u")
+FILL_TYPE(char, "c")
+
+// ---- single results
+%define RESULT_TYPE(T, MAKE)
+%typemap(in, numinputs=0) T *RESULT (T temp) { temp = 0; $1 = &temp; }
+%typemap(argout) T *RESULT { $result = SWIG_Python_AppendOutput($result, MAKE(*$1)); }
+%enddef
+RESULT_TYPE(size_t, PyLong_FromSize_t)
+RESULT_TYPE(int32_t, PyLong_FromLong)
+RESULT_TYPE(int64_t, PyLong_FromLongLong)
+RESULT_TYPE(uint64_t, PyLong_FromUnsignedLongLong)
+RESULT_TYPE(double, PyFloat_FromDouble)
+
+// ---- views: (address, number of elements); who keeps the address must keep the system
+%typemap(in, numinputs=0) (const double **VIEW, size_t *VIEW_LEN) (const double *data, size_t count) {
+  data = NULL; count = 0; $1 = (void *)&data; $2 = &count;
+}
+%typemap(argout) (const double **VIEW, size_t *VIEW_LEN) {
+  $result = SWIG_Python_AppendOutput($result, Py_BuildValue("(NN)", PyLong_FromVoidPtr((void *)*$1), PyLong_FromSize_t(*$2)));
+}
+
+// ---- the handle: owned by its Python proxy
+%nodefaultctor jam_system;
+typedef struct jam_system {} jam_system;
+%extend jam_system { ~jam_system() { jam_destroy($self); } }
+%ignore jam_destroy;
+%typemap(in, numinputs=0) jam_system **out (jam_system *made) { made = NULL; $1 = &made; }
+%typemap(argout) jam_system **out {
+  $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj(*$1, SWIGTYPE_p_jam_system, SWIG_POINTER_OWN));
+}
+
+// ---- callbacks: the caller keeps the callable alive
+%ignore jam_set_progress;
+%ignore jam_set_log;
+%inline %{
+/* callable(progress) on the calling thread, or None: Ctrl-C alone is looked at. */
+jam_status set_progress(jam_system *sys, PyObject *callable) {
+  return jam_set_progress(sys, jam_on_progress, callable == Py_None ? NULL : (void *)callable);
+}
+/* callable(level, line), or None. */
+jam_status set_log(jam_system *sys, PyObject *callable, int32_t level) {
+  return callable == Py_None ? jam_set_log(sys, NULL, 0, NULL) : jam_set_log(sys, jam_on_log, level, (void *)callable);
+}
+void set_error_factory(PyObject *callable) {
+  Py_INCREF(callable);
+  Py_XDECREF(jam_error_factory);
+  jam_error_factory = callable;
+}
+%}
+
+
+%include "jam_gen.i"
+%include "jam/jam.h"

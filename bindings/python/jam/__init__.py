@@ -1,0 +1,37 @@
+"""jam: jammed packings of hard spheres, made and analysed.
+
+    import jam
+    packing = jam.System.random(n=1024, dim=3, seed=1)
+    packing.compress()            # event-driven molecular dynamics with growth
+    print(packing.crunch())       # iterated linear programming down to the jamming point
+    packing.contacts.forces       # numpy
+    jam.plot.packing(packing)     # matplotlib, loaded when it is used
+
+Arrays of shape (n, d) and indices from 0. Errors are subclasses of jam.JamError; jam.raw holds the C functions.
+"""
+from __future__ import annotations
+
+from typing import Any
+
+from . import errors, raw
+from ._generated import *  # noqa: F401,F403  enums and report dataclasses
+from ._generated import JAM_ABI, StatusCode
+from .errors import JamError
+from .system import Contacts, System
+
+__version__ = raw.jam_version()
+if raw.jam_abi_version() != JAM_ABI:
+    raise ImportError(f"jam was built for ABI {JAM_ABI} of libjam, the library that was found has {raw.jam_abi_version()}")
+
+_LAZY = ("plot", "files", "cli")
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LAZY:
+        import importlib
+        return importlib.import_module("." + name, __name__)
+    raise AttributeError(f"module 'jam' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(set(globals()) | set(_LAZY))

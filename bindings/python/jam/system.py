@@ -363,7 +363,7 @@ def _add_methods() -> None:
     for name, (doc, table) in CALLS.items():
         short = name.removeprefix("jam_").removesuffix("_get")
         roles = [a[1] for a in table]
-        if hasattr(System, short) or roles.count("array_out") > 1 or {"callback", "new_handle", "view", "handle"} & set(roles):
+        if name == "jam_destroy" or hasattr(System, short) or roles.count("array_out") > 1 or {"callback", "new_handle", "view", "handle"} & set(roles):
             continue
 
         def method(self: System, *args: Any, _name: str = name.removeprefix("jam_"), **named: Any) -> Any:

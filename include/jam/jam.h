@@ -407,6 +407,66 @@ JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len
 /* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 
+/* ------------------------------------------------------------------ analysis of the contact network */
+/* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the
+ * order of jam_hessian_map. Calls on a const handle are quick; the others take long, report JAM_PHASE_ANALYSE and can
+ * be cancelled (status JAM_CANCELLED, no output written); they do not change the packing. All need a contact network
+ * unless said otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
+
+/* Stiffness k of a contact, 1 at the mean force. @since 0.1 */
+typedef enum jam_stiffness {
+  JAM_STIFFNESS_HARMONIC = 0, /* k = 1 */
+  JAM_STIFFNESS_POWER = 1,    /* energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1)) */
+  JAM_STIFFNESS_HARD = 2      /* entropic force of hard spheres near jamming: k = f^2 */
+} jam_stiffness;
+
+/* Options of all calls that use a Hessian. @since 0.1 */
+typedef struct jam_hessian_options {
+  uint32_t struct_size; /* sizeof(jam_hessian_options) */
+  int32_t stiffness;    /* jam_stiffness, default HARMONIC */
+  double alpha;         /* POWER: > 1, default 2 */
+  double prestress;     /* overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a
+                         * contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0 */
+} jam_hessian_options;
+
+/* Which modes. @since 0.1 */
+typedef enum jam_modes_which {
+  JAM_MODES_LOWEST = 0,  /* smallest eigenvalues, the d translations left out */
+  JAM_MODES_HIGHEST = 1, /* largest eigenvalues */
+  JAM_MODES_NEAR = 2,    /* nearest to frequency^2, translations left out */
+  JAM_MODES_ALL = 3      /* all d N', translations among them; dense, 24 (d N')^2 bytes */
+} jam_modes_which;
+
+/* Options of jam_modes. @since 0.1 */
+typedef struct jam_modes_options {
+  uint32_t struct_size; /* sizeof(jam_modes_options) */
+  int32_t which;        /* jam_modes_which, default LOWEST */
+  int64_t count;        /* how many, >= 1, default 10; not used by ALL */
+  double frequency;     /* NEAR: omega >= 0 */
+  double tolerance;     /* relative, of Lanczos, in (0, 1), default 1e-10 */
+  double memory_limit;  /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate */
+} jam_modes_options;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
+/* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
+ * Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+/* Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+ * Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
+                               size_t row_start_len, int32_t *column, size_t column_len, double *value,
+                               size_t value_len, size_t *needed);
+/* Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+ * participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
+ * is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
+ * JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda,
+                             size_t lambda_len, double *vector, size_t vector_len, double *participation,
+                             size_t participation_len, size_t *needed);
+
 #ifdef __cplusplus
 }
 #endif

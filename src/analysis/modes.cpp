@@ -1,0 +1,284 @@
+// Few modes by Lanczos (Spectra): the only file that includes it. Lowest modes by shift and invert on the sparse
+// factor, highest on the matrix itself, modes near a frequency by an indefinite LDL^T.
+#include "analysis/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/SparseCholesky>
+#include <Spectra/SymEigsSolver.h>
+
+#include "analysis/factor.hpp"
+#include "core/error.hpp"
+#include "core/rng.hpp"
+
+namespace jam {
+
+jam_modes_options default_modes_options() {
+  jam_modes_options o{};
+  o.struct_size = sizeof o;
+  o.which = JAM_MODES_LOWEST;
+  o.count = 10;
+  o.frequency = 0.0;
+  o.tolerance = 1e-10;
+  o.memory_limit = 2e9;
+  return o;
+}
+
+void check_modes_options(const jam_modes_options &o, const StableGraph &g) {
+  if (o.which < JAM_MODES_LOWEST || o.which > JAM_MODES_ALL) fail(JAM_E_ARGUMENT, "which is %d, not a jam_modes_which", o.which);
+  if (o.which != JAM_MODES_ALL && o.count < 1) fail(JAM_E_ARGUMENT, "count is %lld, it must be at least 1", static_cast<long long>(o.count));
+  if (!(o.frequency >= 0.0 && std::isfinite(o.frequency))) fail(JAM_E_ARGUMENT, "frequency is %g, it must be finite and >= 0", o.frequency);
+  if (!(o.tolerance > 0.0 && o.tolerance < 1.0)) fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in (0, 1)", o.tolerance);
+  const double n = static_cast<double>(g.unknowns());
+  const double krylov = 8.0 * n * (3.0 * static_cast<double>(o.count) + 20.0), dense = 24.0 * n * n;
+  const double need = o.which == JAM_MODES_ALL ? dense : std::min(krylov, dense);
+  if (!(need <= o.memory_limit))
+    fail(JAM_E_MEMORY, "%s of %.0f unknowns needs about %.3g bytes, memory_limit is %.3g",
+         o.which == JAM_MODES_ALL ? "the full spectrum" : "this many modes", n, need, o.memory_limit);
+}
+
+namespace {
+
+struct Stopped {};
+
+// One Lanczos operator: x -> P A' P x with P taking out the translations and the modes already found.
+class Operator {
+ public:
+  using Scalar = double;
+  Operator(const StableGraph &g, std::function<void(const double *, double *)> apply, Monitor &monitor)
+      : g_(g), apply_(std::move(apply)), monitor_(monitor), work_(g.unknowns()) {}
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(g_.unknowns()); }
+  Eigen::Index cols() const { return rows(); }
+  void perform_op(const double *x, double *y) const {
+    jam_progress p{};
+    p.phase = JAM_PHASE_ANALYSE;
+    p.steps = ++count_;
+    p.fraction = std::nan("");
+    if (monitor_.report(p)) throw Stopped();
+    std::copy(x, x + g_.unknowns(), work_.begin());
+    project(work_.data());
+    apply_(work_.data(), y);
+    project(y);
+  }
+  std::vector<double> found;  // vectors to leave out, one after the other
+
+ private:
+  void project(double *x) const {
+    remove_translation(g_.dim, g_.nodes, x);
+    if (found.empty()) return;
+    const auto n = static_cast<Eigen::Index>(g_.unknowns());
+    Eigen::Map<const Eigen::MatrixXd> f(found.data(), n, static_cast<Eigen::Index>(found.size()) / n);
+    Eigen::Map<Eigen::VectorXd> v(x, n);
+    const Eigen::VectorXd along = f.transpose() * v;
+    v.noalias() -= f * along;
+  }
+  const StableGraph &g_;
+  std::function<void(const double *, double *)> apply_;
+  Monitor &monitor_;
+  mutable std::vector<double> work_;
+  mutable int64_t count_ = 0;
+};
+
+struct Found {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd vector;
+};
+
+Found lanczos(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, int iterations) {
+  const Eigen::Index n = op.rows(), nev = std::min<Eigen::Index>(count, n - 1);
+  const Eigen::Index ncv = std::min<Eigen::Index>(n, std::max<Eigen::Index>(2 * nev, nev + 20));
+  Spectra::SymEigsSolver<Operator> solver(op, nev, ncv);
+  Eigen::VectorXd start(n);
+  Rng rng(1, Stream::analysis_start, static_cast<uint64_t>(op.found.size()));
+  for (Eigen::Index k = 0; k < n; ++k) start[k] = rng.normal();
+  try {
+    solver.init(start.data());
+    solver.compute(rule, iterations, tolerance, rule);
+  } catch (const Stopped &) {
+    throw;
+  } catch (const std::exception &e) {
+    fail(JAM_E_SOLVER, "Lanczos: %s", e.what());
+  }
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+void append(Operator &op, std::vector<double> &theta, const Found &f) {
+  for (Eigen::Index k = 0; k < f.value.size(); ++k) {
+    theta.push_back(f.value[k]);
+    op.found.insert(op.found.end(), f.vector.col(k).data(), f.vector.col(k).data() + f.vector.rows());
+  }
+}
+
+// A single Krylov sequence sees one vector of a degenerate eigenspace, more only by rounding. So the search is
+// repeated with what was found left out, until the best that remains is worse than all that are kept.
+bool search(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, std::vector<double> &theta) {
+  auto rank = [&](double t) { return rule == Spectra::SortRule::LargestMagn ? std::fabs(t) : t; };
+  append(op, theta, lanczos(op, count, rule, tolerance, 300));
+  const bool complete = static_cast<int64_t>(theta.size()) >= count;
+  const int64_t all = static_cast<int64_t>(op.rows()) - static_cast<int64_t>(op.rows() > 0 ? 0 : 0);
+  for (int round = 0; round < 200 && static_cast<int64_t>(theta.size()) + 4 < all && !theta.empty(); ++round) {
+    std::vector<double> sorted(theta);
+    std::sort(sorted.begin(), sorted.end(), [&](double x, double y) { return rank(x) > rank(y); });
+    const double last = rank(sorted[std::min<size_t>(sorted.size(), static_cast<size_t>(count)) - 1]);
+    const Found probe = lanczos(op, 2, rule, 1e-3, 20);
+    if (probe.value.size() == 0 || rank(probe.value[0]) < last * (1.0 - 1e-7)) break;
+    const Found more = lanczos(op, std::min<int64_t>(count, 6), rule, tolerance, 300);
+    if (more.value.size() == 0 || rank(more.value[0]) <= last * (1.0 + 1e-12)) break;
+    append(op, theta, more);
+  }
+  return complete;
+}
+
+// Keeps the `count` best, makes them orthonormal and gives them their Rayleigh quotients.
+void harvest(const StableGraph &g, const ContactWeights &w, Operator &op, std::vector<double> theta, bool magnitude, int64_t count, Modes &out) {
+  const size_t n = g.unknowns();
+  std::vector<size_t> order(theta.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t x, size_t y) {
+    return magnitude ? std::fabs(theta[x]) > std::fabs(theta[y]) : theta[x] > theta[y];
+  });
+  if (order.size() > static_cast<size_t>(count)) order.resize(static_cast<size_t>(count));
+  Eigen::MatrixXd v(n, order.size());
+  for (size_t k = 0; k < order.size(); ++k) {
+    auto col = v.col(static_cast<Eigen::Index>(k));
+    col = Eigen::Map<const Eigen::VectorXd>(&op.found[order[k] * n], static_cast<Eigen::Index>(n));
+    for (int twice = 0; twice < 2; ++twice)
+      if (k > 0) {
+        const Eigen::VectorXd along = v.leftCols(static_cast<Eigen::Index>(k)).transpose() * col;
+        col -= v.leftCols(static_cast<Eigen::Index>(k)) * along;
+      }
+    remove_translation(g.dim, g.nodes, col.data());
+    col.normalize();
+  }
+  std::vector<std::pair<double, size_t>> lambda;
+  for (size_t k = 0; k < order.size(); ++k) lambda.push_back({curvature(g, w, v.col(static_cast<Eigen::Index>(k)).data()), k});
+  std::sort(lambda.begin(), lambda.end());
+  for (const auto &[l, k] : lambda) {
+    out.lambda.push_back(l);
+    const double *x = v.col(static_cast<Eigen::Index>(k)).data();
+    out.vector.insert(out.vector.end(), x, x + n);
+  }
+}
+
+jam_status all_modes(const StableGraph &g, const BlockMatrix &h, Monitor &monitor, Modes &out) {
+  const int n = static_cast<int>(h.rows()), d = h.dim;
+  std::vector<double> a(static_cast<size_t>(n) * n, 0.0);
+  auto put = [&](int32_t i, int32_t j, const double *block) {
+    for (int r = 0; r < d; ++r)
+      for (int c = 0; c < d; ++c) a[static_cast<size_t>(j * d + c) * n + (i * d + r)] = block[r * d + c];
+  };
+  for (int32_t i = 0; i < h.nodes; ++i) put(i, i, &h.diag[static_cast<size_t>(i) * d * d]);
+  for (size_t e = 0; e < h.ei.size(); ++e) put(h.ej[e], h.ei[e], &h.off[e * d * d]);  // lower triangle; blocks are symmetric
+  auto stop = [&](double fraction) {
+    jam_progress p{};
+    p.phase = JAM_PHASE_ANALYSE;
+    p.fraction = fraction;
+    return monitor.report(p, true);
+  };
+  if (!dense_eigen(n, a, out.lambda, true, stop)) return JAM_CANCELLED;
+  out.vector = std::move(a);
+  (void)g;
+  return JAM_OK;
+}
+
+// What dense work found, cut to what was asked: the d translations go first.
+void select(const StableGraph &g, const jam_modes_options &o, Modes &m) {
+  const size_t n = g.unknowns();
+  std::vector<size_t> keep;
+  // Translations may be mixed with other zero modes: take them out of the vectors and drop what is left of least length.
+  const double tiny = 1e-9 * std::max(1.0, m.lambda.empty() ? 0.0 : std::fabs(m.lambda.back()));
+  Eigen::Map<Eigen::MatrixXd> v(m.vector.data(), static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  std::vector<size_t> zero;
+  for (size_t k = 0; k < n; ++k)
+    if (std::fabs(m.lambda[k]) < tiny) zero.push_back(k);
+  Eigen::MatrixXd z(n, zero.size());
+  Eigen::Index rank = 0;
+  const Eigen::Index room = std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zero.size()) - g.dim);
+  for (Eigen::Index pass = 0; pass < static_cast<Eigen::Index>(zero.size()) && rank < room; ++pass) {
+    Eigen::VectorXd x = v.col(static_cast<Eigen::Index>(zero[pass]));
+    for (int twice = 0; twice < 2; ++twice) {
+      remove_translation(g.dim, g.nodes, x.data());
+      if (rank > 0) x -= z.leftCols(rank) * (z.leftCols(rank).transpose() * x).eval();
+    }
+    if (x.norm() < 1e-3 && pass + (room - rank) < static_cast<Eigen::Index>(zero.size())) continue;
+    z.col(rank++) = x.normalized();
+  }
+  for (Eigen::Index k = 0; k < rank; ++k) v.col(static_cast<Eigen::Index>(zero[k])) = z.col(k);
+  for (size_t k = 0, seen = 0; k < n; ++k)
+    if (std::fabs(m.lambda[k]) >= tiny || static_cast<Eigen::Index>(seen++) < rank) keep.push_back(k);
+  const double target = o.frequency * o.frequency;
+  const size_t want = std::min<size_t>(keep.size(), static_cast<size_t>(o.count));
+  if (o.which == JAM_MODES_HIGHEST) keep.erase(keep.begin(), keep.end() - static_cast<std::ptrdiff_t>(want));
+  if (o.which == JAM_MODES_NEAR) {
+    std::stable_sort(keep.begin(), keep.end(), [&](size_t x, size_t y) { return std::fabs(m.lambda[x] - target) < std::fabs(m.lambda[y] - target); });
+    keep.resize(want);
+    std::sort(keep.begin(), keep.end());
+  }
+  keep.resize(want);
+  Modes cut;
+  for (size_t k : keep) {
+    cut.lambda.push_back(m.lambda[k]);
+    cut.vector.insert(cut.vector.end(), &m.vector[k * n], &m.vector[k * n] + n);
+  }
+  m = std::move(cut);
+}
+
+jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o, Monitor &monitor, Modes &out) {
+  const size_t n = g.unknowns();
+  std::vector<double> theta;
+  bool complete = false;
+  auto run = [&](std::function<void(const double *, double *)> apply, Spectra::SortRule rule) {
+    Operator op(g, std::move(apply), monitor);
+    complete = search(op, o.count, rule, o.tolerance, theta);
+    harvest(g, w, op, theta, rule == Spectra::SortRule::LargestMagn, o.count, out);
+  };
+  if (o.which == JAM_MODES_LOWEST) {
+    ShiftedFactor factor(h);
+    factor.factorise_from(1e-9 * h.norm_bound());
+    run([&](const double *x, double *y) { std::copy(x, x + n, y); factor.solve(y); }, Spectra::SortRule::LargestAlge);
+  } else if (o.which == JAM_MODES_HIGHEST) {
+    run([&](const double *x, double *y) { h.multiply(x, y); }, Spectra::SortRule::LargestAlge);
+  } else {
+    const CsrMatrix csr = to_csr(h);
+    const auto rows = static_cast<Eigen::Index>(n);
+    const Eigen::SparseMatrix<double> a = Eigen::Map<const Eigen::SparseMatrix<double>>(
+        rows, rows, static_cast<Eigen::Index>(csr.value.size()), csr.start.data(), csr.column.data(), csr.value.data());
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
+    ldlt.setShift(-o.frequency * o.frequency);
+    ldlt.compute(a);
+    if (ldlt.info() != Eigen::Success) fail(JAM_E_SOLVER, "frequency %g hits an eigenvalue; change it a little", o.frequency);
+    run([&](const double *x, double *y) {
+      Eigen::Map<Eigen::VectorXd>(y, rows) = ldlt.solve(Eigen::Map<const Eigen::VectorXd>(x, rows));
+    }, Spectra::SortRule::LargestMagn);
+  }
+  return complete ? JAM_OK : JAM_NOT_CONVERGED;
+}
+
+}  // namespace
+
+jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor, Modes &out) {
+  check_modes_options(o, g);
+  const BlockMatrix h = make_hessian(g, w);
+  const size_t n = g.unknowns();
+  jam_status status = JAM_OK;
+  const double wanted = static_cast<double>(o.count);
+  const bool dense = o.which == JAM_MODES_ALL || n <= 300 || (4.0 * wanted >= static_cast<double>(n) && 24.0 * n * n <= o.memory_limit) ||
+                     (o.which == JAM_MODES_NEAR && o.frequency == 0.0 && n <= 3000);
+  if (dense) {
+    status = all_modes(g, h, monitor, out);
+    if (status == JAM_OK && o.which != JAM_MODES_ALL) select(g, o, out);
+  } else {
+    try {
+      status = few_modes(g, w, h, o, monitor, out);
+    } catch (const Stopped &) {
+      out = Modes();
+      status = JAM_CANCELLED;
+    }
+  }
+  for (size_t k = 0; k < out.lambda.size(); ++k) out.participation.push_back(inverse_participation(g.dim, g.nodes, &out.vector[k * n]));
+  return status;
+}
+
+}  // namespace jam

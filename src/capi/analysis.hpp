@@ -1,0 +1,37 @@
+// What the analysis entry points share.
+#pragma once
+#include <cmath>
+#include <limits>
+#include "analysis/graph.hpp"
+#include "analysis/hessian.hpp"
+#include "capi/guard.hpp"
+
+namespace jam {
+
+inline void need_network(const jam_system *sys) {
+  if (!sys->has_report) fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+}
+inline bool empty_network(const jam_system *sys) { return sys->contacts.size() == 0; }
+
+inline jam_hessian_options take_hessian_options(const jam_hessian_options *h) {
+  jam_hessian_options full = default_hessian_options();
+  take_options(h, full);
+  check_hessian_options(full);
+  return full;
+}
+
+// One of several outputs of a call: checks before anything is written, then fills; count elements are valid, the rest
+// of `expected` becomes NaN.
+inline void check_output(const void *out, size_t len, size_t expected, const char *name) {
+  if (!out && len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
+  if (out && len < expected) fail(JAM_E_BUFFER, "%s holds %zu elements, %zu are needed", name, len, expected);
+}
+template <class T>
+void put_output(const std::vector<T> &data, T *out, size_t expected) {
+  if (!out) return;
+  const size_t have = data.size() < expected ? data.size() : expected;
+  for (size_t k = 0; k < have; ++k) out[k] = data[k];
+  for (size_t k = have; k < expected; ++k) out[k] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
+}
+
+}  // namespace jam

@@ -77,6 +77,17 @@ module jam
   integer(c_int32_t), parameter :: JAM_LP_IPM = 0
   integer(c_int32_t), parameter :: JAM_LP_CLP = 1
 
+  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
+  integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
+  integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
+  integer(c_int32_t), parameter :: JAM_STIFFNESS_HARD = 2
+
+  ! jam_modes_which: Which modes. @since 0.1
+  integer(c_int32_t), parameter :: JAM_MODES_LOWEST = 0
+  integer(c_int32_t), parameter :: JAM_MODES_HIGHEST = 1
+  integer(c_int32_t), parameter :: JAM_MODES_NEAR = 2
+  integer(c_int32_t), parameter :: JAM_MODES_ALL = 3
+
   ! Options of jam_create and jam_read. @since 0.1
   type, bind(c) :: jam_create_options
     ! sizeof(jam_create_options)
@@ -291,10 +302,38 @@ module jam
     real(c_double) :: seconds_solve = 0
   end type jam_report
 
+  ! Options of all calls that use a Hessian. @since 0.1
+  type, bind(c) :: jam_hessian_options
+    ! sizeof(jam_hessian_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! jam_stiffness, default HARMONIC
+    integer(c_int32_t) :: stiffness = 0
+    ! POWER: > 1, default 2
+    real(c_double) :: alpha = 0
+    ! overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+    real(c_double) :: prestress = 0
+  end type jam_hessian_options
+
+  ! Options of jam_modes. @since 0.1
+  type, bind(c) :: jam_modes_options
+    ! sizeof(jam_modes_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! jam_modes_which, default LOWEST
+    integer(c_int32_t) :: which = 0
+    ! how many, >= 1, default 10; not used by ALL
+    integer(c_int64_t) :: count = 0
+    ! NEAR: omega >= 0
+    real(c_double) :: frequency = 0
+    ! relative, of Lanczos, in (0, 1), default 1e-10
+    real(c_double) :: tolerance = 0
+    ! bytes, default 2e9: past it JAM_E_MEMORY with the estimate
+    real(c_double) :: memory_limit = 0
+  end type jam_modes_options
+
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
     module procedure default_create_options, default_run_options, default_compress_options, &
-      default_crunch_options
+      default_crunch_options, default_hessian_options, default_modes_options
   end interface jam_defaults
 
   abstract interface
@@ -669,6 +708,74 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_coordination
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_hessian_options_init(o, size) bind(c, name="jam_hessian_options_init") &
+        result(status)
+      import
+      type(jam_hessian_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_hessian_options_init
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_modes_options_init(o, size) bind(c, name="jam_modes_options_init") &
+        result(status)
+      import
+      type(jam_modes_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_modes_options_init
+
+    ! The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
+    ! Errors: as jam_contacts. @since 0.1
+    function jam_hessian_map(sys, iout, iout_len, needed) bind(c, name="jam_hessian_map") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), intent(inout), optional :: iout(*)
+      integer(c_size_t), value :: iout_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_hessian_map
+
+    ! Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+    ! Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed) bind(c, name="jam_hessian") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      integer(c_int32_t), intent(inout), optional :: row_start(*)
+      integer(c_size_t), value :: row_start_len
+      integer(c_int32_t), intent(inout), optional :: column(*)
+      integer(c_size_t), value :: column_len
+      real(c_double), intent(inout), optional :: value(*)
+      integer(c_size_t), value :: value_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_hessian
+
+    ! Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+    ! participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
+    ! is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
+    ! JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, &
+      participation_len, needed) bind(c, name="jam_modes") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      type(jam_modes_options), intent(in), optional :: o
+      real(c_double), intent(inout), optional :: lambda(*)
+      integer(c_size_t), value :: lambda_len
+      real(c_double), intent(inout), optional :: vector(*)
+      integer(c_size_t), value :: vector_len
+      real(c_double), intent(inout), optional :: participation(*)
+      integer(c_size_t), value :: participation_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_modes
   end interface
 
 contains
@@ -716,5 +823,17 @@ contains
     integer(c_int32_t) :: status
     status = jam_crunch_options_init(o, c_sizeof(o))
   end subroutine default_crunch_options
+
+  subroutine default_hessian_options(o)
+    type(jam_hessian_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_hessian_options_init(o, c_sizeof(o))
+  end subroutine default_hessian_options
+
+  subroutine default_modes_options(o)
+    type(jam_modes_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_modes_options_init(o, c_sizeof(o))
+  end subroutine default_modes_options
 
 end module jam

@@ -6,6 +6,12 @@
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
 %apply size_t *RESULT {size_t *needed};
 %apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *value, size_t value_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *lambda, size_t lambda_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *participation, size_t participation_len)};
 %extend jam_create_options {
   jam_create_options() {
     jam_create_options *made = (jam_create_options *)calloc(1, sizeof *made);
@@ -78,6 +84,24 @@
   ~jam_report() { free($self); }
 }
 %feature("docstring") jam_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1"
+%extend jam_hessian_options {
+  jam_hessian_options() {
+    jam_hessian_options *made = (jam_hessian_options *)calloc(1, sizeof *made);
+    if (made) { jam_hessian_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_hessian_options() { free($self); }
+}
+%feature("docstring") jam_hessian_options "Options of all calls that use a Hessian. @since 0.1"
+%extend jam_modes_options {
+  jam_modes_options() {
+    jam_modes_options *made = (jam_modes_options *)calloc(1, sizeof *made);
+    if (made) { jam_modes_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_modes_options() { free($self); }
+}
+%feature("docstring") jam_modes_options "Options of jam_modes. @since 0.1"
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
@@ -150,3 +174,13 @@ Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 %feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
 Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_coordination "Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_hessian_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_modes_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_hessian_map "The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
+Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_hessian "Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_modes "Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
+is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
+JAM_E_BUSY. Threads: alone. @since 0.1"

@@ -117,7 +117,7 @@ bool search(Operator &op, int64_t count, Spectra::SortRule rule, double toleranc
   auto rank = [&](double t) { return rule == Spectra::SortRule::LargestMagn ? std::fabs(t) : t; };
   append(op, theta, lanczos(op, count, rule, tolerance, 300));
   const bool complete = static_cast<int64_t>(theta.size()) >= count;
-  const int64_t all = static_cast<int64_t>(op.rows()) - static_cast<int64_t>(op.rows() > 0 ? 0 : 0);
+  const auto all = static_cast<int64_t>(op.rows());
   for (int round = 0; round < 200 && static_cast<int64_t>(theta.size()) + 4 < all && !theta.empty(); ++round) {
     std::vector<double> sorted(theta);
     std::sort(sorted.begin(), sorted.end(), [&](double x, double y) { return rank(x) > rank(y); });
@@ -162,7 +162,7 @@ void harvest(const StableGraph &g, const ContactWeights &w, Operator &op, std::v
   }
 }
 
-jam_status all_modes(const StableGraph &g, const BlockMatrix &h, Monitor &monitor, Modes &out) {
+jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
   const int n = static_cast<int>(h.rows()), d = h.dim;
   std::vector<double> a(static_cast<size_t>(n) * n, 0.0);
   auto put = [&](int32_t i, int32_t j, const double *block) {
@@ -179,7 +179,6 @@ jam_status all_modes(const StableGraph &g, const BlockMatrix &h, Monitor &monito
   };
   if (!dense_eigen(n, a, out.lambda, true, stop)) return JAM_CANCELLED;
   out.vector = std::move(a);
-  (void)g;
   return JAM_OK;
 }
 
@@ -267,7 +266,8 @@ jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_m
   const bool dense = o.which == JAM_MODES_ALL || n <= 300 || (4.0 * wanted >= static_cast<double>(n) && 24.0 * n * n <= o.memory_limit) ||
                      (o.which == JAM_MODES_NEAR && o.frequency == 0.0 && n <= 3000);
   if (dense) {
-    status = all_modes(g, h, monitor, out);
+    status = all_modes(h, monitor, out);
+    if (status == JAM_CANCELLED) out = Modes();
     if (status == JAM_OK && o.which != JAM_MODES_ALL) select(g, o, out);
   } else {
     try {

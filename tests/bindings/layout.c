@@ -108,6 +108,18 @@ CHECK(jam_report, seconds, 176, 8);
 CHECK(jam_report, seconds_factor, 184, 8);
 CHECK(jam_report, seconds_assemble, 192, 8);
 CHECK(jam_report, seconds_solve, 200, 8);
+CHECK_SIZE(jam_hessian_options, 24);
+CHECK(jam_hessian_options, struct_size, 0, 4);
+CHECK(jam_hessian_options, stiffness, 4, 4);
+CHECK(jam_hessian_options, alpha, 8, 8);
+CHECK(jam_hessian_options, prestress, 16, 8);
+CHECK_SIZE(jam_modes_options, 40);
+CHECK(jam_modes_options, struct_size, 0, 4);
+CHECK(jam_modes_options, which, 4, 4);
+CHECK(jam_modes_options, count, 8, 8);
+CHECK(jam_modes_options, frequency, 16, 8);
+CHECK(jam_modes_options, tolerance, 24, 8);
+CHECK(jam_modes_options, memory_limit, 32, 8);
 
 #define SHOW(type, member) \
   printf(#type " " #member " %zu %zu\n", offsetof(type, member), sizeof(((type *)0)->member))
@@ -212,6 +224,18 @@ int main(void) {
   SHOW(jam_report, seconds_factor);
   SHOW(jam_report, seconds_assemble);
   SHOW(jam_report, seconds_solve);
+  printf("jam_hessian_options sizeof %zu\n", sizeof(jam_hessian_options));
+  SHOW(jam_hessian_options, struct_size);
+  SHOW(jam_hessian_options, stiffness);
+  SHOW(jam_hessian_options, alpha);
+  SHOW(jam_hessian_options, prestress);
+  printf("jam_modes_options sizeof %zu\n", sizeof(jam_modes_options));
+  SHOW(jam_modes_options, struct_size);
+  SHOW(jam_modes_options, which);
+  SHOW(jam_modes_options, count);
+  SHOW(jam_modes_options, frequency);
+  SHOW(jam_modes_options, tolerance);
+  SHOW(jam_modes_options, memory_limit);
   printf("JAM_OK value %d\n", (int)JAM_OK);
   printf("JAM_CANCELLED value %d\n", (int)JAM_CANCELLED);
   printf("JAM_LIMIT value %d\n", (int)JAM_LIMIT);
@@ -266,5 +290,12 @@ int main(void) {
   printf("JAM_FORMAT_XYZ value %d\n", (int)JAM_FORMAT_XYZ);
   printf("JAM_LP_IPM value %d\n", (int)JAM_LP_IPM);
   printf("JAM_LP_CLP value %d\n", (int)JAM_LP_CLP);
+  printf("JAM_STIFFNESS_HARMONIC value %d\n", (int)JAM_STIFFNESS_HARMONIC);
+  printf("JAM_STIFFNESS_POWER value %d\n", (int)JAM_STIFFNESS_POWER);
+  printf("JAM_STIFFNESS_HARD value %d\n", (int)JAM_STIFFNESS_HARD);
+  printf("JAM_MODES_LOWEST value %d\n", (int)JAM_MODES_LOWEST);
+  printf("JAM_MODES_HIGHEST value %d\n", (int)JAM_MODES_HIGHEST);
+  printf("JAM_MODES_NEAR value %d\n", (int)JAM_MODES_NEAR);
+  printf("JAM_MODES_ALL value %d\n", (int)JAM_MODES_ALL);
   return 0;
 }

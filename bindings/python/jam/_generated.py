@@ -94,6 +94,21 @@ class LpSolver(IntEnum):
     CLP = 1  # Clp's dual simplex: slow, independent
 
 
+class Stiffness(IntEnum):
+    """Stiffness k of a contact, 1 at the mean force. @since 0.1"""
+    HARMONIC = 0  # k = 1
+    POWER = 1  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
+    HARD = 2  # entropic force of hard spheres near jamming: k = f^2
+
+
+class ModesWhich(IntEnum):
+    """Which modes. @since 0.1"""
+    LOWEST = 0  # smallest eigenvalues, the d translations left out
+    HIGHEST = 1  # largest eigenvalues
+    NEAR = 2  # nearest to frequency^2, translations left out
+    ALL = 3  # all d N', translations among them; dense, 24 (d N')^2 bytes
+
+
 @dataclass(frozen=True, repr=False)
 class Info:
     """What the system is now. @since 0.1
@@ -266,6 +281,18 @@ OPTIONS = {
         "step_bound": ("float", 'bound on each |s_i| component; 0, the default: adapts (sbound)'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
     },
+    "jam_hessian_options": {
+        "stiffness": ("Stiffness", 'jam_stiffness, default HARMONIC'),
+        "alpha": ("float", 'POWER: > 1, default 2'),
+        "prestress": ("float", 'overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0'),
+    },
+    "jam_modes_options": {
+        "which": ("ModesWhich", 'jam_modes_which, default LOWEST'),
+        "count": ("int", 'how many, >= 1, default 10; not used by ALL'),
+        "frequency": ("float", 'NEAR: omega >= 0'),
+        "tolerance": ("float", 'relative, of Lanczos, in (0, 1), default 1e-10'),
+        "memory_limit": ("float", 'bytes, default 2e9: past it JAM_E_MEMORY with the estimate'),
+    },
 }
 
 # report structs: {C name: dataclass}
@@ -304,4 +331,7 @@ CALLS = {
     "jam_contact_gaps": ('Gaps h of the contacts, length contacts. Threads: const. Errors: as jam_contacts. @since 0.1', (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_forces": ('Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.\nErrors: as jam_contacts. @since 0.1', (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_coordination": ('Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1', (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_hessian_map": ("The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.\nErrors: as jam_contacts. @since 0.1", (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_hessian": ("Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.\nUnit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1", (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_modes": ("Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,\nparticipation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest\nis NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,\nJAM_E_BUSY. Threads: alone. @since 0.1", (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

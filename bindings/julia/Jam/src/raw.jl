@@ -80,6 +80,17 @@ const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, Properties=id:I:1:pos:
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
 const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 
+# jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
+const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
+const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
+const JAM_STIFFNESS_HARD = Int32(2)  # entropic force of hard spheres near jamming: k = f^2
+
+# jam_modes_which: Which modes. @since 0.1
+const JAM_MODES_LOWEST = Int32(0)  # smallest eigenvalues, the d translations left out
+const JAM_MODES_HIGHEST = Int32(1)  # largest eigenvalues
+const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, translations left out
+const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (d N')^2 bytes
+
 """
 Options of jam_create and jam_read. @since 0.1
 """
@@ -225,6 +236,30 @@ mutable struct jam_report
     seconds_assemble::Cdouble  # of it in neighbour lists and assembly
     seconds_solve::Cdouble  # of it in triangular solves
     jam_report() = new(208, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of all calls that use a Hessian. @since 0.1
+"""
+mutable struct jam_hessian_options
+    struct_size::UInt32  # sizeof(jam_hessian_options)
+    stiffness::Int32  # jam_stiffness, default HARMONIC
+    alpha::Cdouble  # POWER: > 1, default 2
+    prestress::Cdouble  # overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+    jam_hessian_options() = new(24, 0, 0, 0)
+end
+
+"""
+Options of jam_modes. @since 0.1
+"""
+mutable struct jam_modes_options
+    struct_size::UInt32  # sizeof(jam_modes_options)
+    which::Int32  # jam_modes_which, default LOWEST
+    count::Int64  # how many, >= 1, default 10; not used by ALL
+    frequency::Cdouble  # NEAR: omega >= 0
+    tolerance::Cdouble  # relative, of Lanczos, in (0, 1), default 1e-10
+    memory_limit::Cdouble  # bytes, default 2e9: past it JAM_E_MEMORY with the estimate
+    jam_modes_options() = new(40, 0, 0, 0, 0, 0)
 end
 
 """
@@ -495,4 +530,44 @@ Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Err
 """
 function jam_coordination(sys, iout, iout_len, needed)
     return ccall((:jam_coordination, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_hessian_options_init(o, size)
+    return ccall((:jam_hessian_options_init, libjam), Int32, (Ref{jam_hessian_options}, Csize_t), _ref(jam_hessian_options, o), size)
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_modes_options_init(o, size)
+    return ccall((:jam_modes_options_init, libjam), Int32, (Ref{jam_modes_options}, Csize_t), _ref(jam_modes_options, o), size)
+end
+
+"""
+The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
+Errors: as jam_contacts. @since 0.1
+"""
+function jam_hessian_map(sys, iout, iout_len, needed)
+    return ccall((:jam_hessian_map, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+end
+
+"""
+Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed)
+    return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, needed))
+end
+
+"""
+Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
+is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
+JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, needed)
+    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, needed))
 end

@@ -551,8 +551,10 @@ module jam
     end function jam_cancel
 
     ! Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
-    ! plain files that give none; NULL for defaults. Nothing is allocated before the data is there.
-    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), and those of jam_create. Threads: any. @since 0.1
+    ! plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
+    ! last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+    ! and those of jam_create. Threads: any. @since 0.1
     function jam_read(path, o, out) bind(c, name="jam_read") &
         result(status)
       import
@@ -563,7 +565,8 @@ module jam
     end function jam_read
 
     ! Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-    ! gives the same bits. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
+    ! gives the same bits; links are followed, pipes and devices written in place.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
     function jam_write(sys, path, format) bind(c, name="jam_write") &
         result(status)
       import

@@ -143,10 +143,13 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_cancel "Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
 stops. Sets an atomic flag only. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_read "Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
-plain files that give none; NULL for defaults. Nothing is allocated before the data is there.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), and those of jam_create. Threads: any. @since 0.1"
+plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
+last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+and those of jam_create. Threads: any. @since 0.1"
 %feature("docstring") jam_write "Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-gives the same bits. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
+gives the same bits; links are followed, pipes and devices written in place.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are

@@ -259,15 +259,19 @@ typedef enum jam_format {
   JAM_FORMAT_PLAIN = 1, /* line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more
                          * column; then a position a line, 17 digits; box side after line 3's
                          * value when it is not 1: `<diameter> box <L>` */
-  JAM_FORMAT_XYZ = 2    /* extended XYZ: Lattice, Properties=id:I:1:pos:R:d:radius:R:1:contacts:I:1 */
+  JAM_FORMAT_XYZ = 2    /* extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after
+                         * a crunch, contacts:I:1; d = 2 gets a third coordinate 0 */
 } jam_format;
 
 /* Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
- * plain files that give none; NULL for defaults. Nothing is allocated before the data is there.
- * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), and those of jam_create. Threads: any. @since 0.1 */
+ * plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
+ * last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+ * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+ * and those of jam_create. Threads: any. @since 0.1 */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
 /* Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
- * gives the same bits. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1 */
+ * gives the same bits; links are followed, pipes and devices written in place.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 
 /* ------------------------------------------------------------------ molecular dynamics */

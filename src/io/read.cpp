@@ -19,9 +19,14 @@ int64_t check_count(const LineReader &in, int64_t n) {
   return n;
 }
 
+// Lengths below this would lose their digits, and their squares everything.
+constexpr double least_length = 1e-150, most_length = 1e150;
+
 double positive(const LineReader &in, std::string_view word, const char *what) {
   const double x = parse_number(in, word);
   if (!(x > 0.0)) in.fail(JAM_E_ARGUMENT, "the %s is %g, it must be positive", what, x);
+  if (x < least_length || x > most_length)
+    in.fail(JAM_E_ARGUMENT, "the %s is %g, supported are %g..%g", what, x, least_length, most_length);
   return x;
 }
 

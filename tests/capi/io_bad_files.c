@@ -38,6 +38,9 @@ static void plain_files(void **state) {
   expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6\n", JAM_E_FORMAT, "line 5: 2 columns, 3 are needed (coordinates and diameter)");
   expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6 0\n", JAM_E_ARGUMENT, "line 5: the diameter is 0");
   expect_refused("2\n2\n0.3\n0.1 0.2\n0.2 0.2\n", JAM_E_OVERLAP, "spheres 0 and 1");
+  expect_refused("2\n1\n1e9\n0.1 0.2\n", JAM_E_OVERLAP, "largest diameter 1e+09"); /* and at once, not after listing its images */
+  expect_refused("2\n3\n0.9\n0.1 0.2\n0.4 0.4\n0.7 0.9\n", JAM_E_OVERLAP, "packing fraction 1.9");
+  expect_refused("2\n1\n4.9e-324\n0.1 0.2\n", JAM_E_ARGUMENT, "line 3: the diameter is");
   expect_refused("2\n2\n0.1\n0.1 0.2\n0.5 0.6", JAM_E_FORMAT, "line 5: the file ends inside a line");
 }
 
@@ -135,7 +138,7 @@ static void missing_and_null(void **state) {
 }
 
 static void overlap_policy(void **state) {
-  const char text[] = "2\n2\n0.4\n0.1 0.5\n0.4 0.5\n";
+  const char text[] = "2\n2\n0.4\n0.1 0.5\n0.4 0.5\n", huge[] = "2\n2\n1e6\n0.1 0.5\n0.4 0.5\n";
   jam_create_options o;
   jam_system *sys = NULL;
   jam_info info;
@@ -145,6 +148,11 @@ static void overlap_policy(void **state) {
   jam_create_options_init(&o, sizeof o);
   assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_E_OVERLAP);
   o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_OK);
+  jam_info_get(sys, &info);
+  assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
+  jam_destroy(sys);
+  put_bytes(in_scratch("o.dat"), huge, strlen(huge)); /* far too large for the box */
   assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_OK);
   jam_info_get(sys, &info);
   assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);

@@ -74,7 +74,7 @@ const JAM_LOG_DEBUG = Int32(3)  # solver detail
 # jam_format: File formats. @since 0.1
 const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz and .extxyz are XYZ, all else PLAIN
 const JAM_FORMAT_PLAIN = Int32(1)  # line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more column; then a position a line, 17 digits; box side after line 3's value when it is not 1: `<diameter> box <L>`
-const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, Properties=id:I:1:pos:R:d:radius:R:1:contacts:I:1
+const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 
 # jam_lp_solver: How the LPs are solved. @since 0.1
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
@@ -418,8 +418,10 @@ end
 
 """
 Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
-plain files that give none; NULL for defaults. Nothing is allocated before the data is there.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), and those of jam_create. Threads: any. @since 0.1
+plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
+last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+and those of jam_create. Threads: any. @since 0.1
 """
 function jam_read(path, o, out)
     return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), out)
@@ -427,7 +429,8 @@ end
 
 """
 Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-gives the same bits. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
+gives the same bits; links are followed, pipes and devices written in place.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
 """
 function jam_write(sys, path, format)
     return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)

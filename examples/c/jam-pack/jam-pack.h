@@ -1,0 +1,46 @@
+/* jam-pack: the parts of the program. Everything it does goes through the public header. */
+#ifndef JAM_PACK_H
+#define JAM_PACK_H
+#include "jam/jam.h"
+
+/* Exit codes, documented in --help. */
+enum { EXIT_DONE = 0, EXIT_EARLY = 1, EXIT_USAGE = 2, EXIT_FAILED = 3, EXIT_OUTPUT = 4 };
+
+#define MAX_STAGES 32
+
+typedef struct stage {
+  double growth;   /* G */
+  double pressure; /* target; 0: that of --pressure */
+} stage;
+
+typedef struct options {
+  int64_t n, seed;
+  int32_t dim, threads, lp_solver;
+  double phi0, ratio, nve, pressure, wall_time, box;
+  stage stages[MAX_STAGES];
+  int stage_count;
+  int no_md, no_crunch, quiet, shrink;
+  const char *input, *output, *contacts, *report;
+} options;
+
+/* What the program has done, for the report and the summary. */
+typedef struct outcome {
+  jam_info info;
+  jam_report crunch;
+  int has_md, has_crunch;
+  int32_t md_stop;
+  int64_t collisions;
+  double seconds_md;
+} outcome;
+
+/* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
+int parse_options(int argc, char **argv, options *o);
+
+/* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
+int check_writable(const char *path);
+int write_report(const outcome *result, const char *path);
+int write_contacts(const jam_system *sys, const char *path);
+void print_summary(const outcome *result);
+void complain(const char *format, ...);
+
+#endif

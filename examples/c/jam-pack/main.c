@@ -1,0 +1,190 @@
+/* jam-pack: from nothing, or from a file, to a certified jammed packing. See jam-pack --help. */
+#define _XOPEN_SOURCE 700
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+#include "jam-pack.h"
+
+/* The handler can reach nothing else: the handle to cancel, and that it was asked to. */
+static jam_system *volatile running = NULL;
+static volatile sig_atomic_t interrupted = 0;
+
+static void on_signal(int number) {
+  interrupted = 1;
+  if (running) jam_cancel(running);
+  signal(number, SIG_DFL); /* a second Ctrl-C ends the program at once */
+}
+
+static double seconds_now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- progress: one line on a terminal, rewritten in place */
+
+typedef struct terminal {
+  const char *stage;
+  double begin;
+} terminal;
+
+static int32_t show_progress(const jam_progress *p, void *user) {
+  const terminal *t = user;
+  if (p->phase == JAM_PHASE_RUN || p->phase == JAM_PHASE_COMPRESS)
+    fprintf(stderr, "\r\033[K%s  p %.4g  phi %.6f  %.3g collisions  %.1f s", t->stage, p->pressure, p->packing_fraction,
+            (double)p->collisions, seconds_now() - t->begin);
+  else
+    fprintf(stderr, "\r\033[K%s  LP %lld  sqrt(Gamma)-1 %.3e  phi %.9f  %.1f s", t->stage, (long long)p->steps, p->gain,
+            p->packing_fraction, seconds_now() - t->begin);
+  fflush(stderr);
+  return 0;
+}
+
+/* ---- the parts of the job; each returns the library's status */
+
+static jam_status start(const options *o, jam_system **sys) {
+  jam_create_options create;
+  double *diameters = NULL;
+  int64_t k;
+  jam_status status = jam_create_options_init(&create, sizeof create);
+  if (status < 0) return status;
+  create.seed = o->seed;
+  create.box = o->box;
+  create.overlap = o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE;
+  if (o->input) return jam_read(o->input, &create, sys);
+  create.n = o->n;
+  create.dim = o->dim;
+  create.packing_fraction = o->phi0;
+  if (o->ratio != 1) {
+    diameters = malloc((size_t)o->n * sizeof *diameters);
+    if (!diameters) return JAM_E_MEMORY;
+    for (k = 0; k < o->n; ++k) diameters[k] = k < o->n / 2 ? 1 : o->ratio;
+  }
+  status = jam_create(&create, NULL, 0, diameters, diameters ? (size_t)o->n : 0, sys);
+  free(diameters);
+  return status;
+}
+
+static void add_md(outcome *result, const jam_md_report *md) {
+  result->has_md = 1;
+  result->md_stop = md->stop_reason;
+  result->collisions += md->collisions;
+  result->seconds_md += md->seconds;
+}
+
+static jam_status run_nve(jam_system *sys, double collisions, double wall_time, outcome *result) {
+  jam_run_options run;
+  jam_md_report md;
+  jam_status status = jam_run_options_init(&run, sizeof run);
+  md.struct_size = sizeof md;
+  run.collisions_per_particle = collisions;
+  run.wall_time = wall_time;
+  if (status >= 0) status = jam_run(sys, &run, &md);
+  if (status >= 0) add_md(result, &md);
+  return status;
+}
+
+static jam_status run_stage(jam_system *sys, const stage *s, double wall_time, outcome *result) {
+  jam_compress_options compress;
+  jam_md_report md;
+  jam_status status = jam_compress_options_init(&compress, sizeof compress);
+  md.struct_size = sizeof md;
+  compress.growth_rate = s->growth;
+  compress.pressure = s->pressure;
+  compress.wall_time = wall_time;
+  if (status >= 0) status = jam_compress(sys, &compress, &md);
+  if (status >= 0) add_md(result, &md);
+  return status;
+}
+
+static jam_status run_crunch(jam_system *sys, const options *o, double wall_time, outcome *result) {
+  jam_crunch_options crunch;
+  jam_status status = jam_crunch_options_init(&crunch, sizeof crunch);
+  crunch.lp_solver = o->lp_solver;
+  crunch.threads = o->threads;
+  crunch.wall_time = wall_time;
+  result->crunch.struct_size = sizeof result->crunch;
+  if (status >= 0) status = jam_crunch(sys, &crunch, &result->crunch);
+  result->has_crunch = status >= 0;
+  return status;
+}
+
+/* Dynamics kept on disk before the crunch: a killed crunch then costs the crunch only. */
+static void keep(const jam_system *sys, const char *path) {
+  struct stat there;
+  if (path && (stat(path, &there) || S_ISREG(there.st_mode))) jam_write(sys, path, JAM_FORMAT_AUTO);
+}
+
+/* Molecular dynamics may end by precision or by stalling, and the crunch goes on from there; limits and Ctrl-C end the job. */
+static int ends_job(jam_status status) { return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || interrupted; }
+
+static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *result) {
+  const double deadline = t->begin + o->wall_time;
+  char name[64] = "NVE";
+  jam_status status = JAM_OK;
+  int k;
+#define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
+  t->stage = name;
+  if (o->nve > 0) status = run_nve(sys, o->nve, LEFT, result);
+  for (k = 0; k < o->stage_count && !ends_job(status); ++k) {
+    snprintf(name, sizeof name, "growth %g", o->stages[k].growth);
+    status = run_stage(sys, &o->stages[k], LEFT, result);
+  }
+  if (o->no_crunch || ends_job(status)) return status;
+  if (result->has_md) keep(sys, o->output);
+  strcpy(name, "crunch");
+  return run_crunch(sys, o, LEFT, result);
+#undef LEFT
+}
+
+static int write_all(const jam_system *sys, const options *o, outcome *result) {
+  int bad = 0;
+  result->info.struct_size = sizeof result->info;
+  jam_info_get(sys, &result->info);
+  if (o->output && jam_write(sys, o->output, JAM_FORMAT_AUTO) < 0) {
+    complain("%s", jam_last_error());
+    bad = 1;
+  }
+  if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts) != 0;
+  if (o->report) bad |= write_report(result, o->report) != 0;
+  if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(result);
+  return bad || fflush(stdout);
+}
+
+int main(int argc, char **argv) {
+  options o;
+  outcome result;
+  terminal t = {"start", seconds_now()};
+  jam_system *sys = NULL;
+  jam_status status;
+  int bad;
+  const int parsed = parse_options(argc, argv, &o);
+  if (parsed) return parsed - 1;
+  if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report)) return EXIT_OUTPUT;
+  memset(&result, 0, sizeof result);
+  signal(SIGINT, on_signal);
+  signal(SIGTERM, on_signal);
+  status = start(&o, &sys);
+  if (status < 0) {
+    complain("%s", jam_last_error()[0] ? jam_last_error() : jam_status_string(status));
+    return EXIT_FAILED;
+  }
+  running = sys;
+  if (!o.quiet && isatty(STDERR_FILENO)) jam_set_progress(sys, show_progress, &t);
+  if (!interrupted) status = work(sys, &o, &t, &result);
+  running = NULL;
+  if (!o.quiet && isatty(STDERR_FILENO)) fputs("\r\033[K", stderr);
+  if (status < 0) complain("%s", jam_last_error());
+  else if (interrupted) complain("interrupted; writing the state reached");
+  else if (status > 0) complain("stopped early: %s", jam_status_string(status));
+  bad = write_all(sys, &o, &result);
+  jam_destroy(sys);
+  if (bad) return EXIT_OUTPUT;
+  if (status < 0) return EXIT_FAILED;
+  return status > 0 || interrupted ? EXIT_EARLY : EXIT_DONE;
+}

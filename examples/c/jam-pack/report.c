@@ -1,0 +1,207 @@
+/* What jam-pack writes: JSON report, contact network, summary. Files appear whole or not at all. */
+#define _XOPEN_SOURCE 700
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "jam-pack.h"
+
+void complain(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  fputs("jam-pack: ", stderr);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+  va_end(args);
+}
+
+static int cannot(const char *path) {
+  complain("cannot write %s: %s", path, strerror(errno));
+  return -1;
+}
+
+/* Told before hours of work, not after: the folder must take files, and the name must not be a folder's. */
+int check_writable(const char *path) {
+  struct stat there;
+  char folder[4096];
+  const char *slash;
+  if (!path || !strcmp(path, "-")) return 0;
+  if (stat(path, &there) == 0) {
+    if (S_ISDIR(there.st_mode)) errno = EISDIR;
+    if (S_ISDIR(there.st_mode) || access(path, W_OK)) return cannot(path);
+    if (!S_ISREG(there.st_mode)) return 0;
+  }
+  slash = strrchr(path, '/');
+  snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
+  return access(folder, W_OK | X_OK) ? cannot(path) : 0;
+}
+
+typedef struct output {
+  const char *path;
+  char *beside; /* NULL when written in place: standard output, pipes, devices */
+  FILE *file;
+} output;
+
+static int open_output(output *out, const char *path) {
+  struct stat there;
+  char *resolved = NULL;
+  out->path = path;
+  out->beside = NULL;
+  if (!strcmp(path, "-")) {
+    out->file = stdout;
+    return 0;
+  }
+  if (stat(path, &there) || S_ISREG(there.st_mode)) {
+    resolved = realpath(path, NULL); /* a link stays a link */
+    if (!resolved) resolved = strdup(path);
+    out->beside = resolved ? malloc(strlen(resolved) + 32) : NULL;
+    if (!out->beside) {
+      free(resolved);
+      return cannot(path);
+    }
+    sprintf(out->beside, "%s.part-%ld", resolved, (long)getpid());
+    free(resolved);
+  }
+  out->file = fopen(out->beside ? out->beside : path, "w");
+  if (out->file) return 0;
+  free(out->beside);
+  return cannot(path);
+}
+
+static int close_output(output *out) {
+  char *end;
+  int bad = ferror(out->file) | fflush(out->file);
+  if (out->file != stdout) bad |= fclose(out->file);
+  if (bad) cannot(out->path);
+  if (!out->beside) return bad ? -1 : 0;
+  if (bad) {
+    remove(out->beside);
+  } else {
+    char *target = strdup(out->beside);
+    end = target ? strrchr(target, '.') : NULL;
+    if (end) *end = '\0';
+    bad = !target || rename(out->beside, target);
+    if (bad) {
+      cannot(out->path);
+      remove(out->beside);
+    }
+    free(target);
+  }
+  free(out->beside);
+  return bad ? -1 : 0;
+}
+
+/* JSON has no NaN and no infinity. */
+static void put_number(FILE *f, const char *key, double x) {
+  if (isfinite(x)) fprintf(f, "  \"%s\": %.17g,\n", key, x);
+  else fprintf(f, "  \"%s\": null,\n", key);
+}
+
+static void put_count(FILE *f, const char *key, int64_t x, int known) {
+  if (known) fprintf(f, "  \"%s\": %lld,\n", key, (long long)x);
+  else fprintf(f, "  \"%s\": null,\n", key);
+}
+
+int write_report(const outcome *result, const char *path) {
+  const jam_info *info = &result->info;
+  const jam_report *r = &result->crunch;
+  const int crunched = result->has_crunch;
+  const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
+  output out;
+  FILE *f;
+  if (open_output(&out, path)) return -1;
+  f = out.file;
+  fputs("{\n", f);
+  put_count(f, "n", info->n, 1);
+  put_count(f, "dim", info->dim, 1);
+  put_count(f, "seed", info->seed, 1);
+  put_number(f, "packing_fraction", info->packing_fraction);
+  put_number(f, "diameter_mean", info->diameter_mean);
+  put_number(f, "pressure", info->pressure);
+  put_count(f, "collisions", result->collisions, 1);
+  put_number(f, "collisions_per_second", rate);
+  put_count(f, "lp_solves", r->lp_solves, crunched);
+  put_count(f, "factorisations", r->factorisations, crunched);
+  put_count(f, "contacts", r->contacts, crunched);
+  put_count(f, "rattlers", r->rattlers, crunched);
+  put_count(f, "bucklers", r->bucklers, crunched);
+  put_count(f, "one_ss", r->one_ss, crunched);
+  put_count(f, "excess_contacts", r->excess_contacts, crunched);
+  put_number(f, "max_overlap", crunched ? r->max_overlap : NAN);
+  put_number(f, "force_residual", crunched ? r->force_residual : NAN);
+  put_number(f, "gamma_residual", crunched ? r->gamma_residual : NAN);
+  put_number(f, "min_force", crunched ? r->min_force : NAN);
+  put_number(f, "min_gap", crunched ? r->min_gap : NAN);
+  put_number(f, "duality_gap", crunched ? r->duality_gap : NAN);
+  put_number(f, "gain", crunched ? r->gain : NAN);
+  if (crunched) fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
+  else fputs("  \"jammed\": null,\n", f);
+  fprintf(f, "  \"stop_reason\": \"%s\",\n", jam_stop_string(crunched ? r->stop_reason : result->md_stop));
+  fprintf(f, "  \"md_stop_reason\": \"%s\",\n", jam_stop_string(result->md_stop));
+  put_number(f, "seconds_md", result->seconds_md);
+  put_number(f, "seconds_crunch", crunched ? r->seconds : 0.0);
+  fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
+  return close_output(&out);
+}
+
+static void put_contacts(FILE *f, int32_t dim, size_t count, const int32_t *pair, const double *vector, const double *gap,
+                         const double *force) {
+  size_t k;
+  int32_t c;
+  fputs("i,j", f);
+  for (c = 0; c < dim; ++c) fprintf(f, ",n%d", (int)c + 1);
+  fputs(",gap,force\n", f);
+  for (k = 0; k < count; ++k) {
+    fprintf(f, "%d,%d", (int)pair[2 * k], (int)pair[2 * k + 1]);
+    for (c = 0; c < dim; ++c) fprintf(f, ",%.17g", vector[k * (size_t)dim + (size_t)c]);
+    fprintf(f, ",%.17g,%.17g\n", gap[k], force[k]);
+  }
+}
+
+int write_contacts(const jam_system *sys, const char *path) {
+  size_t count = 0, vectors = 0, pairs = 0;
+  int32_t *pair = NULL;
+  double *number = NULL;
+  output out;
+  int bad = jam_forces(sys, NULL, 0, &count) < 0 || jam_contact_vectors(sys, NULL, 0, &vectors) < 0 ||
+            jam_contacts(sys, NULL, 0, &pairs) < 0;
+  if (!bad) {
+    pair = malloc((pairs + 1) * sizeof *pair);
+    number = malloc((vectors + 2 * count + 1) * sizeof *number);
+    bad = !pair || !number || jam_contacts(sys, pair, pairs, NULL) < 0 ||
+          jam_contact_vectors(sys, number, vectors, NULL) < 0 || jam_contact_gaps(sys, number + vectors, count, NULL) < 0 ||
+          jam_forces(sys, number + vectors + count, count, NULL) < 0;
+  }
+  if (bad) {
+    complain("cannot write %s: %s", path, pair && !number ? "out of memory" : jam_last_error());
+  } else if (open_output(&out, path) == 0) {
+    put_contacts(out.file, count ? (int32_t)(vectors / count) : 0, count, pair, number, number + vectors, number + vectors + count);
+    bad = close_output(&out);
+  } else {
+    bad = -1;
+  }
+  free(pair);
+  free(number);
+  return bad ? -1 : 0;
+}
+
+void print_summary(const outcome *result) {
+  const jam_report *r = &result->crunch;
+  const jam_info *info = &result->info;
+  printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
+         (long long)info->seed, info->packing_fraction);
+  if (result->has_md)
+    printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", info->pressure, (double)result->collisions,
+           result->seconds_md, jam_stop_string(result->md_stop));
+  if (!result->has_crunch) return;
+  printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", r->jammed ? "jammed" : "not jammed",
+         jam_stop_string(r->stop_reason), (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
+  printf("  network   %lld contacts (isostatic %+lld), %lld rattlers, %lld bucklers\n", (long long)r->contacts,
+         (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
+  printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n", r->max_overlap,
+         r->force_residual, r->min_force, r->min_gap);
+}

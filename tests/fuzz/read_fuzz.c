@@ -1,0 +1,55 @@
+/* Fuzz target over jam_read: any bytes give a handle that writes and reads back the same, or an error with a text. */
+#define _GNU_SOURCE
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#include "jam/jam.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void demand(int truth, const char *what) {
+  if (truth) return;
+  fprintf(stderr, "broken: %s\n", what);
+  abort();
+}
+
+static void check_round_trip(const jam_system *sys, int32_t format) {
+  jam_system *back = NULL;
+  const double *x, *y;
+  size_t x_len, y_len;
+  char path[64];
+  snprintf(path, sizeof path, "/tmp/jam-fuzz-%ld", (long)getpid());
+  demand(jam_write(sys, path, format) == JAM_OK, "what was read can be written");
+  demand(jam_read(path, NULL, &back) == JAM_OK, "what was written can be read");
+  jam_positions_view(sys, &x, &x_len);
+  jam_positions_view(back, &y, &y_len);
+  demand(x_len == y_len && !memcmp(x, y, x_len * sizeof *x), "the same positions");
+  jam_diameters_view(sys, &x, &x_len);
+  jam_diameters_view(back, &y, &y_len);
+  demand(x_len == y_len && !memcmp(x, y, x_len * sizeof *x), "the same diameters");
+  jam_destroy(back);
+  unlink(path);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  char path[64];
+  jam_system *sys = NULL;
+  jam_status status;
+  const int fd = memfd_create("input", 0);
+  demand(fd >= 0 && write(fd, data, size) == (ssize_t)size, "memfd_create");
+  snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+  status = jam_read(path, NULL, &sys);
+  close(fd);
+  if (status == JAM_OK) {
+    check_round_trip(sys, JAM_FORMAT_PLAIN);
+    check_round_trip(sys, JAM_FORMAT_XYZ);
+  } else {
+    demand(status < 0 && !sys, "no handle with an error");
+    demand(jam_last_error()[0] != '\0', "an error has a text");
+  }
+  jam_destroy(sys);
+  return 0;
+}

@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""lint.py RULE ROOT: checks one rule of the source tree; prints every violation, exit status 1 if there is one."""
+import pathlib
+import re
+import sys
+
+root = pathlib.Path(sys.argv[2])
+problems = []
+
+# src/README.md: a layer may include itself and those listed here.
+LAYERS = {
+    "core": [],
+    "edmd": ["core"],
+    "lp": ["core"],
+    "crunch": ["core", "lp"],
+    "analysis": ["core", "lp"],
+    "io": ["core"],
+    "capi": ["core", "edmd", "lp", "crunch", "analysis", "io"],
+}
+# Third-party headers and the only files (or folders) under src that may see them.
+GUESTS = {
+    r"(Clp|Coin|coin/|Osi)\w*": ["src/lp/clp_backend.cpp"],
+    r"Spectra/": ["src/analysis/modes.cpp"],
+    r"metis\.h": ["src/lp/"],
+    r"(cblas|lapacke|openblas|f77blas)\w*": ["src/lp/"],
+    r"[ds]mumps_c\.h": ["src/lp/"],
+    r"Eigen/": ["src/lp/", "src/analysis/", "src/crunch/"],
+}
+
+
+def problem(path, line, text):
+    where = path.relative_to(root) if isinstance(path, pathlib.Path) else path
+    problems.append(f"{where}:{line}: {text}")
+
+
+def files(*patterns):
+    return sorted(p for pattern in patterns for p in root.glob(pattern) if p.is_file())
+
+
+def sources():
+    return files("src/**/*.cpp", "src/**/*.hpp", "include/**/*.h")
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        found = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        if found:
+            yield number, found.group(1)
+
+
+def without_comments(text):
+    """Blanks out comments and string contents, keeps line breaks."""
+    pattern = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
+    return re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m.group(0)), text, flags=re.S)
+
+
+def layers():
+    for path in files("src/**/*.cpp", "src/**/*.hpp"):
+        layer = path.relative_to(root).parts[1]
+        if layer not in LAYERS:
+            problem(path, 0, f"folder {layer} is no layer of src/README.md")
+            continue
+        for number, name in includes(path):
+            target = name.split("/")[0]
+            if target in LAYERS and target != layer and target not in LAYERS[layer]:
+                problem(path, number, f"layer {layer} must not include {name}")
+
+
+def private_headers():
+    for path in sources():
+        relative = str(path.relative_to(root))
+        for number, name in includes(path):
+            if relative.startswith("include/") and name not in ("stddef.h", "stdint.h"):
+                problem(path, number, f"the public header must not include {name}")
+            for pattern, homes in GUESTS.items():
+                if re.match(pattern, name) and not any(relative.startswith(home) for home in homes):
+                    problem(path, number, f"{name} belongs to {', '.join(homes)} only")
+
+
+def declarations(text):
+    """(line, comment, code) of every declaration of the header that has its comment right above."""
+    for found in re.finditer(r"(/\*(?:(?!\*/).)*\*/)\n((?:JAM_API|typedef)\b(?:[^;{]|\{[^}]*\})*;)", text, flags=re.S):
+        yield text.count("\n", 0, found.start(2)) + 1, found.group(1), found.group(2)
+
+
+def doc_comments():
+    path = root / "include/jam/jam.h"
+    text = path.read_text()
+    documented = set()
+    for line, comment, code in declarations(text):
+        documented.add(line)
+        if "@since" not in comment:
+            problem(path, line, "the comment has no @since")
+        if not code.startswith("JAM_API"):
+            continue
+        if "Threads:" not in comment:
+            problem(path, line, "the comment says nothing about Threads:")
+        # Functions that cannot fail return no status; the others say how they fail, or that they do as a named neighbour.
+        if re.match(r"JAM_API jam_status\b", code) and "Errors" not in comment:
+            problem(path, line, "the comment names no Errors")
+        for example in re.findall(r"Example: (\S+)", comment):
+            if not (root / example).is_file():
+                problem(path, line, f"there is no {example}")
+    for number, line in enumerate(text.splitlines(), 1):
+        if re.match(r"JAM_API|typedef", line) and number not in documented:
+            problem(path, number, "no comment right above")
+    if len(documented) < 20:
+        problem(path, 0, f"only {len(documented)} declarations recognised: this rule is broken")
+
+
+def names():
+    path = root / "include/jam/jam.h"
+    code = without_comments(path.read_text())
+    for number, line in enumerate(code.splitlines(), 1):
+        for name in re.findall(r"\b(?:jam|JAM)_\w+", line):
+            if len(name) > 31:
+                problem(path, number, f"{name} has {len(name)} characters, 31 are allowed")
+        if re.match(r"JAM_API", line):
+            name = re.search(r"(\w+)\(", line)
+            if name and not name.group(1).startswith("jam_"):
+                problem(path, number, f"{name.group(1)} does not begin with jam_")
+        if re.search(r"\b(unsigned|long|short|float|bool|int)\b(?! main)", line):
+            problem(path, number, "only double, int32_t, int64_t, uint32_t, size_t and char are used")
+        found = re.match(r"\s+(JAM_\w+)\s*(=?)", line)
+        if found and not found.group(2):
+            problem(path, number, f"{found.group(1)} has no explicit value")
+    for body in re.findall(r"typedef struct \w+ \{(.*?)\}", code, flags=re.S):
+        if not re.match(r"\s*uint32_t struct_size;", body):
+            problem(path, 0, "a struct does not begin with struct_size:" + body[:60])
+
+
+def file_sizes():
+    for path in files("src/**/*.[ch]pp", "tests/**/*.c", "tests/**/*.[ch]pp", "tests/**/*.py", "examples/**/*.[ch]",
+                      "examples/**/*.py", "bindings/**/*.py"):
+        count = len(path.read_text().splitlines())
+        if count > 600:
+            problem(path, count, "more than 600 lines")
+        elif count > 300:
+            print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
+    header = len((root / "include/jam/jam.h").read_text().splitlines())
+    if header > 700:
+        problem(root / "include/jam/jam.h", header, "more than 700 lines")
+    for path in files("examples/c/*.c", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"):
+        count = len(path.read_text().splitlines())
+        if count > 80:
+            problem(path, count, "an example has more than 80 lines")
+    allowed = {"CMakeLists.txt", "README.md", "LICENSE", "CHANGELOG.md", "include", "src", "bindings", "tests", "examples", "pkgconfig"}
+    for path in root.iterdir():
+        if path.name not in allowed and not path.name.startswith((".", "build", "__pycache__")):
+            problem(path, 0, "does not belong into the root folder")
+
+
+def no_side_effects():
+    """The library prints nothing, ends no process, takes no signal and keeps no state of its own (but for a lock)."""
+    calls = r"(?<![\w.>:])(?:std::)?(printf|fprintf|puts|putchar|perror|exit|_exit|abort|quick_exit|signal|sigaction|raise|setlocale|srand|rand)\s*\("
+    streams = r"\bstd::(cout|cerr|clog)\b|\bstderr\b|\bstdout\b"
+    state = r"^(?:static |inline )*(?:int|double|bool|size_t|int32_t|int64_t|char|std::(?!mutex)\w+(?:<[^;()]*>)?) \w+(?:\[\w*\])?(?: = [^;(]*|\{[^;]*\})?;"
+    for path in files("src/**/*.cpp", "src/**/*.hpp"):
+        code = without_comments(path.read_text())
+        for number, line in enumerate(code.splitlines(), 1):
+            for pattern in (calls, streams):
+                found = re.search(pattern, line)
+                if found:
+                    problem(path, number, f"{found.group(0).strip()} has no place in the library")
+            if re.match(state, line):
+                problem(path, number, f"mutable state of the process: {line.strip()}")
+
+
+def plain_words():
+    """Text files are ASCII without trailing blanks, and speak of nobody's machine."""
+    for path in files("src/**/*.[ch]pp", "include/**/*.h", "tests/**/*.c", "tests/**/*.[ch]pp", "tests/**/*.py", "tests/**/*.sh",
+                      "examples/**/*.[ch]", "examples/**/*.py", "examples/**/*.sh", "pkgconfig/*", "bindings/**/*.py"):
+        text = path.read_bytes()
+        for number, line in enumerate(text.split(b"\n"), 1):
+            if any(byte > 126 for byte in line):
+                problem(path, number, "not ASCII")
+            if line.rstrip() != line and not path.name.startswith("_generated"):
+                problem(path, number, "blanks at the end of the line")
+            if re.search(rb"/(home|root|work)/\w", line):
+                problem(path, number, "a path of one machine")
+
+
+globals()[sys.argv[1]]()
+print("\n".join(problems))
+sys.exit(bool(problems))

@@ -1,0 +1,45 @@
+#!/bin/sh
+# check.sh PART BUILD PREFIX LIBDIR: installs the build into PREFIX, or checks one part of what is installed there.
+set -eu
+part=$1 build=$2 prefix=$3 libdir=$4
+here=$(cd "$(dirname "$0")" && pwd)
+scratch=$build/tests/package
+die() { echo "$*" >&2; exit 1; }
+
+case $part in
+install)
+  rm -rf "$prefix"
+  cmake --install "$build" --prefix "$prefix" >"$scratch/install.log"
+  grep -qx "libdir=$libdir" "$libdir/pkgconfig/jam.pc" || die "jam.pc does not name $libdir"
+  for file in include/jam/jam.h bin/jam-pack; do test -f "$prefix/$file" || die "$file is not installed"; done
+  ls "$libdir"/libjam.so.* >/dev/null
+  ;;
+pkgconfig)
+  export PKG_CONFIG_PATH="$libdir/pkgconfig"
+  pkg-config --exists jam || die "pkg-config does not find jam"
+  ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror "$here/consumer/consumer.c" -o "$scratch/consumer_pc" $(pkg-config --cflags --libs jam)
+  LD_LIBRARY_PATH=$libdir "$scratch/consumer_pc"
+  ;;
+cmake)
+  rm -rf "$scratch/consumer_cmake"
+  cmake -S "$here/consumer" -B "$scratch/consumer_cmake" -DCMAKE_PREFIX_PATH="$prefix" >"$scratch/consumer_cmake.log"
+  cmake --build "$scratch/consumer_cmake" >>"$scratch/consumer_cmake.log"
+  "$scratch/consumer_cmake/consumer"
+  ;;
+symbols)
+  # Only jam_* may be exported, and every function of the header must be.
+  nm -D --defined-only "$libdir/libjam.so" | awk '{print $3}' | sed 's/@.*//' | sort -u >"$scratch/exported"
+  if grep -v '^jam_' "$scratch/exported"; then die "the library exports more than jam_*"; fi
+  sed -n 's/^JAM_API.*[ *]\(jam_[a-z0-9_]*\)(.*/\1/p' "$prefix/include/jam/jam.h" | sort -u >"$scratch/declared"
+  test -s "$scratch/declared" || die "no declaration found in jam.h"
+  comm -3 "$scratch/declared" "$scratch/exported" >"$scratch/differ"
+  if [ -s "$scratch/differ" ]; then
+    cat "$scratch/differ"
+    die "declared but not exported (left), or exported but not declared (right)"
+  fi
+  objdump -p "$libdir/libjam.so" | grep -q 'SONAME *libjam\.so\.[0-9]*$' || die "no SONAME with a number"
+  # The program must run from the installed tree without help from the environment.
+  env -u LD_LIBRARY_PATH "$prefix/bin/jam-pack" --version
+  ;;
+*) die "unknown part $part" ;;
+esac

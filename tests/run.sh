@@ -1,0 +1,31 @@
+#!/bin/sh
+# Sets up a bare Debian 12 and runs all tests: a release build with everything, then the address and undefined-behaviour
+# sanitizers over the tests of the library. `sh tests/run.sh`, from any folder; the builds are ./build and ./build-asan.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root"
+. tests/debian.sh
+need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev libcmocka-dev \
+  libmetis-dev libopenblas-dev swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib abigail-tools clang locales
+
+jobs=$(nproc)
+bindings=
+if [ -f bindings/CMakeLists.txt ]; then bindings="-DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON"; fi
+# OpenBLAS must not put more threads on cores that run tests side by side.
+export OPENBLAS_NUM_THREADS=1
+
+echo "== release build"
+# shellcheck disable=SC2086
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release $bindings >/dev/null
+cmake --build build -j "$jobs"
+status=0
+ctest --test-dir build -j "$jobs" --output-on-failure --no-tests=error || status=1
+
+echo "== address and undefined-behaviour sanitizers"
+cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_SANITIZE=address,undefined -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+cmake --build build-asan -j "$jobs"
+export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export ASAN_OPTIONS=detect_stack_use_after_return=1
+# Tests labelled `long` time physics that the release build has already seen.
+ctest --test-dir build-asan -j "$jobs" -L 'unit|capi|physics' -LE long --timeout 900 --output-on-failure --no-tests=error || status=1
+exit $status

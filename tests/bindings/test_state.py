@@ -1,0 +1,181 @@
+"""Making, copying, viewing and closing systems from Python; what arrays are taken."""
+import copy
+import gc
+import pickle
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+import jam
+
+
+class Making(unittest.TestCase):
+    def test_random_has_what_was_asked(self):
+        s = jam.System.random(n=100, dim=2, seed=5, packing_fraction=0.3, box=2.0)
+        self.assertEqual((s.n, s.dim, s.seed, s.box, len(s)), (100, 2, 5, 2.0, 100))
+        self.assertAlmostEqual(s.packing_fraction, 0.3, 12)
+        self.assertEqual(s.positions.shape, (100, 2))
+        self.assertEqual(s.diameters.shape, (100,))
+        self.assertTrue((s.positions >= 0).all() and (s.positions < 2).all())
+
+    def test_same_seed_same_bits(self):
+        a, b, c = (jam.System.random(n=64, seed=k) for k in (3, 3, 4))
+        np.testing.assert_array_equal(a.positions, b.positions)
+        self.assertTrue((a.positions != c.positions).any())
+
+    def test_diameters_keep_their_ratios(self):
+        s = jam.System.random(n=10, diameters=[1.0] * 5 + [1.4] * 5)
+        self.assertAlmostEqual(s.diameters[9] / s.diameters[0], 1.4, 14)
+
+    def test_other_dtypes_orders_and_strides_are_copied_once(self):
+        x = np.random.default_rng(1).random((20, 3))
+        want = jam.System.from_arrays(x, 1e-3).positions
+        wide = np.zeros((20, 6))
+        wide[:, ::2] = x
+        for given in (np.asfortranarray(x), wide[:, ::2], x.tolist(), x[::-1][::-1]):
+            np.testing.assert_array_equal(jam.System.from_arrays(given, 1e-3).positions, want)
+        single = jam.System.from_arrays(x.astype(np.float32), 1e-3).positions
+        np.testing.assert_array_equal(single, x.astype(np.float32).astype(float))
+        whole = jam.System.from_arrays(np.arange(6).reshape(2, 3), 0.1, box=8)
+        np.testing.assert_array_equal(whole.positions, [[0, 1, 2], [3, 4, 5]])
+
+    def test_wrong_shapes_and_kinds_are_refused(self):
+        for bad in (np.zeros(6), np.zeros((2, 3, 1)), 1.0):
+            with self.assertRaises(ValueError):
+                jam.System.from_arrays(bad, 0.1)
+        with self.assertRaises(ValueError):
+            jam.System.from_arrays(np.zeros((2, 3)), [0.1, 0.1, 0.1])
+        with self.assertRaises(TypeError):
+            jam.System.from_arrays(np.zeros((2, 3), complex), 0.1)
+        s = jam.System.random(n=10)
+        with self.assertRaises(ValueError):
+            s.positions = s.positions.T
+        with self.assertRaises(ValueError):
+            s.velocities = np.zeros((9, 3))
+
+    def test_raw_layer_refuses_what_it_cannot_show_to_c(self):
+        s = jam.System.random(n=10)
+        for bad in (np.zeros(30, np.float32), np.zeros(60)[::2], "text", 3):
+            with self.assertRaises((TypeError, BufferError, ValueError)):
+                jam.raw.jam_set_velocities(s.handle, bad)
+        with self.assertRaises((TypeError, BufferError, ValueError)):
+            jam.raw.jam_coordination(s.handle, b"read-only")
+
+    def test_errors_are_classes_with_text(self):
+        with self.assertRaises(jam.errors.DimensionError) as caught:
+            jam.System.random(dim=9)
+        self.assertIn("9", str(caught.exception))
+        self.assertEqual(caught.exception.status, jam.StatusCode.E_DIMENSION)
+        self.assertIsInstance(caught.exception, (jam.JamError, ValueError))
+        with self.assertRaises(jam.errors.OverlapError):
+            jam.System.from_arrays([[0.1, 0.1], [0.2, 0.1]], 0.2)
+        with self.assertRaises(jam.errors.NonfiniteError):
+            jam.System.from_arrays([[0.1, np.nan]], 0.2)
+        with self.assertRaises(jam.errors.UnplaceableError):
+            jam.System.random(n=50, packing_fraction=0.9)
+        with self.assertRaises(jam.errors.IoError):
+            jam.System.read("/does/not/exist")
+        with self.assertRaises(OSError):
+            jam.System.read("/does/not/exist")
+        with self.assertRaises(jam.errors.StateError):
+            jam.System.random(n=10).report
+        with self.assertRaisesRegex(TypeError, "packing_fraction"):
+            jam.System.random(fraction=0.2)
+        with self.assertRaisesRegex(ValueError, "euclid"):
+            jam.System.random(model="hard")
+        for code in jam.StatusCode:
+            if code < 0:
+                self.assertTrue(issubclass(jam.errors._BY_STATUS[code], jam.JamError))
+
+
+class Views(unittest.TestCase):
+    def test_no_copy_and_read_only(self):
+        s = jam.System.random(n=10)
+        a, b = s.positions, s.positions
+        self.assertEqual(a.ctypes.data, b.ctypes.data)
+        self.assertEqual(a.ctypes.data, jam.raw.jam_positions_view(s.handle)[1][0])
+        with self.assertRaises(ValueError):
+            a[0, 0] = 1
+        with self.assertRaises(ValueError):
+            a.flags.writeable = True
+
+    def test_view_follows_the_system(self):
+        s = jam.System.random(n=10)
+        view, moved = s.positions, (s.positions + 0.25) % 1.0
+        s.positions = moved
+        np.testing.assert_array_equal(view, moved)
+
+    def test_view_keeps_the_memory_alive(self):
+        view = jam.System.random(n=5000, seed=9).positions
+        want = jam.System.random(n=5000, seed=9).positions.copy()
+        gc.collect()
+        hold = [np.full(15000, k, float) for k in range(20)]  # would take the freed memory
+        np.testing.assert_array_equal(view, want)
+        del hold
+
+    def test_closed(self):
+        s = jam.System.random(n=10)
+        view, copied = s.positions, s.positions.copy()
+        with s:
+            pass
+        for use in (lambda: s.n, lambda: s.positions, lambda: s.crunch(), lambda: s.copy(), lambda: s.report, lambda: s.cancel()):
+            with self.assertRaises(jam.errors.ClosedError):
+                use()
+        self.assertEqual(repr(s), "System(closed)")
+        np.testing.assert_array_equal(view, copied)
+        s.close()
+
+
+class Copies(unittest.TestCase):
+    def check_same(self, a, b):
+        np.testing.assert_array_equal(a.positions, b.positions)
+        np.testing.assert_array_equal(a.diameters, b.diameters)
+        np.testing.assert_array_equal(a.velocities, b.velocities)
+        self.assertEqual((a.box, a.seed, a.dim), (b.box, b.seed, b.dim))
+
+    def test_copy_is_deep(self):
+        a = jam.System.random(n=20, seed=2, box=3.0)
+        for b in (a.copy(), copy.copy(a), copy.deepcopy(a)):
+            self.check_same(a, b)
+            before = a.positions.copy()
+            b.positions = (b.positions + 0.1) % 3.0
+            np.testing.assert_array_equal(a.positions, before)
+
+    def test_pickle(self):
+        a = jam.System.random(n=20, seed=2, box=3.0)
+        a.velocities = np.random.default_rng(0).normal(size=(20, 3))
+        self.check_same(a, pickle.loads(pickle.dumps(a)))
+
+    def test_pickle_carries_results_until_the_next_change(self):
+        a = jam.System.random(n=40, dim=2, seed=2)
+        a.crunch()
+        b = pickle.loads(pickle.dumps(a))
+        self.check_same(a, b)
+        self.assertEqual(b.report, a.report)
+        np.testing.assert_array_equal(b.contacts.forces, a.contacts.forces)
+        np.testing.assert_array_equal(b.coordination, a.coordination)
+        self.assertEqual(pickle.loads(pickle.dumps(b)).report, a.report)
+        b.scale_diameters(0.9)
+        with self.assertRaises(jam.errors.StateError):
+            b.report
+
+
+class Importing(unittest.TestCase):
+    def test_import_loads_neither_matplotlib_nor_scipy(self):
+        code = "import jam, sys; sys.exit(bool({'matplotlib', 'scipy'} & set(sys.modules)))"
+        self.assertEqual(subprocess.run([sys.executable, "-c", code]).returncode, 0)
+
+    def test_docstrings_tell_shapes_and_options(self):
+        self.assertIn("gain_tolerance", jam.System.crunch.__doc__)
+        self.assertIn("growth_rate", jam.System.compress.__doc__)
+        self.assertIn("(n, d)", jam.System.positions.__doc__)
+        self.assertIn("n, d", jam.raw.jam_create.__doc__)
+        for name in dir(jam.System):
+            if not name.startswith("_"):
+                self.assertTrue(getattr(jam.System, name).__doc__, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

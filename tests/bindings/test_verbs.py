@@ -1,0 +1,208 @@
+"""Long calls from Python: results, progress, exceptions, Ctrl-C, threads, cancel."""
+import os
+import signal
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import jam
+
+SHARED = os.environ.get("JAM_TEST_SHARED", "") + "/ls-n1024-d3.dat"
+
+
+def start(n=1500, seed=1):
+    """A system whose crunch lasts far longer than the test waits."""
+    return jam.System.random(n=n, dim=3, seed=seed, packing_fraction=0.3)
+
+
+def overlap(s):
+    """Largest -h over all pairs, by numpy alone."""
+    x, sigma, worst = s.positions / s.box, s.diameters / s.box, 0.0
+    for i in range(len(x) - 1):
+        r = x[i + 1:] - x[i]
+        r -= np.round(r)
+        h = np.sqrt((r * r).sum(1)) / (0.5 * (sigma[i + 1:] + sigma[i])) - 1
+        worst = max(worst, -h.min())
+    return worst
+
+
+class Crunch(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.s = jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30)
+        cls.report = cls.s.crunch()
+
+    def test_report(self):
+        r = self.report
+        self.assertEqual(r.status, jam.StatusCode.OK)
+        self.assertEqual(r.jammed, 1)
+        self.assertIs(r.stop_reason, jam.StopReason.CONVERGED)
+        self.assertEqual(r, self.s.report)
+        text = repr(r)
+        for word in ("packing_fraction", "converged", "excess_contacts"):
+            self.assertIn(word, text)
+        with self.assertRaises(Exception):
+            r.contacts = 3
+
+    def test_contacts_and_forces(self):
+        s, r, c = self.s, self.report, self.s.contacts
+        self.assertEqual(len(c), r.contacts)
+        self.assertEqual(c.pairs.dtype, np.int32)
+        self.assertEqual(c.vectors.shape, (r.contacts, 2))
+        np.testing.assert_allclose((c.vectors ** 2).sum(1), 1, atol=1e-12)
+        self.assertAlmostEqual(s.forces.mean(), 1, 12)
+        net = np.zeros((s.n, 2))
+        np.add.at(net, c.pairs[:, 0], c.vectors * c.forces[:, None])
+        np.add.at(net, c.pairs[:, 1], -c.vectors * c.forces[:, None])
+        self.assertLess(np.abs(net).max(), 1e-8)
+        np.testing.assert_array_equal(s.coordination, np.bincount(c.pairs.reshape(-1), minlength=s.n))
+        self.assertEqual(s.rattlers.sum(), r.rattlers)
+        self.assertEqual(s.bucklers.sum(), r.bucklers)
+        t = c.table()
+        np.testing.assert_array_equal(t["force"], c.forces)
+        np.testing.assert_array_equal(t["vector"], c.vectors)
+        self.assertLess(overlap(s), 1e-10)
+
+    def test_options_reach_the_library(self):
+        s = jam.System.random(n=60, dim=2, seed=3)
+        self.assertEqual(s.crunch(max_lps=1).status, jam.StatusCode.LIMIT)
+        with self.assertRaises(jam.errors.ArgumentError):
+            s.crunch(max_lps=0)
+        with self.assertRaises(TypeError):
+            s.crunch(max_iters=3)
+
+
+class MolecularDynamics(unittest.TestCase):
+    def test_run_and_compress(self):
+        s = jam.System.random(n=108, dim=3, seed=1)
+        r = s.run(20)
+        self.assertIs(r.stop_reason, jam.StopReason.COLLISIONS)
+        self.assertGreaterEqual(r.collisions, 20 * 108 / 2 - 1)
+        self.assertLess(r.energy_drift, 1e-9)
+        r = s.compress(growth_rate=0.1, packing_fraction=0.5)
+        self.assertIs(r.stop_reason, jam.StopReason.PACKING_FRACTION)
+        self.assertAlmostEqual(s.packing_fraction, 0.5, 9)
+        self.assertLess(overlap(s), 1e-9)
+
+    def test_stages(self):
+        s = jam.System.random(n=108, dim=3, seed=1)
+        seen = []
+        r = s.compress(stages=[(0.1, 50), {"growth_rate": 0.05, "packing_fraction": 0.6, "pressure": 300}], progress=lambda p: seen.append(p.phase))
+        self.assertEqual(r.status, 0)
+        self.assertIn(r.stop_reason, (jam.StopReason.PRESSURE, jam.StopReason.PACKING_FRACTION))
+        self.assertEqual(set(seen), {jam.Phase.COMPRESS})
+        with self.assertRaises(ValueError):
+            s.compress(stages=[])
+
+
+class Callbacks(unittest.TestCase):
+    def check_valid(self, s):
+        self.assertTrue(np.isfinite(s.positions).all())
+        self.assertLess(overlap(s), 1e-9)
+        self.assertEqual(s.call("cancel"), 0)   # usable, and the next call stops at once
+        self.assertEqual(s.crunch().status, jam.StatusCode.CANCELLED)
+
+    def test_true_answer_stops(self):
+        s, seen = start(), []
+        r = s.crunch(progress=lambda p: seen.append(p) or len(seen) > 2)
+        self.assertEqual(r.status, jam.StatusCode.CANCELLED)
+        self.assertEqual(len(seen), 3)
+        self.assertIs(seen[0].phase, jam.Phase.CRUNCH)
+        self.assertEqual(s.trace, seen)
+        self.check_valid(s)
+
+    def test_exception_reaches_the_caller(self):
+        class Mine(Exception):
+            pass
+
+        def raising(progress):
+            raise Mine("from the callback")
+        s = start()
+        began = time.time()
+        with self.assertRaisesRegex(Mine, "from the callback") as caught:
+            s.crunch(progress=raising)
+        self.assertLess(time.time() - began, 20)
+        names = [f.name for f in __import__("traceback").extract_tb(caught.exception.__traceback__)]
+        self.assertIn("raising", names)
+        self.check_valid(s)
+
+    def test_exception_in_log_reaches_the_caller(self):
+        def raising(level, line):
+            raise KeyError(line)
+        s = jam.System.random(n=60, dim=2, seed=3)
+        s.log(raising, "debug")
+        try:
+            r = s.crunch()
+            self.assertEqual(r.status, 0)  # the library logged nothing
+        except KeyError:
+            pass
+        s.log(None)
+        self.assertEqual(s.crunch().status, 0)
+
+    def test_log_lines(self):
+        lines = []
+        s = jam.System.random(n=60, dim=2, seed=3)
+        s.log(lambda level, line: lines.append((level, line)), "info")
+        s.crunch()
+        self.assertTrue(all(isinstance(t, str) and level <= 2 for level, t in lines))
+
+    def test_keyboard_interrupt(self):
+        for progress in (None, lambda p: False):
+            s = start()
+            timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            began = time.time()
+            with self.assertRaises(KeyboardInterrupt):
+                s.crunch(progress=progress)
+            self.assertLess(time.time() - began, 20)
+            self.check_valid(s)
+
+    def test_progress_true_is_silent_without_a_terminal(self):
+        jam.System.random(n=60, dim=2, seed=3).crunch(progress=True)
+        with self.assertRaises(TypeError):
+            jam.System.random(n=6, dim=2).crunch(progress=3)
+
+
+class Threads(unittest.TestCase):
+    def test_second_call_is_refused_and_harms_nothing(self):
+        s, entered, result = start(), threading.Event(), []
+        thread = threading.Thread(target=lambda: result.append(s.crunch(progress=lambda p: entered.set())))
+        thread.start()
+        self.assertTrue(entered.wait(30))
+        for call in (s.crunch, lambda: s.scale_diameters(0.5), lambda: s.run(1)):
+            with self.assertRaises(jam.errors.BusyError):
+                call()
+        self.assertTrue(np.isfinite(s.positions).all())  # const calls may go on
+        handle = s.handle
+        s.close()  # the running call keeps its handle
+        self.assertRaises(jam.errors.ClosedError, s.cancel)
+        jam.raw.jam_cancel(handle)
+        thread.join(60)
+        self.assertEqual(result[0].status, jam.StatusCode.CANCELLED)
+
+    def test_cancel_from_another_thread(self):
+        s, entered, result = start(), threading.Event(), []
+        thread = threading.Thread(target=lambda: result.append(s.crunch(progress=lambda p: entered.set())))
+        thread.start()
+        self.assertTrue(entered.wait(30))
+        s.cancel()
+        thread.join(60)
+        self.assertEqual(result[0].status, jam.StatusCode.CANCELLED)
+
+    def test_gil_is_released(self):
+        s, entered, count = start(), threading.Event(), 0
+        thread = threading.Thread(target=lambda: s.crunch(progress=lambda p: entered.set()))
+        thread.start()
+        entered.wait(30)
+        began = time.perf_counter()
+        while time.perf_counter() - began < 0.2:
+            count += 1
+        s.cancel()
+        thread.join(60)
+        self.assertGreater(count, 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -87,9 +87,9 @@ def _wrap(args, indent):
 
 def _procedure(name, result, args, declare, bind, indent):
     kind = "subroutine" if result == "void" else "function"
-    head = f"{indent}{kind} {name}({_wrap([a.name for a in args], indent)}) {bind}"
+    head = f"{indent}{kind} {name}({_wrap([a.name for a in args], indent)}) &\n{indent}    {bind}"
     if kind == "function":
-        head += " &\n" + indent + "    result(status)"
+        head += " result(status)"
     lines = [head, f"{indent}  import"] + [f"{indent}  {declare(a)}" for a in args]
     if kind == "function":
         lines.append(f"{indent}  {result} :: status")

@@ -340,15 +340,16 @@ module jam
     ! Progress callback, on the calling thread. Non-zero return stops the call with JAM_CANCELLED
     ! and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel
     ! and the jam_*_view and const getters of the state before the call. @since 0.1
-    function jam_progress_fn(progress, user) bind(c) &
-        result(status)
+    function jam_progress_fn(progress, user) &
+        bind(c) result(status)
       import
       type(jam_progress), intent(in) :: progress
       type(c_ptr), value :: user
       integer(c_int32_t) :: status
     end function jam_progress_fn
     ! Log callback: one line without newline, valid during the call. @since 0.1
-    subroutine jam_log_fn(level, line, user) bind(c)
+    subroutine jam_log_fn(level, line, user) &
+        bind(c)
       import
       integer(c_int32_t), value :: level
       type(c_ptr), value :: line
@@ -359,30 +360,30 @@ module jam
   interface
 
     ! Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1
-    function jam_version() bind(c, name="jam_version") &
-        result(status)
+    function jam_version() &
+        bind(c, name="jam_version") result(status)
       import
       type(c_ptr) :: status
     end function jam_version
 
     ! JAM_ABI of the library that is loaded. Threads: any. @since 0.1
-    function jam_abi_version() bind(c, name="jam_abi_version") &
-        result(status)
+    function jam_abi_version() &
+        bind(c, name="jam_abi_version") result(status)
       import
       integer(c_int32_t) :: status
     end function jam_abi_version
 
     ! One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1
-    function jam_status_string(code) bind(c, name="jam_status_string") &
-        result(status)
+    function jam_status_string(code) &
+        bind(c, name="jam_status_string") result(status)
       import
       integer(c_int32_t), value :: code
       type(c_ptr) :: status
     end function jam_status_string
 
     ! One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1
-    function jam_stop_string(reason) bind(c, name="jam_stop_string") &
-        result(status)
+    function jam_stop_string(reason) &
+        bind(c, name="jam_stop_string") result(status)
       import
       integer(c_int32_t), value :: reason
       type(c_ptr) :: status
@@ -390,16 +391,16 @@ module jam
 
     ! Text of this thread's last failed call, with the name and value at fault; "" when none.
     ! Valid until this thread's next jam call that fails. Threads: per thread. @since 0.1
-    function jam_last_error() bind(c, name="jam_last_error") &
-        result(status)
+    function jam_last_error() &
+        bind(c, name="jam_last_error") result(status)
       import
       type(c_ptr) :: status
     end function jam_last_error
 
     ! Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
     ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_create_options_init(o, size) bind(c, name="jam_create_options_init") &
-        result(status)
+    function jam_create_options_init(o, size) &
+        bind(c, name="jam_create_options_init") result(status)
       import
       type(jam_create_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -415,8 +416,8 @@ module jam
     ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
     ! JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
     ! Threads: any. @since 0.1
-    function jam_create(o, positions, positions_len, diameters, diameters_len, out) bind(c, name="jam_create") &
-        result(status)
+    function jam_create(o, positions, positions_len, diameters, diameters_len, out) &
+        bind(c, name="jam_create") result(status)
       import
       type(jam_create_options), intent(in), optional :: o
       real(c_double), intent(in), optional :: positions(*)
@@ -429,8 +430,8 @@ module jam
 
     ! Deep copy of src with its results, without its callbacks. Threads: const on src.
     ! Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
-    function jam_copy(src, out) bind(c, name="jam_copy") &
-        result(status)
+    function jam_copy(src, out) &
+        bind(c, name="jam_copy") result(status)
       import
       type(c_ptr), value :: src
       type(c_ptr), intent(out) :: out
@@ -438,14 +439,15 @@ module jam
     end function jam_copy
 
     ! Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1
-    subroutine jam_destroy(sys) bind(c, name="jam_destroy")
+    subroutine jam_destroy(sys) &
+        bind(c, name="jam_destroy")
       import
       type(c_ptr), value :: sys
     end subroutine jam_destroy
 
     ! Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_info_get(sys, info) bind(c, name="jam_info_get") &
-        result(status)
+    function jam_info_get(sys, info) &
+        bind(c, name="jam_info_get") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_info), intent(inout), optional :: info
@@ -455,8 +457,8 @@ module jam
     ! View of positions (n, d) in [0, box). The pointer is good for the life of the handle; its
     ! content changes only at the end of calls that move spheres. Threads: const.
     ! Errors: JAM_E_NULL. @since 0.1
-    function jam_positions_view(sys, view, view_len) bind(c, name="jam_positions_view") &
-        result(status)
+    function jam_positions_view(sys, view, view_len) &
+        bind(c, name="jam_positions_view") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), intent(out) :: view
@@ -465,8 +467,8 @@ module jam
     end function jam_positions_view
 
     ! View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1
-    function jam_diameters_view(sys, view, view_len) bind(c, name="jam_diameters_view") &
-        result(status)
+    function jam_diameters_view(sys, view, view_len) &
+        bind(c, name="jam_diameters_view") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), intent(out) :: view
@@ -476,8 +478,8 @@ module jam
 
     ! View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
     ! jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1
-    function jam_velocities_view(sys, view, view_len) bind(c, name="jam_velocities_view") &
-        result(status)
+    function jam_velocities_view(sys, view, view_len) &
+        bind(c, name="jam_velocities_view") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), intent(out) :: view
@@ -487,8 +489,8 @@ module jam
 
     ! Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1
-    function jam_set_positions(sys, positions, positions_len) bind(c, name="jam_set_positions") &
-        result(status)
+    function jam_set_positions(sys, positions, positions_len) &
+        bind(c, name="jam_set_positions") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(in), optional :: positions(*)
@@ -499,8 +501,8 @@ module jam
     ! Replaces velocities (n, d). The next MD call uses them as they are, rescaled to kT/m = 1 only by
     ! jam_compress. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
-    function jam_set_velocities(sys, velocities, velocities_len) bind(c, name="jam_set_velocities") &
-        result(status)
+    function jam_set_velocities(sys, velocities, velocities_len) &
+        bind(c, name="jam_set_velocities") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(in), optional :: velocities(*)
@@ -510,8 +512,8 @@ module jam
 
     ! Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1
-    function jam_scale_diameters(sys, factor) bind(c, name="jam_scale_diameters") &
-        result(status)
+    function jam_scale_diameters(sys, factor) &
+        bind(c, name="jam_scale_diameters") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: factor
@@ -520,8 +522,8 @@ module jam
 
     ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
-    function jam_set_progress(sys, callback, user) bind(c, name="jam_set_progress") &
-        result(status)
+    function jam_set_progress(sys, callback, user) &
+        bind(c, name="jam_set_progress") result(status)
       import
       type(c_ptr), value :: sys
       type(c_funptr), value :: callback
@@ -531,8 +533,8 @@ module jam
 
     ! Sets (or with NULL removes) the log callback and its level. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
-    function jam_set_log(sys, callback, level, user) bind(c, name="jam_set_log") &
-        result(status)
+    function jam_set_log(sys, callback, level, user) &
+        bind(c, name="jam_set_log") result(status)
       import
       type(c_ptr), value :: sys
       type(c_funptr), value :: callback
@@ -543,8 +545,8 @@ module jam
 
     ! Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
     ! stops. Sets an atomic flag only. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1
-    function jam_cancel(sys) bind(c, name="jam_cancel") &
-        result(status)
+    function jam_cancel(sys) &
+        bind(c, name="jam_cancel") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t) :: status
@@ -555,8 +557,8 @@ module jam
     ! last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
     ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
     ! and those of jam_create. Threads: any. @since 0.1
-    function jam_read(path, o, out) bind(c, name="jam_read") &
-        result(status)
+    function jam_read(path, o, out) &
+        bind(c, name="jam_read") result(status)
       import
       character(kind=c_char), intent(in) :: path(*)
       type(jam_create_options), intent(in), optional :: o
@@ -567,8 +569,8 @@ module jam
     ! Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
     ! gives the same bits; links are followed, pipes and devices written in place.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
-    function jam_write(sys, path, format) bind(c, name="jam_write") &
-        result(status)
+    function jam_write(sys, path, format) &
+        bind(c, name="jam_write") result(status)
       import
       type(c_ptr), value :: sys
       character(kind=c_char), intent(in) :: path(*)
@@ -577,8 +579,8 @@ module jam
     end function jam_write
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_run_options_init(o, size) bind(c, name="jam_run_options_init") &
-        result(status)
+    function jam_run_options_init(o, size) &
+        bind(c, name="jam_run_options_init") result(status)
       import
       type(jam_run_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -586,8 +588,8 @@ module jam
     end function jam_run_options_init
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_compress_options_init(o, size) bind(c, name="jam_compress_options_init") &
-        result(status)
+    function jam_compress_options_init(o, size) &
+        bind(c, name="jam_compress_options_init") result(status)
       import
       type(jam_compress_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -599,8 +601,8 @@ module jam
     ! Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
     ! JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
     ! JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
-    function jam_run(sys, o, report) bind(c, name="jam_run") &
-        result(status)
+    function jam_run(sys, o, report) &
+        bind(c, name="jam_run") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_run_options), intent(in), optional :: o
@@ -613,8 +615,8 @@ module jam
     ! 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
     ! Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
     ! JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1
-    function jam_compress(sys, o, report) bind(c, name="jam_compress") &
-        result(status)
+    function jam_compress(sys, o, report) &
+        bind(c, name="jam_compress") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_compress_options), intent(in), optional :: o
@@ -623,8 +625,8 @@ module jam
     end function jam_compress
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_crunch_options_init(o, size) bind(c, name="jam_crunch_options_init") &
-        result(status)
+    function jam_crunch_options_init(o, size) &
+        bind(c, name="jam_crunch_options_init") result(status)
       import
       type(jam_crunch_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -637,8 +639,8 @@ module jam
     ! valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
     ! JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
     ! JAM_E_BUSY. Threads: alone. @since 0.1
-    function jam_crunch(sys, o, report) bind(c, name="jam_crunch") &
-        result(status)
+    function jam_crunch(sys, o, report) &
+        bind(c, name="jam_crunch") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_crunch_options), intent(in), optional :: o
@@ -647,8 +649,8 @@ module jam
     end function jam_crunch
 
     ! The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1
-    function jam_report_get(sys, report) bind(c, name="jam_report_get") &
-        result(status)
+    function jam_report_get(sys, report) &
+        bind(c, name="jam_report_get") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_report), intent(inout), optional :: report
@@ -657,8 +659,8 @@ module jam
 
     ! Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
     ! Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1
-    function jam_contacts(sys, iout, iout_len, needed) bind(c, name="jam_contacts") &
-        result(status)
+    function jam_contacts(sys, iout, iout_len, needed) &
+        bind(c, name="jam_contacts") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), intent(inout), optional :: iout(*)
@@ -668,8 +670,8 @@ module jam
     end function jam_contacts
 
     ! Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_contact_vectors(sys, out, out_len, needed) bind(c, name="jam_contact_vectors") &
-        result(status)
+    function jam_contact_vectors(sys, out, out_len, needed) &
+        bind(c, name="jam_contact_vectors") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(inout), optional :: out(*)
@@ -679,8 +681,8 @@ module jam
     end function jam_contact_vectors
 
     ! Gaps h of the contacts, length contacts. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_contact_gaps(sys, out, out_len, needed) bind(c, name="jam_contact_gaps") &
-        result(status)
+    function jam_contact_gaps(sys, out, out_len, needed) &
+        bind(c, name="jam_contact_gaps") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(inout), optional :: out(*)
@@ -691,8 +693,8 @@ module jam
 
     ! Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
     ! Errors: as jam_contacts. @since 0.1
-    function jam_forces(sys, out, out_len, needed) bind(c, name="jam_forces") &
-        result(status)
+    function jam_forces(sys, out, out_len, needed) &
+        bind(c, name="jam_forces") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(inout), optional :: out(*)
@@ -702,8 +704,8 @@ module jam
     end function jam_forces
 
     ! Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_coordination(sys, iout, iout_len, needed) bind(c, name="jam_coordination") &
-        result(status)
+    function jam_coordination(sys, iout, iout_len, needed) &
+        bind(c, name="jam_coordination") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), intent(inout), optional :: iout(*)
@@ -713,8 +715,8 @@ module jam
     end function jam_coordination
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_hessian_options_init(o, size) bind(c, name="jam_hessian_options_init") &
-        result(status)
+    function jam_hessian_options_init(o, size) &
+        bind(c, name="jam_hessian_options_init") result(status)
       import
       type(jam_hessian_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -722,8 +724,8 @@ module jam
     end function jam_hessian_options_init
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_modes_options_init(o, size) bind(c, name="jam_modes_options_init") &
-        result(status)
+    function jam_modes_options_init(o, size) &
+        bind(c, name="jam_modes_options_init") result(status)
       import
       type(jam_modes_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -732,8 +734,8 @@ module jam
 
     ! The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
     ! Errors: as jam_contacts. @since 0.1
-    function jam_hessian_map(sys, iout, iout_len, needed) bind(c, name="jam_hessian_map") &
-        result(status)
+    function jam_hessian_map(sys, iout, iout_len, needed) &
+        bind(c, name="jam_hessian_map") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), intent(inout), optional :: iout(*)
@@ -744,8 +746,8 @@ module jam
 
     ! Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
     ! Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed) bind(c, name="jam_hessian") &
-        result(status)
+    function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed) &
+        bind(c, name="jam_hessian") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
@@ -764,8 +766,8 @@ module jam
     ! is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
     ! JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, &
-      participation_len, needed) bind(c, name="jam_modes") &
-        result(status)
+      participation_len, needed) &
+        bind(c, name="jam_modes") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h

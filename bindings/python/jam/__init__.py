@@ -17,7 +17,7 @@ from . import errors, raw
 from ._generated import *  # noqa: F401,F403  enums and report dataclasses
 from ._generated import JAM_ABI, StatusCode
 from .errors import JamError
-from .system import Contacts, System
+from .system import Contacts, Modes, System
 
 __version__ = raw.jam_version()
 if raw.jam_abi_version() != JAM_ABI:

@@ -2,13 +2,15 @@
 from __future__ import annotations
 
 import os
+import threading
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
 from . import _calls, errors, raw
-from ._generated import CALLS, Info, MdReport, Progress, Report, StatusCode
+from ._generated import CALLS, Info, MdReport, ModesWhich, Progress, Report, StatusCode
 from ._progress import reporter
 
 TRACE_LENGTH = 200_000  # progress records kept by a system
@@ -41,6 +43,33 @@ class _View:
         self.__array_interface__ = {"version": 3, "typestr": "<f8", "shape": shape, "data": (address, True)}
 
 
+class _Dispatch:
+    """The progress callable of a handle for all its life: hands a record to whoever runs the call on this thread.
+
+    Setting it anew for each call would not do: a setter is a call of its own and would use up a pending cancel.
+    """
+
+    def __init__(self) -> None:
+        self._targets: dict[int, Callable] = {}
+
+    def __call__(self, progress: Any) -> bool:
+        target = self._targets.get(threading.get_ident())
+        return target(progress) if target else False
+
+    @contextmanager
+    def to(self, target: Callable) -> Any:
+        me = threading.get_ident()
+        before = self._targets.get(me)
+        self._targets[me] = target
+        try:
+            yield
+        finally:
+            if before is None:
+                del self._targets[me]
+            else:
+                self._targets[me] = before
+
+
 @dataclass(frozen=True)
 class Contacts:
     """The contact network; row k of every array is the same contact.
@@ -69,6 +98,33 @@ class Contacts:
         return rows
 
 
+@dataclass(frozen=True)
+class Modes:
+    """Modes of a network, ascending. values: (m,) = omega^2; nan where the solver stopped early (then status > 0).
+
+    vectors: (m, N', d) of unit length; participation: (m,), sum |v_i|^4 / (sum |v_i|^2)^2, 1/N' to 1.
+    spheres: (N',), the index of each stable sphere.
+    """
+
+    values: np.ndarray
+    vectors: np.ndarray
+    participation: np.ndarray
+    spheres: np.ndarray
+    status: StatusCode = StatusCode.OK
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """(m,): omega, with round-off below zero taken as zero."""
+        return np.sqrt(np.maximum(self.values, 0.0))
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __repr__(self) -> str:
+        w = self.frequencies
+        return f"Modes({len(self)} modes of {len(self.spheres)} spheres" + (f", omega {w[0]:.4g}..{w[-1]:.4g})" if len(w) else ")")
+
+
 class System:
     """N spheres in a periodic cube.
 
@@ -84,7 +140,8 @@ class System:
         self._carried: tuple | None = None  # report and contacts that came with a pickle
         #: Progress records of this system's calls, at most one every 0.05 s
         self.trace: list[Progress] = []
-        raw.set_progress(handle, None)
+        handle._dispatch = self._dispatch = _Dispatch()  # the C side holds a borrowed reference
+        raw.set_progress(handle, self._dispatch)
 
     # ---- making
     @classmethod
@@ -235,28 +292,26 @@ class System:
         self._carried = None
 
     # ---- verbs
-    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None) -> Any:
-        handle, user = self.handle, reporter(progress)
-        chosen = None if options is None else _calls.options(struct, dict(options))
-        made = _calls.new_report(report)
-
+    def _recorder(self, user: Callable | None) -> Callable:
         def on_progress(p: Any) -> bool:
             record = _calls.freeze(p, "jam_progress")
             if len(self.trace) < TRACE_LENGTH:
                 self.trace.append(record)
             return bool(user(record)) if user else False
+        return on_progress
 
-        raw.set_progress(handle, on_progress)  # refused while another call runs
-        try:
-            status = getattr(raw, name)(handle, chosen, made)
-        finally:
-            self._carried = None
+    def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None) -> Any:
+        handle, user = self.handle, reporter(progress)
+        chosen = None if options is None else _calls.options(struct, dict(options))
+        made = _calls.new_report(report)
+
+        with self._dispatch.to(self._recorder(user)):
             try:
-                raw.set_progress(handle, None)
-            except errors.JamError:
-                pass  # another thread has begun a call of its own
-            if hasattr(user, "close"):
-                user.close()
+                status = getattr(raw, name)(handle, chosen, made)
+            finally:
+                if hasattr(user, "close"):
+                    user.close()
+        self._carried = None
         frozen = _calls.freeze(made, report)
         object.__setattr__(frozen, "status", StatusCode(status))
         return frozen
@@ -339,6 +394,38 @@ class System:
     def bucklers(self) -> np.ndarray:
         """(n,) bool: spheres with exactly d + 1 contacts."""
         return self.coordination == self.dim + 1
+
+    # ---- stiffness and modes
+    def hessian(self, stiffness: int | str = "harmonic", **options: Any) -> Any:
+        """Hessian of the contact network as scipy.sparse.csr_matrix (d N', d N'), unit: stiffness at the mean force.
+
+        Row d k + c is component c of sphere hessian_map()[k]; rattlers are left out.
+        stiffness: 'harmonic', 'power' (with alpha) or 'hard'. options: alpha, prestress.
+        """
+        from scipy.sparse import csr_matrix
+        chosen = _calls.options("jam_hessian_options", dict(options, stiffness=stiffness))
+        size = self.dim * len(self.call("hessian_map"))
+        count = raw.jam_hessian(self.handle, chosen, None, None, None)[1]
+        start, column, value = np.empty(size + 1, np.int32), np.empty(count, np.int32), np.empty(count)
+        raw.jam_hessian(self.handle, chosen, start, column, value)
+        return csr_matrix((value, column, start), shape=(size, size))
+
+    def modes(self, k: int = 10, which: int | str = "lowest", stiffness: int | str = "harmonic", *, progress: Any = None,
+              alpha: float | None = None, prestress: float | None = None, **options: Any) -> "Modes":
+        """Vibrational modes of the network. k: how many. which: 'lowest', 'highest', 'near' (with frequency), 'all'.
+
+        progress: as in crunch. options: frequency, tolerance, memory_limit.
+        """
+        handle, user = self.handle, reporter(progress)
+        h = _calls.options("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
+        o = _calls.options("jam_modes_options", dict(options, which=which, count=k))
+        spheres = self.call("hessian_map")
+        m = min(k, self.dim * len(spheres)) if _calls.as_enum(which, "ModesWhich") != ModesWhich.ALL else self.dim * len(spheres)
+        values, vectors = np.empty(m), np.empty((m, len(spheres), self.dim))
+        participation = np.empty(m)
+        with self._dispatch.to(self._recorder(user)):
+            status, m = raw.jam_modes(handle, h, o, values, vectors.reshape(-1), participation)
+        return Modes(values[:m], vectors[:m], participation[:m], spheres, StatusCode(status))
 
     # ---- files and everything else
     def write(self, path: str | os.PathLike, format: int | str = "auto") -> None:

@@ -77,6 +77,10 @@ module jam
   integer(c_int32_t), parameter :: JAM_LP_IPM = 0
   integer(c_int32_t), parameter :: JAM_LP_CLP = 1
 
+  ! jam_crunch_method: Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CRUNCH_RELINEARISE = 0
+  integer(c_int32_t), parameter :: JAM_CRUNCH_CHAIN = 1
+
   ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
   integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
@@ -224,6 +228,10 @@ module jam
     integer(c_int32_t) :: struct_size = 0
     ! jam_lp_solver, default IPM
     integer(c_int32_t) :: lp_solver = 0
+    ! jam_crunch_method, default RELINEARISE
+    integer(c_int32_t) :: method = 0
+    ! 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
+    integer(c_int32_t) :: polish = 0
     ! >= 1, default 1000 (CALiPPSO: max_iters)
     integer(c_int32_t) :: max_lps = 0
     ! 1 or 2, default 1; bits are reproducible on 1
@@ -245,13 +253,17 @@ module jam
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
   type, bind(c) :: jam_report
     ! set by the caller: sizeof(jam_report)
-    integer(c_int32_t) :: struct_size = 208
+    integer(c_int32_t) :: struct_size = 216
     ! 1: converged to a rigid network that carries balanced forces
     integer(c_int32_t) :: jammed = 0
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
     ! jam_lp_solver that gave the last LP
     integer(c_int32_t) :: lp_solver = 0
+    ! jam_crunch_method
+    integer(c_int32_t) :: method = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
     ! phi_J when jammed
     real(c_double) :: packing_fraction = 0
     ! unit of box

@@ -338,10 +338,19 @@ typedef enum jam_lp_solver {
   JAM_LP_CLP = 1  /* Clp's dual simplex: slow, independent */
 } jam_lp_solver;
 
+/* Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1 */
+typedef enum jam_crunch_method {
+  JAM_CRUNCH_RELINEARISE = 0, /* one barrier path, rows made anew after each Newton step: fewest factorisations;
+                               * where it wanders the chain goes on */
+  JAM_CRUNCH_CHAIN = 1        /* the published chain of LPs: slower; from dilute starts it ends denser */
+} jam_crunch_method;
+
 /* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1 */
 typedef struct jam_crunch_options {
   uint32_t struct_size;    /* sizeof(jam_crunch_options) */
   int32_t lp_solver;       /* jam_lp_solver, default IPM */
+  int32_t method;          /* jam_crunch_method, default RELINEARISE */
+  int32_t polish;          /* 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer */
   int32_t max_lps;         /* >= 1, default 1000 (CALiPPSO: max_iters) */
   int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence) */
@@ -358,6 +367,8 @@ typedef struct jam_report {
   int32_t jammed;           /* 1: converged to a rigid network that carries balanced forces */
   int32_t stop_reason;      /* jam_stop_reason */
   int32_t lp_solver;        /* jam_lp_solver that gave the last LP */
+  int32_t method;           /* jam_crunch_method */
+  int32_t reserved;         /* 0 */
   double packing_fraction;  /* phi_J when jammed */
   double diameter_mean;     /* unit of box */
   int64_t contacts;         /* pairs with a force, rattlers left out */

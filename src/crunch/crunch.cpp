@@ -15,6 +15,8 @@ jam_crunch_options default_crunch_options() {
   jam_crunch_options o{};
   o.struct_size = sizeof o;
   o.lp_solver = JAM_LP_IPM;
+  o.method = JAM_CRUNCH_RELINEARISE;
+  o.polish = 1;
   o.max_lps = 1000;
   o.threads = 1;
   o.gain_tolerance = 1e-12;
@@ -28,6 +30,7 @@ namespace {
 
 void check_options(const Packing &p, const jam_crunch_options &o) {
   if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP) fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
+  if (o.method != JAM_CRUNCH_RELINEARISE && o.method != JAM_CRUNCH_CHAIN) fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
   if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
   if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
   const auto positive = [](double v, const char *name) {
@@ -54,8 +57,7 @@ class Chain {
   CrunchResult run() {
     try {
       bound_ = first_bound();
-      if (!std::getenv("CHAIN")) { RelineariseControl c; c.target=std::getenv("TARGET")?atof(std::getenv("TARGET")):1e-9; c.threads = o_.threads; auto r = relinearise(out_.packing, c, system_, monitor_); if (r.reached) bound_ = 1e-3, last_gain_ = 1e-9;
-        monitor_.log(JAM_LOG_INFO, "relinearised: reached %d gap %.2e factorisations %d t %.3f", r.reached, r.gap, r.factorisations, monitor_.seconds()); }
+      if (o_.method == JAM_CRUNCH_RELINEARISE) follow_path();
       while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
     } catch (const Error &e) {
       out_.status = e.code(), out_.text = e.what(), out_.report.stop_reason = JAM_STOP_SOLVER;
@@ -74,6 +76,21 @@ class Chain {
     const double spacing = std::pow(packing_fraction(out_.packing), -1.0 / out_.packing.dim);
     const double jammed = std::pow(out_.packing.dim == 2 ? 0.84 : out_.packing.dim == 3 ? 0.64 : std::pow(2.0, 3.0 - out_.packing.dim) * 0.9, -1.0 / out_.packing.dim);
     return std::max(0.1, 0.6 * (spacing - jammed) + 0.1);
+  }
+
+  // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
+  void follow_path() {
+    RelineariseControl control;
+    control.threads = o_.threads;
+    control.wall_time = o_.wall_time;
+    const RelineariseResult path = relinearise(out_.packing, control, system_, monitor_);
+    if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
+    monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
+                 path.factorisations, packing_fraction(out_.packing));
+    bound_ = first_bound();
+    if (path.reached && o_.step_bound == 0.0) bound_ = 1e-3;
+    if (path.reached) last_gain_ = path.gap;
   }
 
   void build_lp() {
@@ -174,10 +191,11 @@ class Chain {
 
   void finish() {
     jam_report &r = out_.report;
+    r.method = o_.method;
     r.factorisations = system_.factorisations;
     if (!answer_.y.empty() && !network_.stable.empty()) {
       out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
-      if (r.stop_reason == JAM_STOP_CONVERGED) polish(out_.packing, out_.contacts, o_.threads);
+      if (r.stop_reason == JAM_STOP_CONVERGED && o_.polish) polish(out_.packing, out_.contacts, o_.threads);
     } else {
       out_.contacts.coordination.assign(out_.packing.n(), 0);
     }

@@ -3,13 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <cstdlib>
+#include <utility>
 
 #include "lp/packing_lp.hpp"
 
 namespace jam {
 namespace {
-double knob(const char *n, double d) { const char *e = std::getenv(n); return e ? std::atof(e) : d; }
+
+// A product y w may differ from the mean by this factor either way before y is pulled back to the central path.
+constexpr double centrality = 100.0;
+// Part of the way to the nearest wall that one step may go.
+constexpr double keep = 0.95;
+// Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
+constexpr double trust = 0.1;
+constexpr int correctors = 3;
+// Newton steps without a better duality gap before the path gives up: near a buckling network it wanders.
+constexpr int patience = 60;
 
 class Path {
  public:
@@ -20,218 +29,222 @@ class Path {
     RelineariseResult out;
     const int before = system_.factorisations;
     open_gaps();
-    rebuild(true);
+    list_pairs(false);
     int idle = 0;
     double best = std::numeric_limits<double>::infinity();
-    for (;;) {
-      measure();
+    while (measure()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
-      monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e balance %.1e sum_y-1 %.1e phi %.12f pairs %zu ap %.2f ad %.2f step %.1e sigma %.2f", out.factorisations, gap_, balance_, -rg_,
-                   packing_fraction(p_), pairs_.size(), alpha_p_, alpha_d_, last_step_, centring_);
-      if (gap_ <= control_.target && balance_ < 1e-3) { out.reached = true; break; }
+      monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e balance %.1e phi %.12f pairs %zu steps %.2f %.2f moved %.1e centring %.2f",
+                   out.factorisations, gap_, balance_, packing_fraction(p_), pairs_.size(), alpha_p_, alpha_d_, last_step_, centring_);
+      out.reached = gap_ <= control_.target && balance_ < 1e-3;
       idle = gap_ < 0.9 * best ? 0 : idle + 1;
       best = std::min(best, gap_);
-      if (idle > 30 || out.factorisations >= control_.max_factorisations || monitor_.seconds() > control_.wall_time) break;
-      if (report(out.factorisations)) break;
-      if (!newton()) break;
+      if (out.reached || idle > patience || out.factorisations >= control_.max_factorisations ||
+          monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
+        break;
     }
     return out;
   }
 
  private:
-  // Slacks must be strictly positive: shrink until the closest pair is open by a tenth of the median gap of
-  // neighbours.
+  struct Direction {
+    std::vector<double> s, w, y;
+    double g = 0.0;
+  };
+
+  // Slacks must be strictly positive: shrink until the closest pair is open by a tenth of the median gap of the d n
+  // nearest pairs.
   void open_gaps() {
     unit_ = diameter_mean(p_);
-    reach_ = first_reach();
-    pairs_ = find_pairs(p_, reach_, 1.0);
-    PackingLp lp = make_lp(p_, pairs_, unit_);
-    std::vector<double> sorted = lp.c;
-    const size_t most = std::min(sorted.size() - 1, static_cast<size_t>(p_.dim) * p_.n());
-    std::nth_element(sorted.begin(), sorted.begin() + most / 2, sorted.end());
-    const double median = std::max(sorted[most / 2], 1e-12), smallest = *std::min_element(sorted.begin(), sorted.end());
-    const double room = knob("ROOM", 0.1) * median;
+    reach_ = unit_ * first_reach();
+    std::vector<double> gaps = make_lp(p_, find_pairs(p_, reach_, 1.0), unit_).c;
+    if (gaps.empty()) return;
+    const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
+    std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
+    const double room = 0.1 * std::max(gaps[half], 1e-12), smallest = *std::min_element(gaps.begin(), gaps.end());
     if (smallest < room)
       for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + room));
   }
 
+  // Mean spacing at this density against that at jamming, with a shell for the neighbours: phi^(-1/d) scales both.
   double first_reach() const {
-    const double spacing = std::pow(packing_fraction(p_), -1.0 / p_.dim);
-    const double jammed = std::pow(p_.dim == 2 ? 0.84 : p_.dim == 3 ? 0.64 : std::pow(2.0, 3.0 - p_.dim) * 0.9, -1.0 / p_.dim);
-    return unit_ * std::max(knob("REACH", 0.3), 1.5 * (spacing - jammed) + 0.25);
+    const double jammed = p_.dim == 2 ? 0.84 : 0.9 * std::pow(2.0, 3.0 - p_.dim);
+    return std::max(0.3, 1.5 * (std::pow(packing_fraction(p_), -1.0 / p_.dim) - std::pow(jammed, -1.0 / p_.dim)) + 0.25);
   }
 
   // New list; multipliers of pairs that stay are kept, new ones start on the central path.
-  void rebuild(bool first) {
-    PairList old = std::move(pairs_);
-    std::vector<double> y_old = std::move(y_);
+  void list_pairs(bool warm) {
+    const PairList old = std::move(pairs_);
+    const std::vector<double> y_old = std::move(y_);
     unit_ = diameter_mean(p_);
-    if (!first) reach_ = std::max(unit_ * knob("REACH2", 0.15), std::min(reach_, 6.0 * recent_));
+    if (warm) reach_ = std::max(0.15 * unit_, std::min(reach_, 6.0 * recent_));
     pairs_ = find_pairs(p_, reach_, 1.0);
     lp_ = make_lp(p_, pairs_, unit_);
-    y_.assign(pairs_.size(), 0.0);
+    const size_t rows = pairs_.size(), unknowns = p_.position.size();
+    y_.assign(rows, 0.0);
     double inverse = 0.0;
     for (double c : lp_.c) inverse += 1.0 / c;
-    if (first) {
-      for (size_t k = 0; k < y_.size(); ++k) y_[k] = 1.0 / (inverse * lp_.c[k]);
-    } else {
-      const double mu = gap_ / static_cast<double>(old.size());
-      size_t at = 0;
-      for (size_t k = 0; k < pairs_.size(); ++k) {
-        const auto key = std::make_pair(pairs_.i[k], pairs_.j[k]);
-        while (at < old.size() && std::make_pair(old.i[at], old.j[at]) < key) ++at;
-        if (at < old.size() && std::make_pair(old.i[at], old.j[at]) == key) y_[k] = y_old[at++];
-        else y_[k] = mu / lp_.c[k];
-      }
+    const double mu = warm ? gap_ / static_cast<double>(std::max<size_t>(1, old.size())) : 1.0 / inverse;
+    size_t at = 0;
+    for (size_t k = 0; k < rows; ++k) {
+      const auto key = std::make_pair(pairs_.i[k], pairs_.j[k]);
+      while (warm && at < old.size() && std::make_pair(old.i[at], old.j[at]) < key) ++at;
+      const bool known = warm && at < old.size() && std::make_pair(old.i[at], old.j[at]) == key;
+      y_[k] = known ? y_old[at++] : mu / lp_.c[k];
     }
     system_.set_graph(p_.dim, static_cast<int32_t>(p_.n()), pairs_, control_.threads);
-    travelled_ = 0.0;
-    const size_t m = pairs_.size(), u = p_.position.size();
-    for (auto *v : {&weight_, &rc_, &row_, &dw_, &dy_, &curve_}) v->resize(m);
-    for (auto *v : {&rd_, &rhs_, &diagonal_, &ds_}) v->resize(u);
+    travelled_ = grown_ = 0.0;
+    for (auto *v : {&weight_, &target_, &row_, &curve_}) v->resize(rows);
+    for (auto *v : {&unbalanced_, &none_, &rhs_, &diagonal_}) v->assign(unknowns, 0.0);
+    for (auto *d : {&main_, &extra_, &trial_}) d->s.resize(unknowns), d->w.resize(rows), d->y.resize(rows);
   }
 
-  void measure() {
+  // Rows and residuals at the true distances. False when a gap is no longer positive: the caller stops.
+  bool measure() {
     lp_ = make_lp(p_, pairs_, unit_);
-    gap_ = 0.0;
     double sum = 0.0, scale = 0.0, worst = 0.0;
-    const int d = p_.dim;
+    gap_ = 0.0;
     for (size_t k = 0; k < y_.size(); ++k) {
-      gap_ += y_[k] * lp_.c[k];
+      const double c = lp_.c[k];
+      if (!(c > 0.0)) return false;
+      if (mu_ > 0.0) y_[k] = std::min(std::max(y_[k], mu_ / (centrality * c)), centrality * mu_ / c);
+      gap_ += y_[k] * c;
       sum += y_[k];
       double a2 = 0.0;
-      for (int c = 0; c < d; ++c) a2 += lp_.a[k * d + c] * lp_.a[k * d + c];
+      for (int q = 0; q < p_.dim; ++q) a2 += lp_.a[k * p_.dim + q] * lp_.a[k * p_.dim + q];
       scale += y_[k] * std::sqrt(a2);
     }
-    rg_ = 1.0 - sum;
-    system_.transpose_times(lp_.a.data(), y_.data(), rd_.data());
-    for (double v : rd_) worst = std::max(worst, std::fabs(v));
-    balance_ = worst * static_cast<double>(rd_.size()) / scale;
+    rest_ = 1.0 - sum;
+    system_.transpose_times(lp_.a.data(), y_.data(), unbalanced_.data());
+    for (double v : unbalanced_) worst = std::max(worst, std::fabs(v));
+    balance_ = worst * static_cast<double>(unbalanced_.size()) / scale;
+    return std::isfinite(gap_) && std::isfinite(balance_);
   }
 
-  // Direction for complementarity targets rc_ (row) and primal residual curve_.
-  void direction(bool curved) {
-    double h = rg_;
+  // Direction for changes target_ of the products y c; `full`: also takes the force balance and sum y = 1 up.
+  void solve(bool full, Direction &out) {
+    double h = full ? rest_ : 0.0;
     for (size_t k = 0; k < y_.size(); ++k) {
-      row_[k] = rc_[k] / lp_.c[k] - (curved ? weight_[k] * curve_[k] : 0.0);
+      row_[k] = target_[k] / lp_.c[k];
       h -= row_[k];
     }
     system_.transpose_times(lp_.a.data(), row_.data(), rhs_.data());
-    for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += rd_[k];
-    system_.solve(rhs_.data(), h, ds_.data(), &dg_);
-    system_.rows_times(lp_.a.data(), ds_.data(), dw_.data());
+    const std::vector<double> &force = full ? unbalanced_ : none_;
+    for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += force[k];
+    system_.solve(rhs_.data(), h, out.s.data(), &out.g);
+    system_.rows_times(lp_.a.data(), out.s.data(), out.w.data());
     for (size_t k = 0; k < y_.size(); ++k) {
-      dw_[k] -= dg_;
-      dy_[k] = rc_[k] / lp_.c[k] - weight_[k] * (dw_[k] + (curved ? curve_[k] : 0.0));
+      out.w[k] -= out.g;
+      out.y[k] = row_[k] - weight_[k] * out.w[k];
     }
   }
 
-  // |ds_i - ds_j|^2 / sigma^2 in the units of the rows, minus what the product of growth and gap adds.
-  void curvature() {
+  // |s_i - s_j|^2 / sigma^2: by this much (times alpha^2) the true gap is wider than the linear one.
+  void curvature(const Direction &x) {
     const int d = p_.dim;
     for (size_t k = 0; k < y_.size(); ++k) {
       const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
       double s2 = 0.0;
-      for (int c = 0; c < d; ++c) s2 += (ds_[i + c] - ds_[j + c]) * (ds_[i + c] - ds_[j + c]);
+      for (int c = 0; c < d; ++c) s2 += (x.s[i + c] - x.s[j + c]) * (x.s[i + c] - x.s[j + c]);
       const double sigma = 0.5 * (p_.diameter[pairs_.i[k]] + p_.diameter[pairs_.j[k]]) / unit_;
       curve_[k] = s2 / (sigma * sigma);
     }
   }
-
-  // Longest alpha for which every true gap c + alpha dw + alpha^2 curve stays above (1 - keep) c.
-  double longest_primal(double keep) const {
-    double alpha = 1.0;
+  // Longest alpha <= 1 at which every true gap c + alpha w + alpha^2 curve keeps (1 - part) c, within the trust region.
+  // Call curvature(x) first.
+  double longest_primal(const Direction &x, double part) const {
+    double alpha = std::min(1.0, trust / longest_move(x));
     for (size_t k = 0; k < y_.size(); ++k) {
-      const double c = keep * lp_.c[k], b = dw_[k], q = curve_[k];
-      if (b >= 0.0) continue;
-      const double disc = b * b - 4.0 * q * c;
-      if (disc <= 0.0) continue;
-      const double root = 2.0 * c / (-b + std::sqrt(disc));
-      alpha = std::min(alpha, root);
+      const double c = part * lp_.c[k], b = x.w[k], disc = b * b - 4.0 * curve_[k] * c;
+      if (b < 0.0 && disc > 0.0) alpha = std::min(alpha, 2.0 * c / (-b + std::sqrt(disc)));
     }
     return alpha;
   }
-  double longest_dual(double keep) const {
+  double longest_dual(const Direction &x, double part) const {
     double alpha = 1.0;
     for (size_t k = 0; k < y_.size(); ++k)
-      if (dy_[k] < 0.0) alpha = std::min(alpha, -keep * y_[k] / dy_[k]);
+      if (x.y[k] < 0.0) alpha = std::min(alpha, -part * y_[k] / x.y[k]);
     return alpha;
   }
-
-  bool newton() {
-    const double m = static_cast<double>(y_.size()), mu = gap_ / m;
-    for (size_t k = 0; k < y_.size(); ++k) weight_[k] = y_[k] / lp_.c[k];
-    const double ridge = knob("RHO", 1.0) * gap_ / static_cast<double>(p_.n());
-    std::fill(diagonal_.begin(), diagonal_.end(), ridge);
-    if (!system_.factorise(lp_.a.data(), weight_.data(), diagonal_.data())) return false;
-    for (size_t k = 0; k < y_.size(); ++k) rc_[k] = -y_[k] * lp_.c[k];
-    direction(false);
-    curvature();
-    const double ap = longest_primal(1.0), ad = longest_dual(1.0);
-    double after = 0.0;
-    for (size_t k = 0; k < y_.size(); ++k) after += (y_[k] + ad * dy_[k]) * (lp_.c[k] + ap * dw_[k]);
-    const double ratio = after / gap_;
-    centring_ = std::min(std::max(std::pow(ratio, knob("POW", 3)), 1e-6), 0.9);
-    const bool second = gap_ < knob("SECOND", 1e30);
-    const double soc = knob("SOC", 1.0) * ap * ap;
-    for (size_t k = 0; k < y_.size(); ++k) {
-      rc_[k] = centring_ * mu - y_[k] * lp_.c[k] - (second ? ap * ad * dw_[k] * dy_[k] : 0.0);
-      curve_[k] *= soc;
-    }
-    direction(true);
-    curvature();
-    const double keep = knob("KEEP", 0.95);
-    alpha_p_ = longest_primal(keep);
-    alpha_d_ = longest_dual(keep);
-    double largest = 0.0;
-    const int d = p_.dim;
-    for (size_t k = 0; k < ds_.size(); k += d) {
+  double longest_move(const Direction &x) const {
+    double largest = 1e-300;
+    for (size_t k = 0; k < x.s.size(); k += p_.dim) {
       double s2 = 0.0;
-      for (int c = 0; c < d; ++c) s2 += ds_[k + c] * ds_[k + c];
-      largest = std::max(largest, s2);
+      for (int c = 0; c < p_.dim; ++c) s2 += x.s[k + c] * x.s[k + c];
+      if (!(s2 <= largest)) largest = s2;  // lets a NaN through
     }
-    largest = std::sqrt(largest) * unit_;
-    if (!std::isfinite(largest)) return false;
-    // Trust region, and the reach of the list: 2 (travelled + step) + growth must stay inside it.
-    alpha_p_ = std::min(alpha_p_, std::min(knob("TRUST", 0.1) * unit_, 0.45 * reach_) / std::max(largest, 1e-300));
-    move(alpha_p_, largest);
-    return true;
+    return std::sqrt(largest);
   }
 
-  void move(double alpha, double largest) {
-    const double step = alpha * largest, growth = std::max(0.0, std::sqrt(1.0 + alpha * dg_) - 1.0) * diameter_max(p_);
-    last_step_ = step / unit_;
-    if (2.0 * (travelled_ + step) + growth_ + growth > reach_) {
-      rebuild_list_then(alpha);
-      return;
-    }
-    apply(alpha);
-    travelled_ += step;
-    growth_ += growth;
-    recent_ = std::max(step, 0.5 * recent_);
-    if (2.0 * (travelled_ + 2.0 * step) + growth_ > reach_) {
-      measure();
-      rebuild(false);
-      growth_ = 0.0;
+  // Mehrotra's predictor sets the centring; the second-order term is scaled by the steps that the predictor could make.
+  bool newton() {
+    const size_t rows = y_.size();
+    const double mu = gap_ / static_cast<double>(rows);
+    for (size_t k = 0; k < rows; ++k) weight_[k] = y_[k] / lp_.c[k];
+    // Proximal term: fixes translations and lets no sphere run far for a gain below the gap.
+    std::fill(diagonal_.begin(), diagonal_.end(), gap_ / static_cast<double>(p_.n()));
+    if (!system_.factorise(lp_.a.data(), weight_.data(), diagonal_.data())) return false;
+    for (size_t k = 0; k < rows; ++k) target_[k] = -y_[k] * lp_.c[k];
+    solve(true, main_);
+    curvature(main_);
+    const double ap = longest_primal(main_, 1.0), ad = longest_dual(main_, 1.0);
+    double after = 0.0;
+    for (size_t k = 0; k < rows; ++k) after += (y_[k] + ad * main_.y[k]) * (lp_.c[k] + ap * main_.w[k]);
+    centring_ = std::min(std::max(std::pow(after / gap_, 3), 1e-6), 0.9);
+    for (size_t k = 0; k < rows; ++k) target_[k] = centring_ * mu - y_[k] * lp_.c[k] - ap * ad * main_.w[k] * main_.y[k];
+    solve(true, main_);
+    centre(centring_ * mu);
+    curvature(main_);
+    if (!std::isfinite(longest_move(main_)) || !std::isfinite(main_.g)) return false;
+    move(longest_primal(main_, keep), longest_dual(main_, keep));
+    return alpha_p_ > 0.0;
+  }
+
+  // Gondzio's correctors on the true gaps: products outside [0.1, 10] mu at a longer step are pulled back.
+  void centre(double mu) {
+    for (int round = 0; round < correctors; ++round) {
+      curvature(main_);
+      const double ap = longest_primal(main_, 1.0), ad = longest_dual(main_, 1.0);
+      if (ap > 0.9 && ad > 0.9) return;
+      const double tp = std::min(1.0, ap + 0.3), td = std::min(1.0, ad + 0.3);
+      for (size_t k = 0; k < y_.size(); ++k) {
+        const double product = (lp_.c[k] + tp * main_.w[k] + tp * tp * curve_[k]) * (y_[k] + td * main_.y[k]);
+        target_[k] = std::max(std::min(std::max(product, 0.1 * mu), 10.0 * mu) - product, -10.0 * mu);
+      }
+      solve(false, extra_);
+      trial_ = main_;
+      for (size_t k = 0; k < trial_.s.size(); ++k) trial_.s[k] += extra_.s[k];
+      for (size_t k = 0; k < y_.size(); ++k) trial_.w[k] += extra_.w[k], trial_.y[k] += extra_.y[k];
+      trial_.g += extra_.g;
+      curvature(trial_);
+      if (longest_primal(trial_, 1.0) + longest_dual(trial_, 1.0) < ap + ad + 0.02) return;
+      std::swap(main_, trial_);
     }
   }
-  void rebuild_list_then(double alpha) {
-    // Shorten to what the list allows, then make a new one.
-    const double left = std::max(0.0, reach_ - 2.0 * travelled_ - growth_);
-    (void)left;
-    apply(std::min(alpha, 0.25 * alpha));
-    measure();
-    recent_ = std::max(recent_, last_step_ * unit_);
-    rebuild(false);
-    growth_ = 0.0;
-  }
-  void apply(double alpha) {
-    for (size_t k = 0; k < ds_.size(); ++k) p_.position[k] += alpha * unit_ * ds_[k];
-    const double factor = std::sqrt(1.0 + alpha * dg_);
+
+  // Unlisted pairs are farther apart than sigma_ij + reach when the list is made; while twice the distance travelled
+  // plus the growth of the largest diameter stays below reach, none of them can overlap.
+  void move(double alpha, double alpha_dual) {
+    const double length = longest_move(main_) * unit_, growth = std::max(0.0, 0.5 * main_.g) * diameter_max(p_);
+    alpha = std::min(alpha, 0.9 * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
+    alpha_p_ = alpha, alpha_d_ = alpha_dual;
+    mu_ = 0.0;
+    for (size_t k = 0; k < y_.size(); ++k) {
+      mu_ += (y_[k] + alpha_dual * main_.y[k]) * (lp_.c[k] + alpha * main_.w[k]);
+      y_[k] += alpha_dual * main_.y[k];
+    }
+    mu_ /= static_cast<double>(y_.size());
+    for (size_t k = 0; k < main_.s.size(); ++k) p_.position[k] += alpha * unit_ * main_.s[k];
+    const double factor = std::sqrt(1.0 + alpha * main_.g);
     for (double &s : p_.diameter) s *= factor;
     wrap_positions(p_, pairs_);
-    for (size_t k = 0; k < y_.size(); ++k) y_[k] += alpha_d_ * dy_[k];
+    const double step = alpha * length;
+    last_step_ = step / unit_;
+    travelled_ += step;
+    grown_ += alpha * growth;
+    recent_ = std::max(step, 0.5 * recent_);
+    if (2.0 * (travelled_ + 2.0 * step) + grown_ + 2.0 * alpha * growth > reach_ && measure()) list_pairs(true);
   }
 
   bool report(int factorisations) {
@@ -251,9 +264,10 @@ class Path {
   Monitor &monitor_;
   PairList pairs_;
   PackingLp lp_;
-  std::vector<double> y_, weight_, rc_, row_, dw_, dy_, curve_, rd_, rhs_, diagonal_, ds_;
-  double unit_ = 1.0, reach_ = 0.0, travelled_ = 0.0, growth_ = 0.0, recent_ = 0.0;
-  double gap_ = 0.0, balance_ = 0.0, rg_ = 0.0, dg_ = 0.0;
+  Direction main_, extra_, trial_;
+  std::vector<double> y_, weight_, target_, row_, curve_, unbalanced_, none_, rhs_, diagonal_;
+  double unit_ = 1.0, reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
+  double gap_ = 0.0, mu_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, centring_ = 0.0;
 };
 

@@ -1,4 +1,7 @@
 // The re-linearising interior point: one barrier path for the true, curved problem instead of one for each LP.
+// After every Newton step the spheres move, the diameters grow and the rows are made anew at the true distances; the
+// multipliers stay. Safe because the linearised set lies inside the true one. The barrier is the entropy of cell theory,
+// so this is another quench than the chain of LPs and may end at another jamming point.
 #pragma once
 #include "core/monitor.hpp"
 #include "core/packing.hpp"

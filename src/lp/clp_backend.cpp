@@ -9,8 +9,10 @@
 
 namespace jam {
 
-// Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so the objective is -g.
+// Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
+// follow the size of the step. Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so the objective is -g.
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds) {
+  const double scale = std::isfinite(lp.bound) ? lp.bound : 1.0;
   const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
   std::vector<int> row_of, column_of;
   std::vector<double> value;
@@ -26,13 +28,13 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds) {
   }
   // Triples with the same row and column (images of one pair never share a row) do not occur.
   CoinPackedMatrix matrix(true, row_of.data(), column_of.data(), value.data(), static_cast<CoinBigIndex>(value.size()));
-  std::vector<double> low(columns, -lp.bound), high(columns, lp.bound), cost(columns, 0.0), row_low(rows), row_high(rows, COIN_DBL_MAX);
+  std::vector<double> low(columns, -1.0), high(columns, 1.0), cost(columns, 0.0), row_low(rows), row_high(rows, COIN_DBL_MAX);
   if (!std::isfinite(lp.bound)) {
     std::fill(low.begin(), low.end(), -COIN_DBL_MAX);
     std::fill(high.begin(), high.end(), COIN_DBL_MAX);
   }
   low.back() = -COIN_DBL_MAX, high.back() = COIN_DBL_MAX, cost.back() = -1.0;
-  for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k];
+  for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k] / scale;
 
   ClpSimplex model;
   CoinMessageHandler silent;
@@ -49,12 +51,13 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds) {
   out.iterations = model.numberIterations();
   const double *x = model.primalColumnSolution(), *dual = model.dualRowSolution(), *activity = model.primalRowSolution();
   out.s.assign(x, x + columns - 1);
-  out.g = x[columns - 1];
+  out.g = x[columns - 1] * scale;
+  for (double &s : out.s) s *= scale;
   out.y.resize(rows);
   out.w.resize(rows);
   for (int k = 0; k < rows; ++k) {
     out.y[k] = std::max(dual[k], 0.0);
-    out.w[k] = lp.c[k] + activity[k];
+    out.w[k] = lp.c[k] + activity[k] * scale;
   }
   return out;
 }

@@ -94,6 +94,12 @@ class LpSolver(IntEnum):
     CLP = 1  # Clp's dual simplex: slow, independent
 
 
+class CrunchMethod(IntEnum):
+    """Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1"""
+    RELINEARISE = 0  # one barrier path, rows made anew after each Newton step: fewest factorisations; where it wanders the chain goes on
+    CHAIN = 1  # the published chain of LPs: slower; from dilute starts it ends denser
+
+
 class Stiffness(IntEnum):
     """Stiffness k of a contact, 1 at the mean force. @since 0.1"""
     HARMONIC = 0  # k = 1
@@ -194,6 +200,8 @@ class Report:
     jammed: 1: converged to a rigid network that carries balanced forces
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
+    method: jam_crunch_method
+    reserved: 0
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out
@@ -221,6 +229,8 @@ class Report:
     jammed: int
     stop_reason: StopReason
     lp_solver: LpSolver
+    method: CrunchMethod
+    reserved: int
     packing_fraction: float
     diameter_mean: float
     contacts: int
@@ -272,6 +282,8 @@ OPTIONS = {
     },
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM'),
+        "method": ("CrunchMethod", 'jam_crunch_method, default RELINEARISE'),
+        "polish": ("int", "1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer"),
         "max_lps": ("int", '>= 1, default 1000 (CALiPPSO: max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence)'),

@@ -80,6 +80,10 @@ const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
 const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 
+# jam_crunch_method: Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1
+const JAM_CRUNCH_RELINEARISE = Int32(0)  # one barrier path, rows made anew after each Newton step: fewest factorisations; where it wanders the chain goes on
+const JAM_CRUNCH_CHAIN = Int32(1)  # the published chain of LPs: slower; from dilute starts it ends denser
+
 # jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
 const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
 const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
@@ -192,6 +196,8 @@ Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the 
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
     lp_solver::Int32  # jam_lp_solver, default IPM
+    method::Int32  # jam_crunch_method, default RELINEARISE
+    polish::Int32  # 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
     max_lps::Int32  # >= 1, default 1000 (CALiPPSO: max_iters)
     threads::Int32  # 1 or 2, default 1; bits are reproducible on 1
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence)
@@ -200,7 +206,7 @@ mutable struct jam_crunch_options
     neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts (l0)
     step_bound::Cdouble  # bound on each |s_i| component; 0, the default: adapts (sbound)
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
-    jam_crunch_options() = new(64, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_crunch_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -211,6 +217,8 @@ mutable struct jam_report
     jammed::Int32  # 1: converged to a rigid network that carries balanced forces
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
+    method::Int32  # jam_crunch_method
+    reserved::Int32  # 0
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
     contacts::Int64  # pairs with a force, rattlers left out
@@ -235,7 +243,7 @@ mutable struct jam_report
     seconds_factor::Cdouble  # of it in factorisations
     seconds_assemble::Cdouble  # of it in neighbour lists and assembly
     seconds_solve::Cdouble  # of it in triangular solves
-    jam_report() = new(208, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """

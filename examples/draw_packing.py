@@ -138,7 +138,7 @@ def main():
     rattlers, bucklers = np.count_nonzero(coordination == 0), np.count_nonzero(coordination == dim + 1)
     handles = [plt.Line2D([], [], marker="o", linestyle="", markersize=9, color=c, label=text) for c, text in
                ((STABLE, f"{len(x) - rattlers - bucklers} stable"), (BUCKLER, f"{bucklers} bucklers"), (RATTLER, f"{rattlers} rattlers"))]
-    axes[0].legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.02), ncol=3, frameon=False)
+    axes[0].legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=3, frameon=False)
     axes[1].text(0.5, -0.03, f"{len(contacts[0])} contact forces", transform=axes[1].transAxes, ha="center")
     figure.subplots_adjust(0.01, 0.05, 0.99, 0.99, 0.02)
     figure.savefig(sys.argv[3], dpi=110)

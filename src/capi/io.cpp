@@ -25,7 +25,8 @@ void limit_diameters(const jam_create_options &o, FileContent &file) {
   const double scale = std::max(widest, std::pow(volume, 1.0 / o.dim));
   if (scale <= 1.0 + overlap_tolerance) return;
   if (o.overlap != JAM_OVERLAP_SHRINK)
-    fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", o.box, widest * o.box, volume);
+    fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", o.box, widest * o.box,
+         volume);
   for (double &s : file.diameter) s /= scale;
 }
 

@@ -31,15 +31,14 @@ double positive(const LineReader &in, std::string_view word, const char *what) {
 }
 
 [[noreturn]] void ends_early(const LineReader &in, int64_t found, int64_t n) {
-  in.fail(JAM_E_FORMAT, "the file ends after %lld of %lld spheres", static_cast<long long>(found),
-       static_cast<long long>(n));
+  in.fail(JAM_E_FORMAT, "the file ends after %lld of %lld spheres", static_cast<long long>(found), static_cast<long long>(n));
 }
 
 void check_end(LineReader &in, int64_t n) {
   std::string_view line;
   if (in.next_filled(line))
-    in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'",
-         static_cast<long long>(n), shown(line).c_str());
+    in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'", static_cast<long long>(n),
+            shown(line).c_str());
 }
 
 // The third line: `<diameter>` or `diameters`, then perhaps `box <L>`. Returns whether each sphere has its own.
@@ -49,8 +48,7 @@ bool read_diameter_line(LineReader &in, FileContent &content) {
   if (!in.next_filled(line)) in.fail(JAM_E_FORMAT, "the file ends before the diameter");
   split(line, words);
   if (words.size() != 1 && !(words.size() == 3 && words[1] == "box"))
-    in.fail(JAM_E_FORMAT, "'%s' is neither '<diameter>' nor 'diameters', with 'box <side>' or without",
-         shown(line).c_str());
+    in.fail(JAM_E_FORMAT, "'%s' is neither '<diameter>' nor 'diameters', with 'box <side>' or without", shown(line).c_str());
   const bool each = words[0] == "diameters";
   if (!each) content.diameter.push_back(positive(in, words[0], "diameter"));
   if (words.size() == 3) content.box = positive(in, words[2], "box side");
@@ -72,7 +70,7 @@ FileContent read_plain(LineReader &in, int dim, std::string_view count_line) {
     split(line, words);
     if (words.size() != columns)
       in.fail(JAM_E_FORMAT, "%zu columns, %zu are needed (%s)", words.size(), columns,
-           each ? "coordinates and diameter" : "coordinates");
+              each ? "coordinates and diameter" : "coordinates");
     for (int c = 0; c < content.dim; ++c) content.position.push_back(parse_number(in, words[c]));
     if (each) content.diameter.push_back(positive(in, words.back(), "diameter"));
   }
@@ -187,7 +185,8 @@ FileContent read_file(const char *path) {
   std::vector<std::string_view> words;
   if (!in.next_filled(line)) fail(JAM_E_FORMAT, "%s is empty", path);
   split(line, words);
-  if (words.size() != 1) in.fail(JAM_E_FORMAT, "'%s' is not one number (a dimension, or the spheres of an XYZ file)", shown(line).c_str());
+  if (words.size() != 1)
+    in.fail(JAM_E_FORMAT, "'%s' is not one number (a dimension, or the spheres of an XYZ file)", shown(line).c_str());
   const int64_t first = parse_count(in, words[0], "a dimension or a number of spheres");
   const int64_t first_line = in.number();
   if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends before the number of spheres");

@@ -26,6 +26,14 @@ cmake)
   cmake --build "$scratch/consumer_cmake" >>"$scratch/consumer_cmake.log"
   "$scratch/consumer_cmake/consumer"
   ;;
+readme)
+  # The C example of README.md is true.
+  sed -n '/^```c$/,/^```$/p' "$here/../../README.md" | sed '/^```/d' >"$scratch/readme.c"
+  test -s "$scratch/readme.c" || die "README.md has no C example"
+  export PKG_CONFIG_PATH="$libdir/pkgconfig"
+  ${CC:-cc} -std=c99 -Wall -Werror "$scratch/readme.c" -o "$scratch/readme" $(pkg-config --cflags --libs jam)
+  LD_LIBRARY_PATH=$libdir "$scratch/readme"
+  ;;
 symbols)
   # Only jam_* may be exported, and every function of the header must be.
   nm -D --defined-only "$libdir/libjam.so" | awk '{print $3}' | sed 's/@.*//' | sort -u >"$scratch/exported"

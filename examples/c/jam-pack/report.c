@@ -110,6 +110,7 @@ int write_report(const outcome *result, const char *path) {
   const jam_info *info = &result->info;
   const jam_report *r = &result->crunch;
   const int crunched = result->has_crunch;
+  const int certified = crunched && r->contacts > 0; /* without contacts zeros would look like perfect balance */
   const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
   output out;
   FILE *f;
@@ -132,11 +133,11 @@ int write_report(const outcome *result, const char *path) {
   put_count(f, "one_ss", r->one_ss, crunched);
   put_count(f, "excess_contacts", r->excess_contacts, crunched);
   put_number(f, "max_overlap", crunched ? r->max_overlap : NAN);
-  put_number(f, "force_residual", crunched ? r->force_residual : NAN);
-  put_number(f, "gamma_residual", crunched ? r->gamma_residual : NAN);
-  put_number(f, "min_force", crunched ? r->min_force : NAN);
-  put_number(f, "min_gap", crunched ? r->min_gap : NAN);
-  put_number(f, "duality_gap", crunched ? r->duality_gap : NAN);
+  put_number(f, "force_residual", certified ? r->force_residual : NAN);
+  put_number(f, "gamma_residual", certified ? r->gamma_residual : NAN);
+  put_number(f, "min_force", certified ? r->min_force : NAN);
+  put_number(f, "min_gap", certified ? r->min_gap : NAN);
+  put_number(f, "duality_gap", certified ? r->duality_gap : NAN);
   put_number(f, "gain", crunched ? r->gain : NAN);
   if (crunched) fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
   else fputs("  \"jammed\": null,\n", f);
@@ -200,6 +201,7 @@ void print_summary(const outcome *result) {
   if (!result->has_crunch) return;
   printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", r->jammed ? "jammed" : "not jammed",
          jam_stop_string(r->stop_reason), (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
+  if (r->contacts == 0) return;
   printf("  network   %lld contacts (isostatic %+lld), %lld rattlers, %lld bucklers\n", (long long)r->contacts,
          (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
   printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n", r->max_overlap,

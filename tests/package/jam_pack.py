@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""jam_pack.py PROGRAM: the installed jam-pack as its users meet it, right and wrong."""
+import json
+import os
+import pathlib
+import pty
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+program = sys.argv.pop(1)
+KEYS = """n dim seed packing_fraction diameter_mean pressure collisions collisions_per_second lp_solves factorisations contacts
+rattlers bucklers one_ss excess_contacts max_overlap force_residual gamma_residual min_force min_gap stop_reason seconds_md
+seconds_crunch version""".split()
+
+
+def run(*args, seconds=120):
+    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=seconds, check=False)
+
+
+def positions(path):
+    return [[float(word) for word in line.split()] for line in path.read_text().splitlines()[2:]]
+
+
+class JamPack(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.dir = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        left = [p.name for p in self.dir.iterdir() if ".part-" in p.name]
+        self.folder.cleanup()
+        self.assertEqual(left, [], "temporary files are left")
+
+    def refuse(self, status, text, *args):
+        done = run(*args, seconds=20)
+        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
+        self.assertIn(text, done.stderr, str(args))
+        self.assertEqual(done.stdout, "", str(args))
+
+    def report(self, *args, status=0):
+        done = run(*args, "--report", "-")
+        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
+        return json.loads(done.stdout)
+
+    def test_help_and_version(self):
+        done = run("--help")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("Example: jam-pack", done.stdout)
+        self.assertIn("Exit status", done.stdout)
+        self.assertTrue(all(len(line) <= 100 for line in done.stdout.splitlines()))
+        self.assertRegex(run("--version").stdout, r"^jam-pack \d+\.\d+\.\d+\n$")
+
+    def test_wrong_command_line(self):
+        for args, text in [
+            (["--colour", "red"], "unknown option '--colour'"), (["--n"], "'--n' is unknown or lacks its value"),
+            (["packing.dat"], "unexpected argument 'packing.dat'"), (["--n", "many"], "--n is 'many'"), (["--n", "0"], "--n is '0'"),
+            (["--n", "-4"], "--n is '-4'"), (["--n", "4294967296"], "--n is '4294967296'"), (["--n", "1e3"], "--n is '1e3'"),
+            (["--n="], "--n is ''"), (["--dim", "1"], "integer in 2..8"), (["--dim", "9"], "integer in 2..8"),
+            (["--phi0", "nan"], "--phi0 is 'nan'"), (["--phi0", "-0.2"], "--phi0"), (["--phi0", "0"], "--phi0"),
+            (["--phi0", "0.2x"], "--phi0 is '0.2x'"), (["--growth", "0"], "--growth is '0'"), (["--growth", "-1e-3"], "--growth"),
+            (["--growth", "inf"], "--growth"), (["--growth", "1e-2:"], "pressure of --growth"),
+            (["--growth", "1e-2:0.5"], "larger than 1"), (["--pressure", "1"], "larger than 1"), (["--lp", "highs"], "ipm or clp"),
+            (["--seed", "1.5"], "--seed"), (["--seed", "99999999999999999999"], "--seed"), (["--threads", "0"], "--threads"),
+            (["--nve", "-1"], "--nve"), (["--wall-time", "0"], "--wall-time"), (["--diameters-ratio", "0"], "--diameters-ratio"),
+            (["--no-md", "--growth", "1e-2"], "--no-md contradicts --growth"), (["--no-md", "--nve", "5"], "contradicts --nve"),
+            (["--no-crunch", "--contacts", "c.csv"], "--contacts needs the crunch"),
+            (["--output", "a", "--report", "a"], "must be different"), (["--input", "a", "--report", "a"], "overwrite the input"),
+        ]:
+            self.refuse(2, text, *args)
+
+    def test_refused_requests(self):
+        self.refuse(3, "reached packing fraction", "--n", 50, "--phi0", 0.9)
+        self.refuse(3, "No such file", "--input", self.dir / "none.dat")
+        bad = self.dir / "bad.dat"
+        bad.write_text("3\n4\n0.1\n0.1 0.2 0.3\n")
+        self.refuse(3, "line 5: the file ends after 1 of 4 spheres", "--input", bad)
+        bad.write_text("2\n2\n0.4\n0.1 0.5\n0.4 0.5\n")
+        self.refuse(3, "spheres 0 and 1 overlap", "--input", bad)
+        done = run("--input", bad, "--shrink", "--no-crunch", "--report", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(json.loads(done.stdout)["diameter_mean"], 0.3, 12)
+
+    def test_outputs_are_checked_before_the_work(self):
+        began = time.monotonic()
+        large = ["--n", 200000]
+        for option in ("--output", "--contacts", "--report"):
+            self.refuse(4, "cannot write", *large, option, self.dir / "no" / "such" / "folder")
+            self.refuse(4, "Is a directory", *large, option, self.dir)
+        self.assertLess(time.monotonic() - began, 5.0)
+        if os.path.exists("/dev/full"):
+            for option in ("--output", "--report"):
+                done = run("--n", 8, "--no-md", "--no-crunch", option, "/dev/full")
+                self.assertEqual(done.returncode, 4)
+                self.assertIn("No space left", done.stderr)
+
+    def check_network(self, xyz, csv, report):
+        """The files agree with each other: contacts, coordination, distances, forces."""
+        rows = positions(xyz)
+        dim, box = report["dim"], float(re.search(r'Lattice="(\S+)', xyz.read_text()).group(1))
+        lines = csv.read_text().splitlines()
+        self.assertEqual(lines[0], "i,j," + ",".join(f"n{c + 1}" for c in range(dim)) + ",gap,force")
+        self.assertEqual(len(lines) - 1, report["contacts"])
+        self.assertEqual(sum(int(row[-1]) for row in rows), 2 * report["contacts"])
+        self.assertEqual(sum(row[-1] == 0 for row in rows), report["rattlers"])
+        forces, sums = [], [[0.0] * dim for _ in rows]
+        for line in lines[1:]:
+            i, j, *rest = line.split(",")
+            i, j, normal, gap, force = int(i), int(j), [float(x) for x in rest[:dim]], float(rest[-2]), float(rest[-1])
+            sigma = rows[i][-2] + rows[j][-2]
+            for c in range(dim):
+                off = (rows[i][1 + c] - rows[j][1 + c] - sigma * (1.0 + gap) * normal[c]) / box
+                self.assertAlmostEqual(off, round(off), 10)
+                sums[i][c] += force * normal[c]
+                sums[j][c] -= force * normal[c]
+            forces.append(force)
+            self.assertGreater(force, 0.0)
+        self.assertAlmostEqual(sum(forces) / len(forces), 1.0, 10)
+        self.assertLess(max(abs(x) for row in sums for x in row), 1e-8)
+
+    def job(self, *args):
+        xyz, csv = self.dir / "p.xyz", self.dir / "c.csv"
+        report = self.report(*args, "--output", xyz, "--contacts", csv)
+        self.assertEqual([key for key in KEYS if key not in report], [])
+        self.assertTrue(report["jammed"], report)
+        self.assertEqual(report["stop_reason"], "converged")
+        self.assertEqual(report["one_ss"], report["dim"] * (report["n"] - report["rattlers"] - 1) + 1)
+        self.assertEqual(report["excess_contacts"], report["contacts"] - report["one_ss"])
+        self.assertLess(report["force_residual"], 1e-8)
+        self.assertLess(report["max_overlap"], 1e-12)
+        self.check_network(xyz, csv, report)
+        return report, xyz
+
+    def test_from_nothing(self):
+        report, xyz = self.job("--n", 128, "--seed", 3)
+        self.assertEqual((report["n"], report["dim"], report["seed"]), (128, 3, 3))
+        self.assertTrue(0.60 < report["packing_fraction"] < 0.67, report["packing_fraction"])
+        self.assertGreater(report["collisions"], 0)
+        first = xyz.read_bytes()
+        self.job("--n", 128, "--seed", 3)
+        self.assertEqual(first, xyz.read_bytes(), "the same seed gives other bits")
+        again = self.report("--input", xyz)  # a jammed packing crunched again stays
+        self.assertEqual(again["collisions"], 0)
+        self.assertIsNone(again["pressure"])
+        self.assertTrue(again["jammed"])
+        self.assertAlmostEqual(again["packing_fraction"], report["packing_fraction"], 10)
+
+    def test_two_dimensions_two_sizes(self):
+        report, _ = self.job("--n", 128, "--dim", 2, "--diameters-ratio", 1.4, "--growth", "1e-2:500", "--growth", "3e-3", "--pressure", "1e6")
+        self.assertTrue(0.81 < report["packing_fraction"] < 0.86, report["packing_fraction"])
+
+    def test_simplex_gives_the_same_packing(self):
+        start = self.dir / "start.dat"
+        self.report("--n", 64, "--no-crunch", "--output", start)
+        ipm = self.report("--input", start)
+        clp = self.report("--input", start, "--lp", "clp")
+        self.assertAlmostEqual(ipm["packing_fraction"], clp["packing_fraction"], 9)
+        self.assertEqual(ipm["contacts"], clp["contacts"])
+
+    def test_dynamics_only(self):
+        report = self.report("--n", 200, "--nve", 20, "--growth", "1e-2:100", "--no-crunch")
+        self.assertIsNone(report["contacts"])
+        self.assertIsNone(report["jammed"])
+        self.assertEqual(report["stop_reason"], "pressure")
+        self.assertGreater(report["collisions"], 20 * 200 / 2)
+        self.assertGreaterEqual(report["pressure"], 100)
+
+    def test_start_only(self):
+        report = self.report("--n", 50, "--phi0", 0.1, "--no-md", "--no-crunch", "--output", self.dir / "p.dat")
+        self.assertAlmostEqual(report["packing_fraction"], 0.1, 12)
+        self.assertEqual((self.dir / "p.dat").read_text().splitlines()[:2], ["3", "50"])
+
+    def test_wall_time(self):
+        began = time.monotonic()
+        report = self.report("--n", 4000, "--growth", "1e-5", "--wall-time", 1, "--output", self.dir / "p.dat", status=1)
+        self.assertLess(time.monotonic() - began, 20)
+        self.assertEqual(report["stop_reason"], "wall_time")
+        self.report("--input", self.dir / "p.dat", "--no-crunch")
+
+    def test_ctrl_c_keeps_the_state(self):
+        out = self.dir / "p.xyz"
+        with subprocess.Popen([program, "--n", "4000", "--growth", "1e-5", "--output", str(out), "--report", "-"], text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            time.sleep(1.5)
+            process.send_signal(signal.SIGINT)
+            stdout, stderr = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 1, stderr)
+        self.assertIn("interrupted", stderr)
+        self.assertEqual(json.loads(stdout)["stop_reason"], "cancelled")
+        self.assertEqual(self.report("--input", out, "--no-crunch")["n"], 4000)
+
+    def test_progress_only_on_a_terminal(self):
+        args = ["--n", "256", "--no-crunch", "--growth", "1e-3:1000"]
+        self.assertEqual(run(*args).stderr, "")
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.execv(program, [program, *args])
+        shown = b""
+        while True:
+            try:
+                part = os.read(terminal, 4096)
+            except OSError:
+                break
+            if not part:
+                break
+            shown += part
+        os.waitpid(pid, 0)
+        os.close(terminal)
+        self.assertIn(b"\r\x1b[Kgrowth 0.001  p ", shown)
+        self.assertIn(b"256 spheres in d = 3", shown)
+
+    def test_quiet(self):
+        done = run("--n", 64, "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+
+unittest.main()

@@ -1,7 +1,8 @@
-// Sparse Cholesky on d x d particle blocks. For now carried by Eigen's simplicial factorisation.
+// Sparse Cholesky A = L L^T of symmetric positive (semi-)definite matrices made of d x d blocks on a particle graph.
+// Multifrontal on supernodes (Duff and Reid, ACM Trans. Math. Softw. 9, 302 (1983)): order the particle graph, eliminate
+// supernode by supernode on dense fronts with BLAS-3, hand each front's Schur complement to its parent.
 #pragma once
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,43 +10,71 @@ namespace jam {
 
 class BlockCholesky {
  public:
-  // n nodes with d x d blocks, undirected edges (ei[k], ej[k]).
-  void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int /*threads*/ = 1) {
-    dim_ = dim, n_ = n, ei_.assign(ei, ei + edges), ej_.assign(ej, ej + edges), analysed_ = false;
-  }
-  // diag: n blocks, off: one block an edge (rows of ei, columns of ej), row-major. Negative: not finite or indefinite.
-  int factorise(const double *diag, const double *off) {
-    std::vector<Eigen::Triplet<double>> t;
-    const size_t b = static_cast<size_t>(dim_) * dim_;
-    for (int i = 0; i < n_; ++i)
-      for (int p = 0; p < dim_; ++p)
-        for (int q = 0; q <= p; ++q) t.emplace_back(i * dim_ + p, i * dim_ + q, diag[i * b + p * dim_ + q]);
-    for (size_t k = 0; k < ei_.size(); ++k)
-      for (int p = 0; p < dim_; ++p)
-        for (int q = 0; q < dim_; ++q) {
-          const int r = ei_[k] * dim_ + p, c = ej_[k] * dim_ + q;
-          t.emplace_back(std::max(r, c), std::min(r, c), off[k * b + p * dim_ + q]);
-        }
-    Eigen::SparseMatrix<double> m(n_ * dim_, n_ * dim_);
-    m.setFromTriplets(t.begin(), t.end());
-    if (!analysed_) factor_.analyzePattern(m), analysed_ = true;
-    factor_.factorize(m);
-    return factor_.info() == Eigen::Success ? 0 : -1;
-  }
-  void solve(double *x) const {
-    Eigen::Map<Eigen::VectorXd> v(x, static_cast<Eigen::Index>(n_) * dim_);
-    const Eigen::VectorXd r = factor_.solve(v);
-    v = r;
-  }
-  void solve_many(double *x, int nrhs) const {
-    for (int k = 0; k < nrhs; ++k) solve(x + static_cast<size_t>(k) * n_ * dim_);
-  }
+  // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees and
+  // large fronts side by side.
+  void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1);
+  // Numeric part, allocates nothing. diag: n blocks of dim * dim, full and symmetric; off: one block an edge, row-major,
+  // rows of ei and columns of ej. A pivot lost to rounding is replaced by a huge number, which fixes that component of the
+  // solution at 0 (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, ch. 11). Returns how many were; -1: the
+  // result is not finite.
+  int factorise(const double *diag, const double *off);
+  // x := A^-1 x, n * dim. May run on several x at once from different threads.
+  void solve(double *x) const { solve_many(x, 1); }
+  // The same for nrhs vectors one after the other in x.
+  void solve_many(double *x, int nrhs) const;
+
+  double flops() const { return flops_; }
+  size_t bytes() const;
+  size_t factor_nonzeros() const { return values_.size(); }
 
  private:
-  int dim_ = 0, n_ = 0;
-  std::vector<int32_t> ei_, ej_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  bool analysed_ = false;
+  // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
+  struct Supernode {
+    int32_t first, last, parent;
+    size_t row_start, row_count;  // in rows_
+    size_t value_start;           // panel in values_, column-major, leading dimension = front size
+    size_t entry_start, entry_count;
+    std::vector<int32_t> children;
+  };
+  // A stretch of a supernode's rows that is contiguous in its parent's front.
+  struct Run {
+    int32_t from, to, count;
+  };
+  struct Entry {
+    int64_t edge;   // >= 0: off-diagonal block; else diagonal block -1 - node
+    size_t target;  // in values_
+    bool transposed;
+  };
+  struct Stack {
+    std::vector<double> memory;
+    size_t top = 0;
+  };
+  size_t columns(const Supernode &s) const { return static_cast<size_t>(s.last - s.first) * dim_; }
+  size_t below(const Supernode &s) const { return s.row_count * dim_; }
+
+  void find_supernodes(const std::vector<int32_t> &parent, std::vector<std::vector<int32_t>> &structure);
+  void place_entries(const int32_t *ei, const int32_t *ej, size_t edges);
+  void plan();
+  void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
+  void assemble(const Supernode &s, const double *diag, const double *off);
+  void extend_add(int32_t child, double *parent_update);
+  int factor_panel(double *panel, int front, int columns, const double *original);
+  void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
+
+  int dim_ = 0, threads_ = 1;
+  int32_t n_ = 0;
+  double flops_ = 0.0;
+  std::vector<int32_t> position_;  // node -> place in the elimination order
+  std::vector<Supernode> supernodes_;
+  std::vector<int32_t> rows_;
+  std::vector<std::vector<Run>> runs_;  // a supernode
+  std::vector<Entry> entries_;
+  std::vector<double> values_, original_diagonal_;
+  std::vector<double *> update_;               // Schur complement of each supernode while it is needed
+  std::vector<std::vector<double>> kept_;      // those of subtree roots, which outlive their thread's stack
+  std::vector<int32_t> lists_[3];              // supernodes of thread 0, thread 1, and the top of the tree
+  Stack stacks_[2];
+  size_t largest_below_ = 0;
 };
 
 }  // namespace jam

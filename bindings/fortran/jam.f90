@@ -92,6 +92,11 @@ module jam
   integer(c_int32_t), parameter :: JAM_MODES_NEAR = 2
   integer(c_int32_t), parameter :: JAM_MODES_ALL = 3
 
+  ! jam_contact_class: Flags of a contact. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
+  integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
+  integer(c_int32_t), parameter :: JAM_CONTACT_MEDIAN = 4
+
   ! Options of jam_create and jam_read. @since 0.1
   type, bind(c) :: jam_create_options
     ! sizeof(jam_create_options)
@@ -342,10 +347,61 @@ module jam
     real(c_double) :: memory_limit = 0
   end type jam_modes_options
 
+  ! Options of jam_contacts_from_geometry. @since 0.1
+  type, bind(c) :: jam_geometry_options
+    ! sizeof(jam_geometry_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
+    real(c_double) :: tolerance = 0
+    ! jumps are looked for in |h| < window, in (0, 1], default 0.1
+    real(c_double) :: window = 0
+  end type jam_geometry_options
+
+  ! What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
+  type, bind(c) :: jam_geometry_report
+    ! set by the caller: sizeof(jam_geometry_report)
+    integer(c_int32_t) :: struct_size = 128
+    ! spheres touching their own image; left out of the network
+    integer(c_int32_t) :: self_contacts = 0
+    ! used
+    real(c_double) :: tolerance = 0
+    ! largest |h| within it, rattlers included
+    real(c_double) :: gap_below = 0
+    ! smallest |h| beyond it (window when there is none)
+    real(c_double) :: gap_above = 0
+    ! gap_above / gap_below, the latter no smaller than resolution
+    real(c_double) :: jump = 0
+    ! of gaps, from the digits of the coordinates
+    real(c_double) :: resolution = 0
+    ! of the next candidate that could be rigid, 1 when there is none
+    real(c_double) :: second_jump = 0
+    ! its tolerance
+    real(c_double) :: second_tolerance = 0
+    ! its contacts, -1 when there is none
+    integer(c_int64_t) :: second_contacts = 0
+    ! pairs with |h| <= tolerance, rattlers included
+    integer(c_int64_t) :: pairs_within = 0
+    ! of stable spheres
+    integer(c_int64_t) :: contacts = 0
+    ! contacts - (d (N'-1) + 1)
+    integer(c_int64_t) :: excess_contacts = 0
+    ! dimension of the null space of S^T
+    integer(c_int64_t) :: self_stresses = 0
+    ! of S^T S, translations among them; counted up to 256
+    integer(c_int64_t) :: zero_modes = 0
+    ! largest |sum_j f_ij n_ij| over mean force
+    real(c_double) :: force_residual = 0
+    ! over the mean
+    real(c_double) :: min_force = 0
+  end type jam_geometry_report
+
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
     module procedure default_create_options, default_run_options, default_compress_options, &
-      default_crunch_options, default_hessian_options, default_modes_options
+      default_crunch_options, default_hessian_options, default_modes_options, &
+      default_geometry_options
   end interface jam_defaults
 
   abstract interface
@@ -793,6 +849,174 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_modes
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_geometry_options_init(o, size) bind(c, name="jam_geometry_options_init") &
+        result(status)
+      import
+      type(jam_geometry_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_geometry_options_init
+
+    ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
+    ! Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
+    ! null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several
+    ! states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
+    ! forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
+    ! JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_contacts_from_geometry(sys, o, report) bind(c, name="jam_contacts_from_geometry") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_geometry_options), intent(in), optional :: o
+      type(jam_geometry_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_contacts_from_geometry
+
+    ! States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
+    ! from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
+    ! Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
+    ! of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
+    function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed) bind(c, name="jam_stress_states") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: force(*)
+      integer(c_size_t), value :: force_len
+      real(c_double), intent(inout), optional :: basis(*)
+      integer(c_size_t), value :: basis_len
+      real(c_double), intent(out), optional :: residual
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_stress_states
+
+    ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+    ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+    ! JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+    function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed) bind(c, name="jam_gaps") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), value :: h_max
+      integer(c_int32_t), value :: stable_only
+      real(c_double), intent(inout), optional :: gap(*)
+      integer(c_size_t), value :: gap_len
+      integer(c_int32_t), intent(inout), optional :: pair(*)
+      integer(c_size_t), value :: pair_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_gaps
+
+    ! Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1
+    function jam_contact_classes(sys, iout, iout_len, needed) bind(c, name="jam_contact_classes") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), intent(inout), optional :: iout(*)
+      integer(c_size_t), value :: iout_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_contact_classes
+
+    ! c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
+    ! *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1
+    function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, needed) bind(c, name="jam_sphere_structure") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: weighted
+      real(c_double), intent(inout), optional :: c(*)
+      integer(c_size_t), value :: c_len
+      real(c_double), intent(inout), optional :: s(*)
+      integer(c_size_t), value :: s_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_sphere_structure
+
+    ! n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+    ! pairs. Threads: const. Errors: as jam_contacts. @since 0.1
+    function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, needed) bind(c, name="jam_contact_dots") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: weighted
+      real(c_double), intent(inout), optional :: dot(*)
+      integer(c_size_t), value :: dot_len
+      integer(c_int32_t), intent(inout), optional :: sphere(*)
+      integer(c_size_t), value :: sphere_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_contact_dots
+
+    ! g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
+    ! diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) bind(c, name="jam_pair_correlation") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), intent(in), optional :: kind(*)
+      integer(c_size_t), value :: kind_len
+      integer(c_int32_t), value :: a
+      integer(c_int32_t), value :: b
+      real(c_double), value :: r_max
+      integer(c_int64_t), value :: bins
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_pair_correlation
+
+    ! S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
+    ! No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed) bind(c, name="jam_structure_factor") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), value :: q_max
+      real(c_double), intent(inout), optional :: q(*)
+      integer(c_size_t), value :: q_len
+      real(c_double), intent(inout), optional :: s(*)
+      integer(c_size_t), value :: s_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_structure_factor
+
+    ! Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
+    ! (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
+    function jam_bond_order(sys, l, cutoff, out, out_len, needed) bind(c, name="jam_bond_order") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: l
+      real(c_double), value :: cutoff
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_bond_order
+
+    ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
+    ! about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1
+    function jam_crystal_score(sys, score) bind(c, name="jam_crystal_score") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(out), optional :: score
+      integer(c_int32_t) :: status
+    end function jam_crystal_score
+
+    ! Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
+    ! JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
+    function jam_local_fraction(sys, out, out_len, needed) bind(c, name="jam_local_fraction") &
+        result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_local_fraction
   end interface
 
 contains
@@ -852,5 +1076,11 @@ contains
     integer(c_int32_t) :: status
     status = jam_modes_options_init(o, c_sizeof(o))
   end subroutine default_modes_options
+
+  subroutine default_geometry_options(o)
+    type(jam_geometry_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_geometry_options_init(o, c_sizeof(o))
+  end subroutine default_geometry_options
 
 end module jam

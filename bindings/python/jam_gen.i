@@ -12,6 +12,18 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *lambda, size_t lambda_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *participation, size_t participation_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
+%apply double *RESULT {double *residual};
+%apply (double *FILL, size_t FILL_LEN) {(double *gap, size_t gap_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *c, size_t c_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *s, size_t s_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *dot, size_t dot_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *sphere, size_t sphere_len)};
+%apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kind, size_t kind_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *q, size_t q_len)};
+%apply double *RESULT {double *score};
 %extend jam_create_options {
   jam_create_options() {
     jam_create_options *made = (jam_create_options *)calloc(1, sizeof *made);
@@ -102,6 +114,24 @@
   ~jam_modes_options() { free($self); }
 }
 %feature("docstring") jam_modes_options "Options of jam_modes. @since 0.1"
+%extend jam_geometry_options {
+  jam_geometry_options() {
+    jam_geometry_options *made = (jam_geometry_options *)calloc(1, sizeof *made);
+    if (made) { jam_geometry_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_geometry_options() { free($self); }
+}
+%feature("docstring") jam_geometry_options "Options of jam_contacts_from_geometry. @since 0.1"
+%extend jam_geometry_report {
+  jam_geometry_report() {
+    jam_geometry_report *made = (jam_geometry_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_geometry_report() { free($self); }
+}
+%feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1"
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
@@ -187,3 +217,32 @@ Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_
 participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
 is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
 JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_geometry_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
+Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
+null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several
+states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
+forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
+JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_stress_states "States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
+from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
+Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
+of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
+%feature("docstring") jam_contact_classes "Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_sphere_structure "c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
+*needed = n. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
+diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_structure_factor "S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
+No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
+(1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"
+%feature("docstring") jam_crystal_score "Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
+about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1"
+%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
+JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"

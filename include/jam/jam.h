@@ -482,6 +482,91 @@ JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, cons
                              size_t lambda_len, double *vector, size_t vector_len, double *participation,
                              size_t participation_len, size_t *needed);
 
+/* Options of jam_contacts_from_geometry. @since 0.1 */
+typedef struct jam_geometry_options {
+  uint32_t struct_size; /* sizeof(jam_geometry_options) */
+  int32_t reserved;     /* 0 */
+  double tolerance;     /* contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps */
+  double window;        /* jumps are looked for in |h| < window, in (0, 1], default 0.1 */
+} jam_geometry_options;
+
+/* What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1 */
+typedef struct jam_geometry_report {
+  uint32_t struct_size;     /* set by the caller: sizeof(jam_geometry_report) */
+  int32_t self_contacts;    /* spheres touching their own image; left out of the network */
+  double tolerance;         /* used */
+  double gap_below;         /* largest |h| within it, rattlers included */
+  double gap_above;         /* smallest |h| beyond it (window when there is none) */
+  double jump;              /* gap_above / gap_below, the latter no smaller than resolution */
+  double resolution;        /* of gaps, from the digits of the coordinates */
+  double second_jump;       /* of the next candidate that could be rigid, 1 when there is none */
+  double second_tolerance;  /* its tolerance */
+  int64_t second_contacts;  /* its contacts, -1 when there is none */
+  int64_t pairs_within;     /* pairs with |h| <= tolerance, rattlers included */
+  int64_t contacts;         /* of stable spheres */
+  int64_t excess_contacts;  /* contacts - (d (N'-1) + 1) */
+  int64_t self_stresses;    /* dimension of the null space of S^T */
+  int64_t zero_modes;       /* of S^T S, translations among them; counted up to 256 */
+  double force_residual;    /* largest |sum_j f_ij n_ij| over mean force */
+  double min_force;         /* over the mean */
+} jam_geometry_report;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
+/* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
+ * Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
+ * null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several
+ * states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
+ * forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
+ * JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report);
+/* States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
+ * from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
+ * Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
+ * of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
+                                     double *residual, size_t *needed);
+
+/* Flags of a contact. @since 0.1 */
+typedef enum jam_contact_class {
+  JAM_CONTACT_LOCALISED = 1, /* touches a buckler (a stable sphere with d + 1 contacts); without it: extended */
+  JAM_CONTACT_SMALLEST = 2,  /* has the smallest force of one of its spheres */
+  JAM_CONTACT_MEDIAN = 4     /* has the (lower) median force of one of its spheres */
+} jam_contact_class;
+
+/* Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+ * stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+ * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
+                            int32_t *pair, size_t pair_len, size_t *needed);
+/* Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+/* c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
+ * *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
+                                        size_t s_len, size_t *needed);
+/* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+ * pairs. Threads: const. Errors: as jam_contacts. @since 0.1 */
+JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere,
+                                    size_t sphere_len, size_t *needed);
+/* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
+ * diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
+                                        double r_max, int64_t bins, double *out, size_t out_len, size_t *needed);
+/* S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
+ * No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_structure_factor(const jam_system *sys, double q_max, double *q, size_t q_len, double *s,
+                                        size_t s_len, size_t *needed);
+/* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
+ * (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1 */
+JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len, size_t *needed);
+/* Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
+ * about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
+JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
+/* Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
+ * JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1 */
+JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+
 #ifdef __cplusplus
 }
 #endif

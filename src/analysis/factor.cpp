@@ -6,24 +6,24 @@
 namespace jam {
 
 struct ShiftedFactor::Impl {
-  Eigen::SparseMatrix<double> matrix;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt;
+  bool analysed = false;
 };
 
-ShiftedFactor::ShiftedFactor(const BlockMatrix &m) : m_(m), impl_(new Impl) {
-  const CsrMatrix csr = to_csr(m);
-  const auto n = static_cast<Eigen::Index>(m.rows());
-  impl_->matrix = Eigen::Map<const Eigen::SparseMatrix<double>>(n, n, static_cast<Eigen::Index>(csr.value.size()), csr.start.data(),
-                                                                csr.column.data(), csr.value.data());
-  impl_->llt.analyzePattern(impl_->matrix);
-}
+ShiftedFactor::ShiftedFactor(const BlockMatrix &m) : m_(m), impl_(new Impl) {}
 
 ShiftedFactor::~ShiftedFactor() = default;
 
 bool ShiftedFactor::factorise(double shift) {
   shift_ = shift;
+  const CsrMatrix csr = to_csr(m_);
+  const auto n = static_cast<Eigen::Index>(m_.rows());
+  const Eigen::SparseMatrix<double> a = Eigen::Map<const Eigen::SparseMatrix<double>>(
+      n, n, static_cast<Eigen::Index>(csr.value.size()), csr.start.data(), csr.column.data(), csr.value.data());
+  if (!impl_->analysed) impl_->llt.analyzePattern(a);
+  impl_->analysed = true;
   impl_->llt.setShift(shift);
-  impl_->llt.factorize(impl_->matrix);
+  impl_->llt.factorize(a);
   return impl_->llt.info() == Eigen::Success;
 }
 

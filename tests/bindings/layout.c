@@ -124,6 +124,29 @@ CHECK(jam_modes_options, count, 8, 8);
 CHECK(jam_modes_options, frequency, 16, 8);
 CHECK(jam_modes_options, tolerance, 24, 8);
 CHECK(jam_modes_options, memory_limit, 32, 8);
+CHECK_SIZE(jam_geometry_options, 24);
+CHECK(jam_geometry_options, struct_size, 0, 4);
+CHECK(jam_geometry_options, reserved, 4, 4);
+CHECK(jam_geometry_options, tolerance, 8, 8);
+CHECK(jam_geometry_options, window, 16, 8);
+CHECK_SIZE(jam_geometry_report, 128);
+CHECK(jam_geometry_report, struct_size, 0, 4);
+CHECK(jam_geometry_report, self_contacts, 4, 4);
+CHECK(jam_geometry_report, tolerance, 8, 8);
+CHECK(jam_geometry_report, gap_below, 16, 8);
+CHECK(jam_geometry_report, gap_above, 24, 8);
+CHECK(jam_geometry_report, jump, 32, 8);
+CHECK(jam_geometry_report, resolution, 40, 8);
+CHECK(jam_geometry_report, second_jump, 48, 8);
+CHECK(jam_geometry_report, second_tolerance, 56, 8);
+CHECK(jam_geometry_report, second_contacts, 64, 8);
+CHECK(jam_geometry_report, pairs_within, 72, 8);
+CHECK(jam_geometry_report, contacts, 80, 8);
+CHECK(jam_geometry_report, excess_contacts, 88, 8);
+CHECK(jam_geometry_report, self_stresses, 96, 8);
+CHECK(jam_geometry_report, zero_modes, 104, 8);
+CHECK(jam_geometry_report, force_residual, 112, 8);
+CHECK(jam_geometry_report, min_force, 120, 8);
 
 #define SHOW(type, member) \
   printf(#type " " #member " %zu %zu\n", offsetof(type, member), sizeof(((type *)0)->member))
@@ -244,6 +267,29 @@ int main(void) {
   SHOW(jam_modes_options, frequency);
   SHOW(jam_modes_options, tolerance);
   SHOW(jam_modes_options, memory_limit);
+  printf("jam_geometry_options sizeof %zu\n", sizeof(jam_geometry_options));
+  SHOW(jam_geometry_options, struct_size);
+  SHOW(jam_geometry_options, reserved);
+  SHOW(jam_geometry_options, tolerance);
+  SHOW(jam_geometry_options, window);
+  printf("jam_geometry_report sizeof %zu\n", sizeof(jam_geometry_report));
+  SHOW(jam_geometry_report, struct_size);
+  SHOW(jam_geometry_report, self_contacts);
+  SHOW(jam_geometry_report, tolerance);
+  SHOW(jam_geometry_report, gap_below);
+  SHOW(jam_geometry_report, gap_above);
+  SHOW(jam_geometry_report, jump);
+  SHOW(jam_geometry_report, resolution);
+  SHOW(jam_geometry_report, second_jump);
+  SHOW(jam_geometry_report, second_tolerance);
+  SHOW(jam_geometry_report, second_contacts);
+  SHOW(jam_geometry_report, pairs_within);
+  SHOW(jam_geometry_report, contacts);
+  SHOW(jam_geometry_report, excess_contacts);
+  SHOW(jam_geometry_report, self_stresses);
+  SHOW(jam_geometry_report, zero_modes);
+  SHOW(jam_geometry_report, force_residual);
+  SHOW(jam_geometry_report, min_force);
   printf("JAM_OK value %d\n", (int)JAM_OK);
   printf("JAM_CANCELLED value %d\n", (int)JAM_CANCELLED);
   printf("JAM_LIMIT value %d\n", (int)JAM_LIMIT);
@@ -307,5 +353,8 @@ int main(void) {
   printf("JAM_MODES_HIGHEST value %d\n", (int)JAM_MODES_HIGHEST);
   printf("JAM_MODES_NEAR value %d\n", (int)JAM_MODES_NEAR);
   printf("JAM_MODES_ALL value %d\n", (int)JAM_MODES_ALL);
+  printf("JAM_CONTACT_LOCALISED value %d\n", (int)JAM_CONTACT_LOCALISED);
+  printf("JAM_CONTACT_SMALLEST value %d\n", (int)JAM_CONTACT_SMALLEST);
+  printf("JAM_CONTACT_MEDIAN value %d\n", (int)JAM_CONTACT_MEDIAN);
   return 0;
 }

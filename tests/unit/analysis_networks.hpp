@@ -136,4 +136,17 @@ inline std::vector<double> bloch_spectrum(const Vectors &basis, const std::vecto
   return all;
 }
 
+// FCC in a cube of `cells` conventional cells, unit diameters at contact: 4 cells^3 spheres.
+inline jam::Packing fcc_cube(int cells) {
+  const double a = std::sqrt(2.0), site[4][3] = {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}};
+  jam::Packing p;
+  p.box = cells * a;
+  for (int x = 0; x < cells; ++x)
+    for (int y = 0; y < cells; ++y)
+      for (int z = 0; z < cells; ++z)
+        for (const auto &s : site) p.position.insert(p.position.end(), {(x + s[0]) * a, (y + s[1]) * a, (z + s[2]) * a});
+  p.diameter.assign(4 * static_cast<size_t>(cells * cells * cells), 1.0);
+  return p;
+}
+
 }  // namespace jamtest

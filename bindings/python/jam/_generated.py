@@ -115,6 +115,13 @@ class ModesWhich(IntEnum):
     ALL = 3  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
 
+class ContactClass(IntEnum):
+    """Flags of a contact. @since 0.1"""
+    LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
+    SMALLEST = 2  # has the smallest force of one of its spheres
+    MEDIAN = 4  # has the (lower) median force of one of its spheres
+
+
 @dataclass(frozen=True, repr=False)
 class Info:
     """What the system is now. @since 0.1
@@ -257,6 +264,44 @@ class Report:
     seconds_solve: float
 
 
+@dataclass(frozen=True, repr=False)
+class GeometryReport:
+    """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
+    
+    self_contacts: spheres touching their own image; left out of the network
+    tolerance: used
+    gap_below: largest |h| within it, rattlers included
+    gap_above: smallest |h| beyond it (window when there is none)
+    jump: gap_above / gap_below, the latter no smaller than resolution
+    resolution: of gaps, from the digits of the coordinates
+    second_jump: of the next candidate that could be rigid, 1 when there is none
+    second_tolerance: its tolerance
+    second_contacts: its contacts, -1 when there is none
+    pairs_within: pairs with |h| <= tolerance, rattlers included
+    contacts: of stable spheres
+    excess_contacts: contacts - (d (N'-1) + 1)
+    self_stresses: dimension of the null space of S^T
+    zero_modes: of S^T S, translations among them; counted up to 256
+    force_residual: largest |sum_j f_ij n_ij| over mean force
+    min_force: over the mean"""
+    self_contacts: int
+    tolerance: float
+    gap_below: float
+    gap_above: float
+    jump: float
+    resolution: float
+    second_jump: float
+    second_tolerance: float
+    second_contacts: int
+    pairs_within: int
+    contacts: int
+    excess_contacts: int
+    self_stresses: int
+    zero_modes: int
+    force_residual: float
+    min_force: float
+
+
 # option structs: {C name: {member: (type, meaning)}}
 OPTIONS = {
     "jam_create_options": {
@@ -305,6 +350,10 @@ OPTIONS = {
         "tolerance": ("float", 'relative, of Lanczos, in (0, 1), default 1e-10'),
         "memory_limit": ("float", 'bytes, default 2e9: past it JAM_E_MEMORY with the estimate'),
     },
+    "jam_geometry_options": {
+        "tolerance": ("float", 'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps'),
+        "window": ("float", 'jumps are looked for in |h| < window, in (0, 1], default 0.1'),
+    },
 }
 
 # report structs: {C name: dataclass}
@@ -313,6 +362,7 @@ REPORTS = {
     "jam_progress": Progress,
     "jam_md_report": MdReport,
     "jam_report": Report,
+    "jam_geometry_report": GeometryReport,
 }
 
 # rows: {C name: numpy dtype}, for arrays of structs
@@ -346,4 +396,15 @@ CALLS = {
     "jam_hessian_map": ("The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.\nErrors: as jam_contacts. @since 0.1", (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian": ("Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.\nUnit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1", (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_modes": ("Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,\nparticipation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest\nis NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,\nJAM_E_BUSY. Threads: alone. @since 0.1", (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contacts_from_geometry": ('Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.\nRattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the\nnull vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several\nstates of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive\nforces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,\nJAM_E_BUSY. Threads: alone. @since 0.1', (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
+    "jam_stress_states": ('States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never\nfrom multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.\nStatus: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force\nof one sign). Errors: as jam_modes. Threads: alone. @since 0.1', (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("needed", "scalar_out", "size_t"))),
+    "jam_gaps": ('Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With\nstable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,\nJAM_E_BUFFER, JAM_E_STATE. @since 0.1', (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_classes": ('Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1', (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_sphere_structure": ('c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.\n*needed = n. Threads: const. Errors: as jam_contacts. @since 0.1', (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_dots": ('n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =\npairs. Threads: const. Errors: as jam_contacts. @since 0.1', (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_pair_correlation": ('g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean\ndiameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1', (("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("a", "scalar", "int32_t"), ("b", "scalar", "int32_t"), ("r_max", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_structure_factor": ('S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.\nNo network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1', (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_bond_order": ('Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]\n(1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1', (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crystal_score": ('Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,\nabout 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1', (("score", "scalar_out", "double"),)),
+    "jam_local_fraction": ('Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,\nJAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1', (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

@@ -95,6 +95,11 @@ const JAM_MODES_HIGHEST = Int32(1)  # largest eigenvalues
 const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, translations left out
 const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
+# jam_contact_class: Flags of a contact. @since 0.1
+const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
+const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
+const JAM_CONTACT_MEDIAN = Int32(4)  # has the (lower) median force of one of its spheres
+
 """
 Options of jam_create and jam_read. @since 0.1
 """
@@ -268,6 +273,41 @@ mutable struct jam_modes_options
     tolerance::Cdouble  # relative, of Lanczos, in (0, 1), default 1e-10
     memory_limit::Cdouble  # bytes, default 2e9: past it JAM_E_MEMORY with the estimate
     jam_modes_options() = new(40, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of jam_contacts_from_geometry. @since 0.1
+"""
+mutable struct jam_geometry_options
+    struct_size::UInt32  # sizeof(jam_geometry_options)
+    reserved::Int32  # 0
+    tolerance::Cdouble  # contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
+    window::Cdouble  # jumps are looked for in |h| < window, in (0, 1], default 0.1
+    jam_geometry_options() = new(24, 0, 0, 0)
+end
+
+"""
+What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
+"""
+mutable struct jam_geometry_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_geometry_report)
+    self_contacts::Int32  # spheres touching their own image; left out of the network
+    tolerance::Cdouble  # used
+    gap_below::Cdouble  # largest |h| within it, rattlers included
+    gap_above::Cdouble  # smallest |h| beyond it (window when there is none)
+    jump::Cdouble  # gap_above / gap_below, the latter no smaller than resolution
+    resolution::Cdouble  # of gaps, from the digits of the coordinates
+    second_jump::Cdouble  # of the next candidate that could be rigid, 1 when there is none
+    second_tolerance::Cdouble  # its tolerance
+    second_contacts::Int64  # its contacts, -1 when there is none
+    pairs_within::Int64  # pairs with |h| <= tolerance, rattlers included
+    contacts::Int64  # of stable spheres
+    excess_contacts::Int64  # contacts - (d (N'-1) + 1)
+    self_stresses::Int64  # dimension of the null space of S^T
+    zero_modes::Int64  # of S^T S, translations among them; counted up to 256
+    force_residual::Cdouble  # largest |sum_j f_ij n_ij| over mean force
+    min_force::Cdouble  # over the mean
+    jam_geometry_report() = new(128, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -581,4 +621,105 @@ JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, needed)
     return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, needed))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_geometry_options_init(o, size)
+    return ccall((:jam_geometry_options_init, libjam), Int32, (Ref{jam_geometry_options}, Csize_t), _ref(jam_geometry_options, o), size)
+end
+
+"""
+Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
+Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
+null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several
+states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
+forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
+JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_contacts_from_geometry(sys, o, report)
+    return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
+end
+
+"""
+States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
+from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
+Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
+of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
+"""
+function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed)
+    return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, needed))
+end
+
+"""
+Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+"""
+function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed)
+    return ccall((:jam_gaps, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, needed))
+end
+
+"""
+Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1
+"""
+function jam_contact_classes(sys, iout, iout_len, needed)
+    return ccall((:jam_contact_classes, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+end
+
+"""
+c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
+*needed = n. Threads: const. Errors: as jam_contacts. @since 0.1
+"""
+function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, needed)
+    return ccall((:jam_sphere_structure, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, needed))
+end
+
+"""
+n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+pairs. Threads: const. Errors: as jam_contacts. @since 0.1
+"""
+function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, needed)
+    return ccall((:jam_contact_dots, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, needed))
+end
+
+"""
+g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
+diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+"""
+function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed)
+    return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Int32, Int32, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(kind), kind_len, a, b, r_max, bins, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
+No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+"""
+function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed)
+    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(q), q_len, _ptr(s), s_len, _ref(Csize_t, needed))
+end
+
+"""
+Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
+(1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
+"""
+function jam_bond_order(sys, l, cutoff, out, out_len, needed)
+    return ccall((:jam_bond_order, libjam), Int32, (Ptr{Cvoid}, Int32, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, l, cutoff, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
+about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1
+"""
+function jam_crystal_score(sys, score)
+    return ccall((:jam_crystal_score, libjam), Int32, (Ptr{Cvoid}, Ref{Cdouble}), sys, _ref(Cdouble, score))
+end
+
+"""
+Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
+JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
+"""
+function jam_local_fraction(sys, out, out_len, needed)
+    return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end

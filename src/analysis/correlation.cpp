@@ -1,0 +1,173 @@
+// g(r), S(q), bond order, local packing fraction.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include "analysis/structure.hpp"
+#include "core/error.hpp"
+#ifdef JAM_HAVE_VORO
+#include <voro++/voro++.hh>
+#endif
+
+namespace jam {
+
+std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max, size_t bins) {
+  const double unit = diameter_mean(p);
+  if (kind_len != 0 && kind_len != p.n()) fail(JAM_E_ARGUMENT, "kind_len is %zu, it must be 0 or n = %zu", kind_len, p.n());
+  if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.box)) fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
+  if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
+  auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
+  double na = 0.0, nb = 0.0;
+  for (size_t i = 0; i < p.n(); ++i) {
+    na += is(static_cast<int32_t>(i), a);
+    nb += is(static_cast<int32_t>(i), b);
+  }
+  std::vector<double> g(bins, 0.0), r(p.dim);
+  const PairList all = find_pairs(p, r_max * unit, 0.0);
+  for (size_t k = 0; k < all.size(); ++k) {
+    const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit);
+    const auto bin = std::min<size_t>(bins - 1, static_cast<size_t>(x * static_cast<double>(bins)));
+    const int32_t i = all.i[k], j = all.j[k];
+    // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
+    g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
+  }
+  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0, p.dim), density = nb / std::pow(p.box, p.dim);
+  for (size_t k = 0; k < bins; ++k) {
+    const double lo = r_max * unit * static_cast<double>(k) / static_cast<double>(bins), hi = r_max * unit * static_cast<double>(k + 1) / static_cast<double>(bins);
+    const double expected = na * density * ball * (std::pow(hi, p.dim) - std::pow(lo, p.dim));
+    g[k] = expected > 0.0 ? g[k] / expected : 0.0;
+  }
+  return g;
+}
+
+StructureFactor structure_factor(const Packing &p, double q_max) {
+  const int d = p.dim;
+  const double unit = diameter_mean(p), step = 2.0 * M_PI / p.box;
+  if (!(q_max > 0.0 && std::isfinite(q_max))) fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
+  const double reach = q_max / unit / step;
+  const double vectors = 0.5 * unit_sphere_volume(d) * std::pow(2.0 * reach, d);
+  if (vectors * static_cast<double>(p.n()) > 1e11)
+    fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
+  const int m = static_cast<int>(std::floor(reach));
+  const size_t n = p.n(), width = 2 * static_cast<size_t>(m) + 1;
+  // cos and sin of n x for every sphere, component and n: one row a (component, n), so that inner loops run over spheres
+  std::vector<double> co(width * d * n), si(width * d * n);
+  for (int c = 0; c < d; ++c)
+    for (int q = -m; q <= m; ++q)
+      for (size_t i = 0; i < n; ++i) {
+        const double phase = step * q * p.position[i * d + c];
+        co[(static_cast<size_t>(c) * width + (q + m)) * n + i] = std::cos(phase);
+        si[(static_cast<size_t>(c) * width + (q + m)) * n + i] = std::sin(phase);
+      }
+  std::map<int64_t, std::pair<double, int64_t>> shell;
+  std::vector<std::vector<double>> re(d + 1, std::vector<double>(n, 1.0)), im(d + 1, std::vector<double>(n, 0.0));
+  // One of each pair +-q: the first component that is not zero is positive.
+  auto descend = [&](auto &&self, int c, int64_t n2, bool positive) -> void {
+    if (c == d) {
+      if (!positive) return;
+      double x = 0.0, y = 0.0;
+      for (size_t i = 0; i < n; ++i) x += re[d][i], y += im[d][i];
+      auto &s = shell[n2];
+      s.first += (x * x + y * y) / static_cast<double>(n);
+      ++s.second;
+      return;
+    }
+    for (int q = positive ? -m : 0; q <= m; ++q) {
+      const int64_t next = n2 + static_cast<int64_t>(q) * q;
+      if (static_cast<double>(next) > reach * reach) continue;
+      const double *a = &co[(static_cast<size_t>(c) * width + (q + m)) * n], *b = &si[(static_cast<size_t>(c) * width + (q + m)) * n];
+      for (size_t i = 0; i < n; ++i) {
+        re[c + 1][i] = re[c][i] * a[i] - im[c][i] * b[i];
+        im[c + 1][i] = re[c][i] * b[i] + im[c][i] * a[i];
+      }
+      self(self, c + 1, next, positive || q > 0);
+    }
+  };
+  descend(descend, 0, 0, false);
+  StructureFactor out;
+  for (const auto &[n2, s] : shell) {
+    out.q.push_back(step * std::sqrt(static_cast<double>(n2)) * unit);
+    out.s.push_back(s.first / static_cast<double>(s.second));
+  }
+  return out;
+}
+
+namespace {
+// P_l of d dimensions with P_l(1) = 1: Chebyshev in d = 2, Legendre in d = 3, Gegenbauer beyond, by the recurrence
+// (l + d - 2) P_{l+1} = (2 l + d - 2) x P_l - l P_{l-1}.
+double zonal(int d, int l, double x) {
+  double before = 1.0, now = x;
+  if (l == 0) return 1.0;
+  for (int k = 1; k < l; ++k) {
+    const double next = ((2.0 * k + d - 2.0) * x * now - k * before) / (k + d - 2.0);
+    before = now;
+    now = next;
+  }
+  return now;
+}
+}  // namespace
+
+// Q_l^2 = 4 pi / (2 l + 1) sum_m |mean_j Y_lm(n_j)|^2 = mean over pairs (j, k) of P_l(n_j . n_k), by the addition theorem.
+std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
+  if (l < 1 || l > 64) fail(JAM_E_ARGUMENT, "l is %d, it must be in 1..64", l);
+  if (!(cutoff > 0.0 && cutoff <= 3.0)) fail(JAM_E_ARGUMENT, "cutoff is %g, it must be in (0, 3]", cutoff);
+  const int d = p.dim;
+  const PairList all = find_pairs(p, 0.0, cutoff);
+  std::vector<std::vector<double>> of(p.n());
+  std::vector<double> r(d);
+  for (size_t k = 0; k < all.size(); ++k) {
+    const double length = std::sqrt(pair_vector(p, all, k, r.data()));
+    for (int c = 0; c < d; ++c) of[all.i[k]].push_back(r[c] / length);
+    for (int c = 0; c < d; ++c) of[all.j[k]].push_back(-r[c] / length);
+  }
+  std::vector<double> q(p.n(), 0.0);
+  for (size_t i = 0; i < p.n(); ++i) {
+    const size_t z = of[i].size() / d;
+    if (z == 0) continue;
+    double sum = static_cast<double>(z);
+    for (size_t x = 0; x < z; ++x)
+      for (size_t y = x + 1; y < z; ++y) {
+        double dot = 0.0;
+        for (int c = 0; c < d; ++c) dot += of[i][x * d + c] * of[i][y * d + c];
+        sum += 2.0 * zonal(d, l, std::max(-1.0, std::min(1.0, dot)));
+      }
+    q[i] = std::sqrt(std::max(0.0, sum)) / static_cast<double>(z);
+  }
+  return q;
+}
+
+double crystal_score(const Packing &p) {
+  const size_t bins = 400;  // 0.005 of a mean diameter each
+  const std::vector<double> g = pair_correlation(p, nullptr, 0, -1, -1, 2.0, bins);
+  double near = 0.0, around = 0.0, weight_near = 0.0, weight_around = 0.0;
+  for (size_t k = 0; k < bins; ++k) {
+    const double r = 0.005 * (static_cast<double>(k) + 0.5), shell = std::pow(r, p.dim - 1);
+    if (std::fabs(r - std::sqrt(2.0)) < 0.02) near += g[k] * shell, weight_near += shell;
+    if (r > 1.2 && r < 1.6) around += g[k] * shell, weight_around += shell;
+  }
+  return around > 0.0 ? (near / weight_near) / (around / weight_around) : 0.0;
+}
+
+std::vector<double> local_fractions(const Packing &p) {
+#ifdef JAM_HAVE_VORO
+  if (p.dim != 3) fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
+  const int cells = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(p.n()) / 6.0)));
+  voro::container_periodic_poly box(p.box, 0, p.box, 0, 0, p.box, cells, cells, cells, 8);
+  for (size_t i = 0; i < p.n(); ++i)
+    box.put(static_cast<int>(i), p.position[3 * i], p.position[3 * i + 1], p.position[3 * i + 2], 0.5 * p.diameter[i]);
+  std::vector<double> phi(p.n(), std::numeric_limits<double>::quiet_NaN());
+  voro::c_loop_all_periodic loop(box);
+  voro::voronoicell cell;
+  if (loop.start()) do {
+      if (!box.compute_cell(cell, loop)) continue;
+      const auto i = static_cast<size_t>(loop.pid());
+      phi[i] = unit_sphere_volume(3) * std::pow(p.diameter[i], 3) / cell.volume();
+    } while (loop.inc());
+  return phi;
+#else
+  (void)p;
+  fail(JAM_E_UNSUPPORTED, "this libjam was built without voro++");
+#endif
+}
+
+}  // namespace jam

@@ -1,0 +1,127 @@
+// Gaps, classes of contacts, sums of contact vectors.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include "analysis/structure.hpp"
+#include "core/error.hpp"
+#include "jam/jam.h"
+
+namespace jam {
+namespace {
+
+// Whether pair k of `all` stands in the network; `at` walks along, both lists are sorted by (i, j).
+bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNetwork &net, size_t &at) {
+  const int32_t i = all.i[k], j = all.j[k];
+  while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;
+  for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j; ++q) {
+    bool same = true;
+    for (int c = 0; c < p.dim; ++c) same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < 0.5 * p.box;
+    if (same) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
+  if (!(h_max > 0.0 && h_max <= 1e3)) fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, 1000]", h_max);
+  const PairList all = find_pairs(p, 0.0, 1.0 + h_max);
+  std::vector<double> r(p.dim);
+  std::vector<std::pair<double, size_t>> found;
+  size_t at = 0;
+  for (size_t k = 0; k < all.size(); ++k) {
+    const int32_t i = all.i[k], j = all.j[k];
+    if (net && stable_only && (net->coordination[i] == 0 || net->coordination[j] == 0)) continue;
+    if (net && is_contact(p, all, k, *net, at)) continue;
+    found.push_back({std::sqrt(pair_vector(p, all, k, r.data())) / (0.5 * (p.diameter[i] + p.diameter[j])) - 1.0, k});
+  }
+  std::sort(found.begin(), found.end());
+  Gaps out;
+  for (const auto &[h, k] : found) {
+    out.gap.push_back(h);
+    out.pair.push_back(all.i[k]);
+    out.pair.push_back(all.j[k]);
+  }
+  return out;
+}
+
+namespace {
+std::vector<std::vector<size_t>> contacts_of(const Packing &p, const ContactNetwork &net) {
+  std::vector<std::vector<size_t>> of(p.n());
+  for (size_t k = 0; k < net.size(); ++k) {
+    of[net.pairs.i[k]].push_back(k);
+    of[net.pairs.j[k]].push_back(k);
+  }
+  return of;
+}
+}  // namespace
+
+std::vector<int32_t> classify_contacts(const Packing &p, const ContactNetwork &net) {
+  std::vector<int32_t> flags(net.size(), 0);
+  for (size_t k = 0; k < net.size(); ++k)
+    if (net.coordination[net.pairs.i[k]] == p.dim + 1 || net.coordination[net.pairs.j[k]] == p.dim + 1) flags[k] |= JAM_CONTACT_LOCALISED;
+  for (auto &of : contacts_of(p, net)) {
+    if (of.empty() || net.force.empty()) continue;
+    std::sort(of.begin(), of.end(), [&](size_t x, size_t y) { return net.force[x] != net.force[y] ? net.force[x] < net.force[y] : x < y; });
+    flags[of.front()] |= JAM_CONTACT_SMALLEST;
+    flags[of[(of.size() - 1) / 2]] |= JAM_CONTACT_MEDIAN;
+  }
+  return flags;
+}
+
+namespace {
+// Vector of contact k as seen from sphere i (pointing to i), times the force when weighted.
+void seen_from(const Packing &p, const ContactNetwork &net, size_t k, size_t i, bool weighted, double *v) {
+  double scale = static_cast<size_t>(net.pairs.i[k]) == i ? 1.0 : -1.0;
+  if (weighted) scale *= net.force[k];
+  for (int c = 0; c < p.dim; ++c) v[c] = scale * net.vector[k * p.dim + c];
+}
+void need_forces(const ContactNetwork &net, bool weighted) {
+  if (weighted && net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
+}
+}  // namespace
+
+SphereStructure sphere_structure(const Packing &p, const ContactNetwork &net, bool weighted) {
+  need_forces(net, weighted);
+  const int d = p.dim;
+  SphereStructure out;
+  out.c.assign(p.position.size(), 0.0);
+  out.s.assign(p.n(), 0.0);
+  std::vector<double> self(p.n(), 0.0), v(d);
+  for (size_t k = 0; k < net.size(); ++k)
+    for (const size_t i : {static_cast<size_t>(net.pairs.i[k]), static_cast<size_t>(net.pairs.j[k])}) {
+      seen_from(p, net, k, i, weighted, v.data());
+      for (int c = 0; c < d; ++c) {
+        out.c[i * d + c] += v[c];
+        self[i] += v[c] * v[c];
+      }
+    }
+  for (size_t i = 0; i < p.n(); ++i) {  // sum_{j<k} = (|C|^2 - sum_j |v_j|^2) / 2
+    double c2 = 0.0;
+    for (int c = 0; c < d; ++c) c2 += out.c[i * d + c] * out.c[i * d + c];
+    out.s[i] = 0.5 * (c2 - self[i]);
+  }
+  return out;
+}
+
+ContactDots contact_dots(const Packing &p, const ContactNetwork &net, bool weighted) {
+  need_forces(net, weighted);
+  ContactDots out;
+  std::vector<double> a(p.dim), b(p.dim);
+  const auto all = contacts_of(p, net);
+  for (size_t i = 0; i < p.n(); ++i)
+    for (size_t x = 0; x < all[i].size(); ++x) {
+      seen_from(p, net, all[i][x], i, weighted, a.data());
+      for (size_t y = x + 1; y < all[i].size(); ++y) {
+        seen_from(p, net, all[i][y], i, weighted, b.data());
+        double dot = 0.0;
+        for (int c = 0; c < p.dim; ++c) dot += a[c] * b[c];
+        out.dot.push_back(dot);
+        out.sphere.push_back(static_cast<int32_t>(i));
+      }
+    }
+  return out;
+}
+
+}  // namespace jam

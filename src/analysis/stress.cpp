@@ -1,0 +1,221 @@
+#include "analysis/stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include "core/error.hpp"
+#include "core/rng.hpp"
+
+namespace jam {
+namespace {
+
+ContactWeights unit_weights(const StableGraph &g) {
+  ContactWeights w;
+  w.stiffness.assign(g.contacts(), 1.0);
+  return w;
+}
+
+double norm(const std::vector<double> &x) {
+  double s = 0.0;
+  for (double v : x) s += v * v;
+  return std::sqrt(s);
+}
+
+// Gram-Schmidt, twice: x := component of x orthogonal to the vectors of q; returns its length over that of x.
+double orthogonalise(const std::vector<std::vector<double>> &q, std::vector<double> &x) {
+  const double before = norm(x);
+  for (int twice = 0; twice < 2; ++twice)
+    for (const auto &v : q) {
+      double dot = 0.0;
+      for (size_t k = 0; k < x.size(); ++k) dot += v[k] * x[k];
+      for (size_t k = 0; k < x.size(); ++k) x[k] -= dot * v[k];
+    }
+  return before > 0.0 ? norm(x) / before : 0.0;
+}
+
+void scale_to_mean(std::vector<double> &f) {
+  double mean = 0.0;
+  for (double v : f) mean += v;
+  mean /= static_cast<double>(f.size());
+  if (mean != 0.0)
+    for (double &v : f) v /= mean;
+}
+
+}  // namespace
+
+NullSpace::NullSpace(const StableGraph &g) : g_(g), h_(make_hessian(g, unit_weights(g))), factor_(h_) {
+  factor_.factorise_from(1e-11 * h_.norm_bound());
+}
+
+int NullSpace::project(std::vector<double> &f, int refinements) const {
+  std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
+  double last = std::numeric_limits<double>::infinity();
+  int solves = 0;
+  // Each pass shrinks what is left outside the null space by shift / (lambda_min + shift), down to rounding.
+  for (int pass = 0; refinements < 0 ? pass < 30 : pass <= refinements; ++pass) {
+    balance(g_, f.data(), y.data());
+    const double residual = norm(y);
+    if (!(residual < 0.5 * last)) {
+      if (residual >= last) f = best;
+      if (pass > 1) break;
+    }
+    last = residual;
+    best = f;
+    remove_translation(g_.dim, g_.nodes, y.data());
+    factor_.solve(y.data());
+    stretch(g_, y.data(), s.data());
+    for (size_t k = 0; k < f.size(); ++k) f[k] -= s[k];
+    ++solves;
+  }
+  return solves;
+}
+
+int64_t NullSpace::zero_modes() const {
+  if (zeros_ >= 0) return zeros_;
+  const size_t n = g_.unknowns();
+  const double floor = 1e-10 * std::max(h_.norm_bound(), 1e-300);
+  std::vector<std::vector<double>> kernel;
+  Rng rng(2, Stream::analysis_start);
+  // (shift / (H + shift))^4 x keeps the kernel and divides a mode of eigenvalue lambda by (lambda / shift)^4. Block by block,
+  // until one brings a vector that is no new zero mode.
+  for (bool more = true; more && kernel.size() < 256 && kernel.size() < n;) {
+    const int block = static_cast<int>(std::min<size_t>(n - kernel.size(), kernel.empty() ? g_.dim + 2 : kernel.size()));
+    std::vector<double> x(n * block);
+    for (double &v : x) v = rng.normal();
+    for (int pass = 0; pass < 4; ++pass) {
+      factor_.solve_many(x.data(), block);
+      for (double &v : x) v *= factor_.shift();
+    }
+    for (int b = 0; b < block; ++b) {
+      std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b), x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
+      const double fresh = orthogonalise(kernel, v), length = norm(v);
+      // A new zero mode has kept a good part of a random vector, and no curvature.
+      if (fresh < 1e-4 || length < 1e-6) { more = false; continue; }
+      for (double &q : v) q /= length;
+      ContactWeights w = unit_weights(g_);
+      if (curvature(g_, w, v.data()) > floor) { more = false; continue; }
+      kernel.push_back(v);
+    }
+  }
+  return zeros_ = static_cast<int64_t>(kernel.size());
+}
+
+int64_t NullSpace::dimension() const {
+  return static_cast<int64_t>(g_.contacts()) - static_cast<int64_t>(g_.unknowns()) + zero_modes();
+}
+
+// Minimises phi(u) = 1/2 sum max(0, 1 - (S u)_k)^2, which is convex; at its minimum f = max(0, 1 - S u) balances and is the
+// point of the cone {f >= 0, S^T f = 0} nearest to (1, 1, ...), which is its direction of least norm at a given mean
+// (Moreau's decomposition; semismooth Newton with a line search).
+bool least_force(const StableGraph &g, std::vector<double> &f) {
+  const size_t m = g.contacts(), n = g.unknowns();
+  std::vector<double> u(n, 0.0), su(m, 0.0), gradient(n), step(n), sstep(m);
+  ContactWeights w = unit_weights(g);
+  BlockMatrix h = make_hessian(g, w);
+  const double scale = h.norm_bound();
+  ShiftedFactor factor(h);
+  f.assign(m, 1.0);
+  auto phi = [&](double t) {
+    double sum = 0.0;
+    for (size_t k = 0; k < m; ++k) {
+      const double v = std::max(0.0, 1.0 - su[k] - t * sstep[k]);
+      sum += 0.5 * v * v;
+    }
+    return sum;
+  };
+  for (int pass = 0; pass < 100; ++pass) {
+    for (size_t k = 0; k < m; ++k) {
+      f[k] = std::max(0.0, 1.0 - su[k]);
+      w.stiffness[k] = f[k] > 0.0 ? 1.0 : 0.0;
+    }
+    balance(g, f.data(), gradient.data());
+    const double now = norm(gradient);
+    if (now <= 1e-14 * std::sqrt(static_cast<double>(m)) || norm(f) < 1e-10 * std::sqrt(static_cast<double>(m))) break;
+    h = make_hessian(g, w);
+    factor.factorise_from(1e-11 * scale);
+    step = gradient;
+    remove_translation(g.dim, g.nodes, step.data());
+    factor.solve(step.data());
+    stretch(g, step.data(), sstep.data());
+    double t = 1.0;
+    const double before = phi(0.0);
+    while (t > 1e-10 && !(phi(t) < before)) t *= 0.5;
+    if (t <= 1e-10) break;
+    for (size_t k = 0; k < n; ++k) u[k] += t * step[k];
+    stretch(g, u.data(), su.data());
+  }
+  if (norm(f) < 1e-8 * std::sqrt(static_cast<double>(m))) {
+    f.assign(m, 0.0);
+    return false;
+  }
+  scale_to_mean(f);
+  return true;
+}
+
+StressStates find_stress(const StableGraph &g, bool with_basis, int refinements) {
+  StressStates out;
+  const size_t m = g.contacts();
+  if (m == 0) return out;
+  const NullSpace space(g);
+  const auto fresh = [&](uint64_t stream) {
+    std::vector<double> w(m);
+    Rng rng(3, Stream::analysis_start, stream << 32);
+    for (double &v : w) v = rng.normal();
+    return w;
+  };
+  std::vector<std::vector<double>> q;
+  out.force.assign(m, 1.0);
+  space.project(out.force, refinements);
+  // Fast way out, true for almost every packing: as many contacts as one state of self-stress has, and a random vector
+  // projects on the same line as (1, 1, ...).
+  const auto one = static_cast<int64_t>(g.unknowns()) - g.dim + 1;
+  if (static_cast<int64_t>(m) == one && norm(out.force) > 1e-6 * std::sqrt(static_cast<double>(m))) {
+    std::vector<double> second = fresh(1), line = out.force;
+    const double length = norm(second);
+    space.project(second, refinements < 0 ? -1 : refinements);
+    const double scale = norm(line);
+    for (double &v : line) v /= scale;
+    q.push_back(line);
+    orthogonalise(q, second);
+    if (norm(second) < 1e-6 * length) {
+      out.dimension = 1;
+      out.zero_modes = g.dim;
+    }
+  }
+  if (out.dimension != 1) {
+    out.zero_modes = space.zero_modes();
+    out.dimension = space.dimension();
+  }
+  if (out.dimension <= 0) {
+    out.dimension = 0;
+    out.force.assign(m, 0.0);
+    return out;
+  }
+  if (out.dimension > 1) {
+    out.positive = least_force(g, out.force);
+    if (out.positive) space.project(out.force, 1);
+  } else if (norm(out.force) <= 1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
+    out.force = fresh(2);
+    space.project(out.force);
+  }
+  scale_to_mean(out.force);
+  out.residual = balance_residual(g, out.force.data());
+  out.min_force = *std::min_element(out.force.begin(), out.force.end());
+  if (out.dimension == 1) out.positive = out.min_force > 0.0;
+  if (with_basis) {
+    if (static_cast<double>(out.dimension) * static_cast<double>(m) * 8.0 > 1e9)
+      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1e9 bytes", static_cast<long long>(out.dimension), m);
+    q.clear();
+    for (uint64_t k = 0; static_cast<int64_t>(q.size()) < out.dimension && k < 4 * static_cast<uint64_t>(out.dimension) + 8; ++k) {
+      std::vector<double> v = k == 0 && out.positive ? out.force : fresh(10 + k);
+      space.project(v);
+      if (orthogonalise(q, v) < 1e-6) continue;
+      const double length = norm(v);
+      for (double &x : v) x /= length;
+      q.push_back(v);
+    }
+    for (const auto &v : q) out.basis.insert(out.basis.end(), v.begin(), v.end());
+  }
+  return out;
+}
+
+}  // namespace jam

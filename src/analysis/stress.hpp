@@ -1,0 +1,47 @@
+// States of self-stress from positions alone: the null space of S^T, without a dense matrix.
+#pragma once
+#include <functional>
+#include <vector>
+#include "analysis/factor.hpp"
+#include "analysis/graph.hpp"
+#include "analysis/hessian.hpp"
+#include "core/monitor.hpp"
+
+namespace jam {
+
+// One factorisation of S^T S + shift, used for projections and for minimum-norm displacements.
+class NullSpace {
+ public:
+  explicit NullSpace(const StableGraph &g);
+  // f := f - S (S^T S)^+ S^T f by iterative refinement with the shifted factor; refinements < 0: until the residual
+  // stops falling. Returns the number of solves.
+  int project(std::vector<double> &f, int refinements = -1) const;
+  // Dimension of the null space of S^T, from that of S^T S (random probes of its kernel).
+  int64_t dimension() const;
+  int64_t zero_modes() const;  // of S^T S, translations among them; at least this many when it is 256
+  const ShiftedFactor &factor() const { return factor_; }
+  const BlockMatrix &hessian() const { return h_; }
+
+ private:
+  const StableGraph &g_;
+  BlockMatrix h_;
+  ShiftedFactor factor_;
+  mutable int64_t zeros_ = -1;
+};
+
+struct StressStates {
+  int64_t dimension = 0;
+  int64_t zero_modes = 0;
+  std::vector<double> force;     // mean 1; of least norm and non-negative when dimension > 1
+  std::vector<double> basis;     // (dimension, contacts) orthonormal, when asked for
+  double residual = 0.0;         // largest |sum_j f_ij n_ij| over mean force
+  double min_force = 0.0;        // over the mean
+  bool positive = false;         // all forces > 0 (>= 0 when dimension > 1) and one is > 0
+};
+
+// The force of a network. Throws nothing for unjammed networks: dimension 0, or `positive` false.
+StressStates find_stress(const StableGraph &g, bool with_basis, int refinements = -1);
+// The least-norm f >= 0 with S^T f = 0 and mean 1, by projecting (1, 1, ...) on that cone; false when only f = 0 is in it.
+bool least_force(const StableGraph &g, std::vector<double> &f);
+
+}  // namespace jam

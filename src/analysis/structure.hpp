@@ -1,0 +1,46 @@
+// Structure of a packing: gaps, classes of contacts, vectors of a sphere's contacts, correlations, bond order.
+#pragma once
+#include <vector>
+#include "core/contacts.hpp"
+#include "core/packing.hpp"
+
+namespace jam {
+
+struct Gaps {
+  std::vector<double> gap;     // ascending
+  std::vector<int32_t> pair;   // (gaps, 2)
+};
+// All pairs (every image, a sphere's own too) with h < h_max but the contacts of `network` (which may be NULL);
+// stable_only leaves out pairs with a rattler of the network.
+Gaps find_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
+
+// Flags of jam_contact_class for every contact.
+std::vector<int32_t> classify_contacts(const Packing &p, const ContactNetwork &network);
+
+struct SphereStructure {
+  std::vector<double> c;  // (n, d) sum of n_ij, or of f_ij n_ij
+  std::vector<double> s;  // n: sum over pairs of contacts of n_ij . n_ik, or of f_ij f_ik n_ij . n_ik
+};
+SphereStructure sphere_structure(const Packing &p, const ContactNetwork &network, bool weighted);
+struct ContactDots {
+  std::vector<double> dot;
+  std::vector<int32_t> sphere;
+};
+ContactDots contact_dots(const Packing &p, const ContactNetwork &network, bool weighted);
+
+// g_ab(r) in `bins` bins up to r_max mean diameters. kind: one label a sphere or empty; a, b < 0: any.
+std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max, size_t bins);
+
+struct StructureFactor {
+  std::vector<double> q, s;  // one value for each length of an allowed wave vector 2 pi n / L, ascending
+};
+StructureFactor structure_factor(const Packing &p, double q_max);
+
+// Q_l of every sphere from all neighbours with |r| < cutoff sigma_ij.
+std::vector<double> bond_order(const Packing &p, int l, double cutoff);
+// Mean of g within 0.02 of sqrt 2 over its mean in 1.2 .. 1.6 (mean diameters).
+double crystal_score(const Packing &p);
+// Volume of a sphere over that of its radical Voronoi cell; d = 3, needs voro++ at build time (JAM_E_UNSUPPORTED).
+std::vector<double> local_fractions(const Packing &p);
+
+}  // namespace jam

@@ -1,0 +1,107 @@
+// Header section "analysis": gaps, classes, structure, correlations.
+#include "analysis/structure.hpp"
+#include "capi/analysis.hpp"
+
+using namespace jam;
+
+extern "C" {
+
+jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len, int32_t *pair, size_t pair_len,
+                    size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (stable_only) need_network(sys);
+    const Gaps g = find_gaps(sys->packing, sys->has_report ? &sys->contacts : nullptr, h_max, stable_only != 0);
+    if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (needed) *needed = g.gap.size();
+    check_output(gap, gap_len, g.gap.size(), "gap");
+    check_output(pair, pair_len, g.pair.size(), "pair");
+    put_output(g.gap, gap, g.gap.size());
+    put_output(g.pair, pair, g.pair.size());
+    return JAM_OK;
+  });
+}
+
+jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    need_network(sys);
+    const std::vector<int32_t> flags = classify_contacts(sys->packing, sys->contacts);
+    return give_array(flags.data(), flags.size(), iout, iout_len, needed);
+  });
+}
+
+jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s, size_t s_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    need_network(sys);
+    if (!needed && !c && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (needed) *needed = sys->packing.n();
+    check_output(c, c_len, sys->packing.position.size(), "c");
+    check_output(s, s_len, sys->packing.n(), "s");
+    const SphereStructure t = sphere_structure(sys->packing, sys->contacts, weighted != 0);
+    put_output(t.c, c, t.c.size());
+    put_output(t.s, s, t.s.size());
+    return JAM_OK;
+  });
+}
+
+jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere, size_t sphere_len,
+                            size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    need_network(sys);
+    const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
+    if (!needed && !dot && !sphere) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (needed) *needed = t.dot.size();
+    check_output(dot, dot_len, t.dot.size(), "dot");
+    check_output(sphere, sphere_len, t.sphere.size(), "sphere");
+    put_output(t.dot, dot, t.dot.size());
+    put_output(t.sphere, sphere, t.sphere.size());
+    return JAM_OK;
+  });
+}
+
+jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max,
+                                int64_t bins, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (kind_len) need(kind, "kind");
+    if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+    if (!out && needed && out_len == 0) return *needed = static_cast<size_t>(bins), JAM_OK;
+    const std::vector<double> g = pair_correlation(sys->packing, kind, kind_len, a, b, r_max, static_cast<size_t>(bins));
+    return give_array(g.data(), g.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_structure_factor(const jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!needed && !q && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    const StructureFactor f = structure_factor(sys->packing, q_max);
+    if (needed) *needed = f.q.size();
+    check_output(q, q_len, f.q.size(), "q");
+    check_output(s, s_len, f.s.size(), "s");
+    put_output(f.q, q, f.q.size());
+    put_output(f.s, s, f.s.size());
+    return JAM_OK;
+  });
+}
+
+jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    const std::vector<double> q = bond_order(sys->packing, l, cutoff);
+    return give_array(q.data(), q.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_crystal_score(const jam_system *sys, double *score) {
+  return guard_const(sys, [&]() -> jam_status {
+    need(score, "score");
+    *score = crystal_score(sys->packing);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    const std::vector<double> phi = local_fractions(sys->packing);
+    return give_array(phi.data(), phi.size(), out, out_len, needed);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,178 @@
+// Contact networks and states of self-stress from positions alone, also where they fail.
+#include "analysis/geometry.hpp"
+#include "analysis/modes.hpp"
+#include "analysis_networks.hpp"
+#include "core/create.hpp"
+#include "core/rng.hpp"
+// Last: cmocka defines a macro `fail`.
+extern "C" {
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+}
+
+using namespace jam;
+using namespace jamtest;
+
+namespace {
+
+GeometryResult look(const Packing &p, double tolerance = 0.0) {
+  jam_geometry_options o = default_geometry_options();
+  o.tolerance = tolerance;
+  return contacts_from_geometry(p, o);
+}
+
+void fcc(void **) {
+  const Packing p = fcc_cube(3);
+  const GeometryResult r = look(p);
+  assert_int_equal(r.status, JAM_AMBIGUOUS);  // hyperstatic: more than one state of self-stress
+  assert_int_equal(r.report.contacts, 6 * 108);
+  assert_int_equal(r.report.excess_contacts, 6 * 108 - (3 * 107 + 1));
+  // rank from the dense spectrum
+  const StableGraph g = make_graph(p, r.network);
+  Monitor monitor;
+  Modes modes;
+  jam_modes_options o = default_modes_options();
+  o.which = JAM_MODES_ALL;
+  assert_int_equal(find_modes(g, contact_weights(g, 1.0, default_hessian_options()), o, monitor, modes), JAM_OK);
+  int64_t zeros = 0;
+  for (double l : modes.lambda) zeros += std::fabs(l) < 1e-10;
+  assert_int_equal(r.report.zero_modes, zeros);
+  assert_int_equal(r.report.self_stresses, 6 * 108 - (3 * 108 - zeros));
+  for (double f : r.network.force) assert_true(std::fabs(f - 1.0) < 1e-12);  // by symmetry the least norm is uniform
+  assert_true(r.report.force_residual < 1e-13);
+  const StressStates s = find_stress(g, true);
+  const size_t m = g.contacts();
+  std::vector<double> y(g.unknowns());
+  for (int64_t k = 0; k < s.dimension; ++k) {
+    balance(g, &s.basis[static_cast<size_t>(k) * m], y.data());
+    for (double v : y) assert_true(std::fabs(v) < 1e-12);
+  }
+  assert_int_equal(s.basis.size(), static_cast<size_t>(s.dimension) * m);
+}
+
+void square_lattice(void **) {
+  Packing p;
+  p.dim = 2;
+  p.box = 5.0;
+  for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0});
+  p.diameter.assign(25, 1.0);
+  const GeometryResult r = look(p);
+  assert_int_equal(r.report.contacts, 50);
+  assert_int_equal(r.report.zero_modes, 10);  // every row and column slides
+  assert_int_equal(r.report.self_stresses, 10);
+  for (double f : r.network.force) assert_true(std::fabs(f - 1.0) < 1e-12);
+}
+
+void one_cell_with_many_images(void **) {
+  const GeometryResult r = look(fcc_cube(1));  // four spheres, each pair touching through four images
+  assert_int_equal(r.report.contacts, 24);
+  assert_int_equal(r.status, JAM_AMBIGUOUS);
+  for (double f : r.network.force) assert_true(std::fabs(f - 1.0) < 1e-12);
+}
+
+void own_image(void **) {
+  Packing p;
+  p.dim = 3;
+  p.position = {0.1, 0.2, 0.3};
+  p.diameter = {1.0};
+  const GeometryResult r = look(p);
+  assert_int_equal(r.status, JAM_NOT_JAMMED);
+  assert_int_equal(r.report.self_contacts, 3);
+  assert_int_equal(r.report.contacts, 0);
+}
+
+void fluid_is_not_jammed(void **) {
+  jam_create_options o = default_create_options();
+  o.n = 200;
+  const GeometryResult r = look(make_packing(o, nullptr, 0, nullptr, 0));
+  assert_int_equal(r.status, JAM_NOT_JAMMED);
+  assert_int_equal(r.report.contacts, 0);
+  for (int32_t z : r.network.coordination) assert_int_equal(z, 0);
+}
+
+void flat_layer_does_not_span(void **) {
+  // A square layer in d = 3: four contacts a sphere, as many as d + 1, but all in a plane.
+  Packing p;
+  p.dim = 3;
+  p.box = 5.0;
+  for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0, 2.0});
+  p.diameter.assign(25, 1.0);
+  const GeometryResult r = look(p, 1e-9);
+  assert_int_equal(r.status, JAM_NOT_JAMMED);
+  assert_int_equal(r.report.pairs_within, 50);
+  assert_int_equal(r.report.contacts, 0);
+}
+
+void spanning_chain(void **) {
+  Packing p;
+  p.dim = 2;
+  p.box = 5.0;
+  for (int i = 0; i < 5; ++i) p.position.insert(p.position.end(), {i + 0.0, 2.0});
+  p.diameter.assign(5, 1.0);
+  const GeometryResult r = look(p, 1e-9);
+  assert_int_equal(r.status, JAM_NOT_JAMMED);
+  assert_int_equal(r.report.pairs_within, 5);
+  assert_int_equal(r.report.contacts, 0);
+}
+
+void two_clusters(void **) {
+  // Two strips of three triangular rows: only the horizontal lines can carry repulsive forces.
+  Packing p;
+  p.dim = 2;
+  p.box = 6.0;
+  const double h = std::sqrt(0.75);
+  for (int strip = 0; strip < 2; ++strip)
+    for (int row = 0; row < 3; ++row)
+      for (int i = 0; i < 6; ++i) p.position.insert(p.position.end(), {i + 0.5 * (row % 2), 0.1 + 3.0 * strip + row * h});
+  p.diameter.assign(36, 1.0);
+  const GeometryResult r = look(p, 1e-9);
+  assert_int_equal(r.report.contacts, 2 * (18 + 24));
+  assert_int_equal(r.report.zero_modes, 4);  // each strip has its two translations
+  assert_int_equal(r.status, JAM_AMBIGUOUS);
+  const StableGraph g = make_graph(p, r.network);
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    const bool flat = std::fabs(g.normal[2 * k + 1]) < 1e-9;
+    assert_true(std::fabs(r.network.force[k] - (flat ? 84.0 / 36.0 : 0.0)) < 1e-9);
+  }
+}
+
+void no_clear_jump(void **) {
+  // A crystal whose spheres are shaken by 1e-3: its gaps have no decade without a pair.
+  Packing p = fcc_cube(3);
+  Rng rng(1, Stream::analysis_start);
+  for (double &x : p.position) x = wrap(x + 1e-3 * rng.normal(), p.box);
+  const GeometryResult r = look(p);
+  assert_true(r.status == JAM_AMBIGUOUS || r.status == JAM_NOT_JAMMED);
+  assert_true(r.report.jump < 1e3);
+}
+
+void pulling_is_no_force(void **) {
+  // A sphere held by three contacts on one side only: S^T f = 0 has solutions on the rest alone.
+  Case c = lattice(triangular_basis(), triangular_bonds(), 4);
+  c.packing.diameter.push_back(1.0);
+  c.packing.position.insert(c.packing.position.end(), {0.9, 0.3});
+  add_contact(c, 0, 16, {0.0, 0.0});
+  add_contact(c, 1, 16, {0.0, 0.0});
+  const StressStates s = find_stress(make_graph(c.packing, c.network), false);
+  assert_true(s.positive);
+  assert_true(s.force[48] < 1e-9 && s.force[49] < 1e-9);
+}
+
+}  // namespace
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(fcc),
+                                     cmocka_unit_test(square_lattice),
+                                     cmocka_unit_test(one_cell_with_many_images),
+                                     cmocka_unit_test(own_image),
+                                     cmocka_unit_test(fluid_is_not_jammed),
+                                     cmocka_unit_test(flat_layer_does_not_span),
+                                     cmocka_unit_test(spanning_chain),
+                                     cmocka_unit_test(two_clusters),
+                                     cmocka_unit_test(no_clear_jump),
+                                     cmocka_unit_test(pulling_is_no_force)};
+  return cmocka_run_group_tests_name("analysis_geometry", tests, nullptr, nullptr);
+}

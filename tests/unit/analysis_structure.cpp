@@ -1,0 +1,171 @@
+// Gaps, classes, structure and correlations against brute force and against the FCC crystal.
+#include <complex>
+#include "analysis/geometry.hpp"
+#include "analysis/structure.hpp"
+#include "analysis_networks.hpp"
+#include "core/create.hpp"
+#include "core/rng.hpp"
+// Last: cmocka defines a macro `fail`.
+extern "C" {
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+}
+
+using namespace jam;
+using namespace jamtest;
+
+namespace {
+
+Packing fluid(int d, int n, double phi) {
+  jam_create_options o = default_create_options();
+  o.dim = d;
+  o.n = n;
+  o.packing_fraction = phi;
+  return make_packing(o, nullptr, 0, nullptr, 0);
+}
+
+void fcc_structure(void **) {
+  const Packing p = fcc_cube(4);
+  const ContactNetwork net = contacts_from_geometry(p, default_geometry_options()).network;
+  const SphereStructure s = sphere_structure(p, net, false);
+  for (double x : s.c) assert_true(std::fabs(x) < 1e-12);
+  for (double x : s.s) assert_true(std::fabs(x + 6.0) < 1e-12);  // -z/2
+  for (double q : bond_order(p, 6, 1.2)) assert_true(std::fabs(q - 0.57452426) < 1e-7);
+  for (double q : bond_order(p, 4, 1.2)) assert_true(std::fabs(q - 0.19094065) < 1e-7);
+  assert_true(crystal_score(p) > 5.0);
+  assert_true(crystal_score(fluid(3, 2000, 0.3)) < 1.5);
+  int peak = 0, all = 0;
+  for (double x : contact_dots(p, net, false).dot) peak += std::fabs(x - 0.5) < 1e-9, ++all;
+  assert_int_equal(all, 256 * 66);
+  assert_int_equal(peak, 256 * 24);
+}
+
+void triangular_bond_order(void **) {
+  Packing p;  // a hexagon around one disk
+  p.dim = 2;
+  p.box = 10.0;
+  p.diameter.assign(7, 1.0);
+  p.position = {5.0, 5.0};
+  for (int k = 0; k < 6; ++k) p.position.insert(p.position.end(), {5.0 + std::cos(k * M_PI / 3.0), 5.0 + std::sin(k * M_PI / 3.0)});
+  assert_true(std::fabs(bond_order(p, 6, 1.2)[0] - 1.0) < 1e-12);
+  assert_true(bond_order(p, 4, 1.2)[0] < 1e-7);
+}
+
+void local_fraction_of_fcc(void **) {
+#ifdef JAM_HAVE_VORO
+  double sum = 0.0;
+  for (double phi : local_fractions(fcc_cube(3))) assert_true(std::fabs(phi - M_PI / std::sqrt(18.0)) < 1e-9);
+  const Packing p = fluid(3, 300, 0.3);
+  const std::vector<double> phi = local_fractions(p);
+  for (size_t i = 0; i < p.n(); ++i) sum += unit_sphere_volume(3) * std::pow(p.diameter[i], 3) / phi[i];
+  assert_true(std::fabs(sum - 1.0) < 1e-9);  // the cells fill the box
+#else
+  skip();
+#endif
+}
+
+void sum_rule(void **) {
+  // S_i = (|C_i|^2 - z_i) / 2 and, with forces, the same with sum f^2: against the pairs one by one.
+  Case c = lattice(triangular_basis(), triangular_bonds(), 5);
+  Rng rng(4, Stream::analysis_start);
+  for (double &x : c.packing.position) x += 0.1 * rng.normal();
+  Case moved;
+  moved.packing = c.packing;
+  for (size_t k = 0; k < c.network.size(); ++k)
+    add_contact(moved, c.network.pairs.i[k], c.network.pairs.j[k], {c.network.pairs.offset[2 * k], c.network.pairs.offset[2 * k + 1]}, rng.uniform());
+  for (bool weighted : {false, true}) {
+    const SphereStructure s = sphere_structure(moved.packing, moved.network, weighted);
+    const ContactDots dots = contact_dots(moved.packing, moved.network, weighted);
+    std::vector<double> sum(moved.packing.n(), 0.0);
+    for (size_t k = 0; k < dots.dot.size(); ++k) sum[dots.sphere[k]] += dots.dot[k];
+    for (size_t i = 0; i < sum.size(); ++i) assert_true(std::fabs(sum[i] - s.s[i]) < 1e-12);
+    if (!weighted)
+      for (size_t i = 0; i < sum.size(); ++i) {
+        const double c2 = s.c[2 * i] * s.c[2 * i] + s.c[2 * i + 1] * s.c[2 * i + 1];
+        assert_true(std::fabs(0.5 * (c2 - moved.network.coordination[i]) - s.s[i]) < 1e-12);
+      }
+  }
+}
+
+void gaps_by_brute_force(void **) {
+  const Packing p = fluid(3, 150, 0.25);
+  const Gaps g = find_gaps(p, nullptr, 1.0, false);
+  const PairList all = find_pairs_brute(p, 0.0, 2.0);
+  std::vector<double> h, r(3);
+  for (size_t k = 0; k < all.size(); ++k) h.push_back(std::sqrt(pair_vector(p, all, k, r.data())) / p.diameter[0] - 1.0);
+  std::sort(h.begin(), h.end());
+  assert_int_equal(h.size(), g.gap.size());
+  for (size_t k = 0; k < h.size(); ++k) assert_true(std::fabs(h[k] - g.gap[k]) < 1e-12);
+  // in the crystal the contacts are left out, image by image: next shell at sqrt 2
+  const Packing x = fcc_cube(1);
+  const ContactNetwork net = contacts_from_geometry(x, default_geometry_options()).network;
+  const Gaps y = find_gaps(x, &net, 0.5, true);
+  assert_int_equal(y.gap.size(), 4 * 3);
+  for (double v : y.gap) assert_true(std::fabs(v - (std::sqrt(2.0) - 1.0)) < 1e-12);
+}
+
+void classes(void **) {
+  Case c;  // a buckler (three contacts in d = 2) in the middle of a ring that is held elsewhere
+  c.packing.dim = 2;
+  c.packing.diameter.assign(4, 1.0);
+  c.packing.position = {0, 0, 1, 0, -0.5, 0.8, -0.5, -0.8};
+  add_contact(c, 0, 1, {0, 0}, 3.0);
+  add_contact(c, 0, 2, {0, 0}, 1.0);
+  add_contact(c, 0, 3, {0, 0}, 2.0);
+  add_contact(c, 2, 3, {0, 0}, 4.0);
+  const std::vector<int32_t> f = classify_contacts(c.packing, c.network);
+  assert_int_equal(f[0], JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);  // the only one of sphere 1
+  assert_int_equal(f[1], JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);
+  assert_int_equal(f[2], JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);
+  assert_int_equal(f[3], 0);
+}
+
+void correlation_adds_up(void **) {
+  const Packing p = fluid(3, 500, 0.2);
+  std::vector<int32_t> kind(500);
+  for (int i = 0; i < 500; ++i) kind[i] = i < 200;
+  const double r_max = 1.4 * p.box / diameter_mean(p);  // past half the box: several images count
+  const auto all = pair_correlation(p, nullptr, 0, -1, -1, r_max, 60), aa = pair_correlation(p, kind.data(), 500, 1, 1, r_max, 60),
+             ab = pair_correlation(p, kind.data(), 500, 1, 0, r_max, 60), bb = pair_correlation(p, kind.data(), 500, 0, 0, r_max, 60);
+  for (int k = 0; k < 60; ++k) assert_true(std::fabs(0.16 * aa[k] + 2 * 0.24 * ab[k] + 0.36 * bb[k] - all[k]) < 1e-12);
+  double tail = 0.0;
+  for (int k = 40; k < 60; ++k) tail += all[k] / 20.0;
+  assert_true(std::fabs(tail - 1.0) < 0.02);
+}
+
+void structure_factor_direct(void **) {
+  const Packing p = fluid(2, 60, 0.2);
+  const double unit = diameter_mean(p), step = 2.0 * M_PI * unit;
+  const StructureFactor f = structure_factor(p, 3.2 * step);
+  std::vector<std::pair<int, double>> expect;  // n^2 -> S
+  for (int n2 : {1, 2, 4, 5, 8, 9, 10}) {
+    double s = 0.0;
+    int count = 0;
+    for (int x = -3; x <= 3; ++x)
+      for (int y = -3; y <= 3; ++y)
+        if (x * x + y * y == n2) {
+          std::complex<double> rho = 0.0;
+          for (size_t i = 0; i < p.n(); ++i) rho += std::polar(1.0, 2.0 * M_PI * (x * p.position[2 * i] + y * p.position[2 * i + 1]));
+          s += std::norm(rho) / 60.0;
+          ++count;
+        }
+    expect.push_back({n2, s / count});
+  }
+  assert_int_equal(f.q.size(), expect.size());
+  for (size_t k = 0; k < expect.size(); ++k) {
+    assert_true(std::fabs(f.q[k] - step * std::sqrt(expect[k].first)) < 1e-12);
+    assert_true(std::fabs(f.s[k] - expect[k].second) < 1e-10);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(fcc_structure), cmocka_unit_test(triangular_bond_order), cmocka_unit_test(local_fraction_of_fcc),
+                                     cmocka_unit_test(sum_rule),      cmocka_unit_test(gaps_by_brute_force),   cmocka_unit_test(classes),
+                                     cmocka_unit_test(correlation_adds_up), cmocka_unit_test(structure_factor_direct)};
+  return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
+}

@@ -567,6 +567,71 @@ JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
  * JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1 */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
+/* Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
+ * common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+ * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
+/* The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+ * s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
+ * the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+ * Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *s_plus, size_t s_plus_len,
+                                    double *s_star, size_t s_star_len, size_t *needed);
+
+/* Options of jam_density_of_states. @since 0.1 */
+typedef struct jam_dos_options {
+  uint32_t struct_size; /* sizeof(jam_dos_options) */
+  int32_t moments;      /* Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments */
+  int32_t vectors;      /* random vectors, 2..1e5, default 16 */
+  int32_t points;       /* values of omega, default 200 */
+  int64_t seed;         /* of the random vectors, default 1 */
+} jam_dos_options;
+
+/* Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1 */
+typedef struct jam_moduli {
+  uint32_t struct_size; /* set by the caller: sizeof(jam_moduli) */
+  int32_t reserved;     /* 0 */
+  double bulk;          /* K */
+  double bulk_affine;   /* K without the non-affine part */
+  double shear;         /* G, mean over the d (d-1) / 2 coordinate planes */
+  double shear_affine;  /* G without the non-affine part */
+  double shear_min;     /* smallest of the planes */
+  double shear_max;     /* largest of the planes */
+} jam_moduli;
+
+/* What jam_compare found; contacts only when both have a network. @since 0.1 */
+typedef struct jam_comparison {
+  uint32_t struct_size;           /* set by the caller: sizeof(jam_comparison) */
+  int32_t reserved;               /* 0 */
+  int64_t contacts_a, contacts_b; /* of sys and of other */
+  int64_t common_contacts;        /* pairs in both */
+  int64_t stable_in_both;         /* spheres that are rattlers in neither */
+  double overlap;                 /* common over union */
+  double packing_fraction_change; /* phi of other minus phi of sys */
+  double displacement_rms;        /* over these spheres, mean displacement taken out, in mean diameters of sys */
+  double displacement_max;        /* likewise */
+} jam_comparison;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
+/* Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
+ * omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
+ * and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+ * JAM_E_TOO_FEW. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
+                                         double *omega, size_t omega_len, double *density, size_t density_len,
+                                         double *error, size_t error_len, size_t *needed);
+/* *value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
+JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
+                                 double *value);
+/* Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli);
+/* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
+ * nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+ * Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
+                               size_t out_len, size_t *needed);
+
 #ifdef __cplusplus
 }
 #endif

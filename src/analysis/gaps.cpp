@@ -24,18 +24,28 @@ bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNe
 
 }  // namespace
 
-Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
-  if (!(h_max > 0.0 && h_max <= 1e3)) fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, 1000]", h_max);
+PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
   const PairList all = find_pairs(p, 0.0, 1.0 + h_max);
-  std::vector<double> r(p.dim);
-  std::vector<std::pair<double, size_t>> found;
+  PairList out;
   size_t at = 0;
   for (size_t k = 0; k < all.size(); ++k) {
     const int32_t i = all.i[k], j = all.j[k];
     if (net && stable_only && (net->coordination[i] == 0 || net->coordination[j] == 0)) continue;
     if (net && is_contact(p, all, k, *net, at)) continue;
-    found.push_back({std::sqrt(pair_vector(p, all, k, r.data())) / (0.5 * (p.diameter[i] + p.diameter[j])) - 1.0, k});
+    out.i.push_back(i);
+    out.j.push_back(j);
+    out.offset.insert(out.offset.end(), &all.offset[k * p.dim], &all.offset[k * p.dim] + p.dim);
   }
+  return out;
+}
+
+Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
+  if (!(h_max > 0.0 && h_max <= 1e3)) fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, 1000]", h_max);
+  const PairList all = pairs_without_contacts(p, net, h_max, stable_only);
+  std::vector<double> r(p.dim);
+  std::vector<std::pair<double, size_t>> found(all.size());
+  for (size_t k = 0; k < all.size(); ++k)
+    found[k] = {std::sqrt(pair_vector(p, all, k, r.data())) / (0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]])) - 1.0, k};
   std::sort(found.begin(), found.end());
   Gaps out;
   for (const auto &[h, k] : found) {

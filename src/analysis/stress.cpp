@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
@@ -42,15 +43,71 @@ void scale_to_mean(std::vector<double> &f) {
 
 }  // namespace
 
-NullSpace::NullSpace(const StableGraph &g) : g_(g), h_(make_hessian(g, unit_weights(g))), factor_(h_) {
-  factor_.factorise_from(1e-11 * h_.norm_bound());
+namespace {
+// Clusters of touching spheres by union-find; the representative is the smallest node.
+std::vector<int32_t> cluster_roots(const StableGraph &g) {
+  std::vector<int32_t> root(g.nodes);
+  for (int32_t i = 0; i < g.nodes; ++i) root[i] = i;
+  auto find = [&](int32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    const int32_t x = find(g.a[k]), y = find(g.b[k]);
+    root[std::max(x, y)] = std::min(x, y);
+  }
+  for (int32_t i = 0; i < g.nodes; ++i) root[i] = find(i);
+  return root;
 }
+}  // namespace
+
+PinnedSolver::PinnedSolver(const StableGraph &g, const ContactWeights &w) : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
+  const std::vector<int32_t> root = cluster_roots(g);
+  const double bound = h_.norm_bound();
+  const size_t d = static_cast<size_t>(g.dim);
+  for (int32_t i = 0; i < g.nodes; ++i)
+    if (root[i] == i) {
+      ++clusters_;
+      for (size_t c = 0; c < d; ++c) tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += 0.1 * bound;
+    }
+  factor_.factorise_from(1e-13 * bound);
+}
+
+void PinnedSolver::solve(double *x, int count) const {
+  const size_t n = g_.unknowns();
+  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
+  std::vector<double> b(x, x + n * count), r(n * count), y(n);
+  factor_.solve_many(x, count);
+  double last = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < 20; ++pass) {
+    double residual = 0.0;
+    for (int k = 0; k < count; ++k) {
+      h_.multiply(x + k * n, y.data());
+      for (size_t q = 0; q < n; ++q) {
+        r[k * n + q] = b[k * n + q] - y[q];
+        residual = std::max(residual, std::fabs(r[k * n + q]));
+      }
+      remove_translation(g_.dim, g_.nodes, &r[k * n]);
+    }
+    if (residual == 0.0 || !(residual < 0.3 * last)) break;
+    last = residual;
+    factor_.solve_many(r.data(), count);
+    double change = 0.0, size = 0.0;
+    for (size_t q = 0; q < r.size(); ++q) {
+      change = std::max(change, std::fabs(r[q]));
+      size = std::max(size, std::fabs(x[q] += r[q]));
+    }
+    if (change < 1e-12 * size) break;
+  }
+  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
+}
+
+NullSpace::NullSpace(const StableGraph &g) : g_(g), solver_(g, unit_weights(g)) {}
 
 int NullSpace::project(std::vector<double> &f, int refinements) const {
   std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
   double last = std::numeric_limits<double>::infinity();
   int solves = 0;
-  // Each pass shrinks what is left outside the null space by shift / (lambda_min + shift), down to rounding.
   for (int pass = 0; refinements < 0 ? pass < 30 : pass <= refinements; ++pass) {
     balance(g_, f.data(), y.data());
     const double residual = norm(y);
@@ -60,8 +117,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
     }
     last = residual;
     best = f;
-    remove_translation(g_.dim, g_.nodes, y.data());
-    factor_.solve(y.data());
+    solver_.apply(y.data(), 1);
     stretch(g_, y.data(), s.data());
     for (size_t k = 0; k < f.size(); ++k) f[k] -= s[k];
     ++solves;
@@ -69,34 +125,35 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
   return solves;
 }
 
+// The translations of every cluster are zero modes, and tied in the factorised matrix; what is left of its kernel is
+// found by (shift / (H + shift))^4, which keeps it and divides a mode of eigenvalue lambda by (lambda / shift)^4. Block by
+// block, until one brings a vector that is no new zero mode.
 int64_t NullSpace::zero_modes() const {
   if (zeros_ >= 0) return zeros_;
   const size_t n = g_.unknowns();
-  const double floor = 1e-10 * std::max(h_.norm_bound(), 1e-300);
+  const double floor = 1e-10 * std::max(solver_.hessian().norm_bound(), 1e-300);
+  const ContactWeights w = unit_weights(g_);
   std::vector<std::vector<double>> kernel;
   Rng rng(2, Stream::analysis_start);
-  // (shift / (H + shift))^4 x keeps the kernel and divides a mode of eigenvalue lambda by (lambda / shift)^4. Block by block,
-  // until one brings a vector that is no new zero mode.
   for (bool more = true; more && kernel.size() < 256 && kernel.size() < n;) {
-    const int block = static_cast<int>(std::min<size_t>(n - kernel.size(), kernel.empty() ? g_.dim + 2 : kernel.size()));
+    const int block = static_cast<int>(std::min<size_t>(n - kernel.size(), std::max<size_t>(2, kernel.size())));
     std::vector<double> x(n * block);
     for (double &v : x) v = rng.normal();
     for (int pass = 0; pass < 4; ++pass) {
-      factor_.solve_many(x.data(), block);
-      for (double &v : x) v *= factor_.shift();
+      solver_.apply(x.data(), block);
+      for (double &v : x) v *= solver_.shift();
     }
     for (int b = 0; b < block; ++b) {
       std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b), x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
       const double fresh = orthogonalise(kernel, v), length = norm(v);
-      // A new zero mode has kept a good part of a random vector, and no curvature.
+      // A new zero mode has kept a good part of a random vector, and has no curvature.
       if (fresh < 1e-4 || length < 1e-6) { more = false; continue; }
       for (double &q : v) q /= length;
-      ContactWeights w = unit_weights(g_);
       if (curvature(g_, w, v.data()) > floor) { more = false; continue; }
       kernel.push_back(v);
     }
   }
-  return zeros_ = static_cast<int64_t>(kernel.size());
+  return zeros_ = static_cast<int64_t>(kernel.size()) + static_cast<int64_t>(solver_.clusters()) * g_.dim;
 }
 
 int64_t NullSpace::dimension() const {

@@ -9,23 +9,42 @@
 
 namespace jam {
 
-// One factorisation of S^T S + shift, used for projections and for minimum-norm displacements.
-class NullSpace {
+// H x = b for b without components along the zero modes of H = S~^T S~, by one factorisation. One sphere of every cluster
+// is tied to its place by a spring: for such b the spring carries no force, so the solution is exact, and only its
+// translation is arbitrary. A tiny shift stands for zero modes that are no translations; refinement takes its error out.
+class PinnedSolver {
  public:
-  explicit NullSpace(const StableGraph &g);
-  // f := f - S (S^T S)^+ S^T f by iterative refinement with the shifted factor; refinements < 0: until the residual
-  // stops falling. Returns the number of solves.
-  int project(std::vector<double> &f, int refinements = -1) const;
-  // Dimension of the null space of S^T, from that of S^T S (random probes of its kernel).
-  int64_t dimension() const;
-  int64_t zero_modes() const;  // of S^T S, translations among them; at least this many when it is 256
-  const ShiftedFactor &factor() const { return factor_; }
+  PinnedSolver(const StableGraph &g, const ContactWeights &w);
+  // x := H^+ b for `count` vectors b; translations of the whole network are taken out of b and x.
+  void solve(double *x, int count) const;
+  // One plain solve with the factor, without refinement.
+  void apply(double *x, int count) const { factor_.solve_many(x, count); }
+  double shift() const { return factor_.shift(); }
   const BlockMatrix &hessian() const { return h_; }
+  int32_t clusters() const { return clusters_; }
 
  private:
   const StableGraph &g_;
-  BlockMatrix h_;
+  BlockMatrix h_, tied_;
   ShiftedFactor factor_;
+  int32_t clusters_ = 0;
+};
+
+// Projections on the null space of S^T.
+class NullSpace {
+ public:
+  explicit NullSpace(const StableGraph &g);
+  // f := f - S (S^T S)^+ S^T f by iterative refinement; refinements < 0: until the residual stops falling.
+  // Returns the number of solves.
+  int project(std::vector<double> &f, int refinements = -1) const;
+  // Dimension of the null space of S^T, from that of S^T S (random probes of its kernel).
+  int64_t dimension() const;
+  int64_t zero_modes() const;  // of S^T S, translations among them; counted up to 256 beyond the translations
+  const PinnedSolver &solver() const { return solver_; }
+
+ private:
+  const StableGraph &g_;
+  PinnedSolver solver_;
   mutable int64_t zeros_ = -1;
 };
 

@@ -6,12 +6,15 @@
 
 namespace jam {
 
+// All pairs (every image, a sphere's own too) with h < h_max but the contacts of `network` (which may be NULL); stable_only
+// leaves out pairs with a rattler of the network.
+PairList pairs_without_contacts(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
+
 struct Gaps {
   std::vector<double> gap;     // ascending
   std::vector<int32_t> pair;   // (gaps, 2)
 };
-// All pairs (every image, a sphere's own too) with h < h_max but the contacts of `network` (which may be NULL);
-// stable_only leaves out pairs with a rattler of the network.
+// Their gaps.
 Gaps find_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
 // Flags of jam_contact_class for every contact.

@@ -1,0 +1,106 @@
+#include "analysis/floppy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include "analysis/structure.hpp"
+#include "core/error.hpp"
+
+namespace jam {
+
+FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g) : g_(g), space_(g) {
+  const StressStates s = find_stress(g, false);
+  if (s.dimension != 1 || s.zero_modes != g.dim)
+    fail(JAM_E_STATE, "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
+         static_cast<long long>(s.dimension), static_cast<long long>(s.zero_modes));
+  force_ = s.force;
+  const size_t n = g.unknowns();
+  for (size_t k = 0; k < g.contacts(); ++k) force_sigma_ += force_[k] * g.sigma[k];
+  uniform_.assign(n, 0.0);
+  balance(g, g.sigma.data(), uniform_.data());
+  space_.solver().solve(uniform_.data(), 1);
+  const PairList all = pairs_without_contacts(p, &network, 1.0, true);
+  std::vector<double> r(p.dim);
+  for (size_t k = 0; k < all.size(); ++k) {
+    const int32_t a = g.node[all.i[k]], b = g.node[all.j[k]];
+    if (a == b) continue;
+    const double length = std::sqrt(pair_vector(p, all, k, r.data())), sigma = 0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]]);
+    i_.push_back(a);
+    j_.push_back(b);
+    for (double x : r) normal_.push_back(x / length);
+    open_.push_back(std::max(0.0, length - sigma));
+    sigma_.push_back(sigma);
+  }
+}
+
+void FloppySolver::fields(size_t first, int count, std::vector<double> &dr) const {
+  const size_t n = g_.unknowns(), d = static_cast<size_t>(g_.dim);
+  dr.assign(n * count, 0.0);
+  for (int q = 0; q < count; ++q)
+    for (size_t c = 0; c < d; ++c) {
+      const size_t k = first + q;
+      dr[q * n + static_cast<size_t>(g_.a[k]) * d + c] += g_.normal[k * d + c];
+      dr[q * n + static_cast<size_t>(g_.b[k]) * d + c] -= g_.normal[k * d + c];
+    }
+  space_.solver().solve(dr.data(), count);
+  for (int q = 0; q < count; ++q)
+    for (size_t x = 0; x < n; ++x) dr[q * n + x] += inflation(first + q) * uniform_[x];
+}
+
+void FloppySolver::measure(size_t l, const double *dr, double &median, double &s_plus, double &s_star) const {
+  const size_t d = static_cast<size_t>(g_.dim);
+  std::vector<double> size(g_.nodes);
+  double all = 0.0;
+  for (size_t i = 0; i < size.size(); ++i) {
+    double s = 0.0;
+    for (size_t c = 0; c < d; ++c) s += dr[i * d + c] * dr[i * d + c];
+    all += s;
+    size[i] = std::sqrt(s);
+  }
+  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  median = *middle / std::sqrt(all);
+  const double gamma = inflation(l);
+  s_plus = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < i_.size(); ++k) {
+    const double *u = dr + static_cast<size_t>(i_[k]) * d, *v = dr + static_cast<size_t>(j_[k]) * d, *n = &normal_[k * d];
+    double closing = gamma * sigma_[k];
+    for (size_t c = 0; c < d; ++c) closing -= n[c] * (u[c] - v[c]);
+    if (closing * s_plus > open_[k]) s_plus = open_[k] / closing;
+  }
+  double bend = 0.0;
+  for (size_t k = 0; k < g_.contacts(); ++k) {
+    const double *u = dr + static_cast<size_t>(g_.a[k]) * d, *v = dr + static_cast<size_t>(g_.b[k]) * d, *n = &g_.normal[k * d];
+    double along = 0.0, sum = 0.0;
+    for (size_t c = 0; c < d; ++c) {
+      const double x = u[c] - v[c];
+      along += n[c] * x;
+      sum += x * x;
+    }
+    bend += force_[k] * (sum - along * along) / g_.distance[k];
+  }
+  s_star = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();
+}
+
+jam_status all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, Monitor &monitor, FloppyModes &out) {
+  const FloppySolver solver(p, network, g);
+  const size_t m = g.contacts(), n = g.unknowns(), block = 64;
+  out.median.resize(m);
+  out.s_plus.resize(m);
+  out.s_star.resize(m);
+  std::vector<double> dr;
+  for (size_t first = 0; first < m; first += block) {
+    jam_progress report{};
+    report.phase = JAM_PHASE_ANALYSE;
+    report.steps = static_cast<int64_t>(first);
+    report.fraction = static_cast<double>(first) / static_cast<double>(m);
+    if (monitor.report(report)) return JAM_CANCELLED;
+    const int count = static_cast<int>(std::min(block, m - first));
+    solver.fields(first, count, dr);
+    for (int q = 0; q < count; ++q)
+      solver.measure(first + q, &dr[q * n], out.median[first + q], out.s_plus[first + q], out.s_star[first + q]);
+  }
+  return JAM_OK;
+}
+
+}  // namespace jam

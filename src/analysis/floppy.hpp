@@ -1,0 +1,41 @@
+// Floppy modes: what moves when one contact of a packing with a single state of self-stress opens.
+#pragma once
+#include <vector>
+#include "analysis/stress.hpp"
+
+namespace jam {
+
+struct FloppyModes {
+  std::vector<double> median;  // b: median |dr_i| over |dr|
+  std::vector<double> s_plus;  // opening at which, to first order, the next contact forms
+  std::vector<double> s_star;  // opening of least diameter: f / sum_k f_k |dr_perp,k|^2 / r_k
+};
+
+// To first order in the opening s of contact l all other contacts stay closed when the diameters change by a common factor
+// 1 + gamma s: S dr = s (e_l + gamma sigma), which has a solution since f is orthogonal to the right side for
+// gamma = -f_l / sum f sigma. dr has no net translation and is given for s = 1.
+class FloppySolver {
+ public:
+  // JAM_E_STATE unless there is exactly one state of self-stress and only translations cost nothing.
+  FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g);
+  // dr (count, nodes, dim) of contacts first .. first + count - 1.
+  void fields(size_t first, int count, std::vector<double> &dr) const;
+  double inflation(size_t contact) const { return -force_[contact] / force_sigma_; }
+  // b, s_plus, s_star of contact l with field dr.
+  void measure(size_t l, const double *dr, double &median, double &s_plus, double &s_star) const;
+
+ private:
+  const StableGraph &g_;
+  NullSpace space_;
+  std::vector<double> force_;
+  double force_sigma_ = 0.0;
+  std::vector<double> uniform_;  // H^+ S^T sigma
+  // pairs of stable spheres that are no contacts, h < 1
+  std::vector<int32_t> i_, j_;
+  std::vector<double> normal_, open_, sigma_;
+};
+
+// All contacts; JAM_OK or JAM_CANCELLED.
+jam_status all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, Monitor &monitor, FloppyModes &out);
+
+}  // namespace jam

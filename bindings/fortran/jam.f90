@@ -397,11 +397,68 @@ module jam
     real(c_double) :: min_force = 0
   end type jam_geometry_report
 
+  ! Options of jam_density_of_states. @since 0.1
+  type, bind(c) :: jam_dos_options
+    ! sizeof(jam_dos_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
+    integer(c_int32_t) :: moments = 0
+    ! random vectors, 2..1e5, default 16
+    integer(c_int32_t) :: vectors = 0
+    ! values of omega, default 200
+    integer(c_int32_t) :: points = 0
+    ! of the random vectors, default 1
+    integer(c_int64_t) :: seed = 0
+  end type jam_dos_options
+
+  ! Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
+  type, bind(c) :: jam_moduli
+    ! set by the caller: sizeof(jam_moduli)
+    integer(c_int32_t) :: struct_size = 56
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! K
+    real(c_double) :: bulk = 0
+    ! K without the non-affine part
+    real(c_double) :: bulk_affine = 0
+    ! G, mean over the d (d-1) / 2 coordinate planes
+    real(c_double) :: shear = 0
+    ! G without the non-affine part
+    real(c_double) :: shear_affine = 0
+    ! smallest of the planes
+    real(c_double) :: shear_min = 0
+    ! largest of the planes
+    real(c_double) :: shear_max = 0
+  end type jam_moduli
+
+  ! What jam_compare found; contacts only when both have a network. @since 0.1
+  type, bind(c) :: jam_comparison
+    ! set by the caller: sizeof(jam_comparison)
+    integer(c_int32_t) :: struct_size = 72
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: contacts_a = 0
+    ! of sys and of other
+    integer(c_int64_t) :: contacts_b = 0
+    ! pairs in both
+    integer(c_int64_t) :: common_contacts = 0
+    ! spheres that are rattlers in neither
+    integer(c_int64_t) :: stable_in_both = 0
+    ! common over union
+    real(c_double) :: overlap = 0
+    ! phi of other minus phi of sys
+    real(c_double) :: packing_fraction_change = 0
+    ! over these spheres, mean displacement taken out, in mean diameters of sys
+    real(c_double) :: displacement_rms = 0
+    ! likewise
+    real(c_double) :: displacement_max = 0
+  end type jam_comparison
+
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
     module procedure default_create_options, default_run_options, default_compress_options, &
       default_crunch_options, default_hessian_options, default_modes_options, &
-      default_geometry_options
+      default_geometry_options, default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -851,8 +908,8 @@ module jam
     end function jam_modes
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-    function jam_geometry_options_init(o, size) bind(c, name="jam_geometry_options_init") &
-        result(status)
+    function jam_geometry_options_init(o, size) &
+        bind(c, name="jam_geometry_options_init") result(status)
       import
       type(jam_geometry_options), intent(inout), optional :: o
       integer(c_size_t), value :: size
@@ -865,8 +922,8 @@ module jam
     ! states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
     ! forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
     ! JAM_E_BUSY. Threads: alone. @since 0.1
-    function jam_contacts_from_geometry(sys, o, report) bind(c, name="jam_contacts_from_geometry") &
-        result(status)
+    function jam_contacts_from_geometry(sys, o, report) &
+        bind(c, name="jam_contacts_from_geometry") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_geometry_options), intent(in), optional :: o
@@ -878,8 +935,8 @@ module jam
     ! from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
     ! Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
     ! of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
-    function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed) bind(c, name="jam_stress_states") &
-        result(status)
+    function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed) &
+        bind(c, name="jam_stress_states") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(inout), optional :: force(*)
@@ -894,8 +951,8 @@ module jam
     ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
     ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
     ! JAM_E_BUFFER, JAM_E_STATE. @since 0.1
-    function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed) bind(c, name="jam_gaps") &
-        result(status)
+    function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed) &
+        bind(c, name="jam_gaps") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: h_max
@@ -909,8 +966,8 @@ module jam
     end function jam_gaps
 
     ! Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_contact_classes(sys, iout, iout_len, needed) bind(c, name="jam_contact_classes") &
-        result(status)
+    function jam_contact_classes(sys, iout, iout_len, needed) &
+        bind(c, name="jam_contact_classes") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), intent(inout), optional :: iout(*)
@@ -921,8 +978,8 @@ module jam
 
     ! c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
     ! *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, needed) bind(c, name="jam_sphere_structure") &
-        result(status)
+    function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, needed) &
+        bind(c, name="jam_sphere_structure") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), value :: weighted
@@ -936,8 +993,8 @@ module jam
 
     ! n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
     ! pairs. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, needed) bind(c, name="jam_contact_dots") &
-        result(status)
+    function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, needed) &
+        bind(c, name="jam_contact_dots") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), value :: weighted
@@ -951,8 +1008,8 @@ module jam
 
     ! g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
     ! diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
-    function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) bind(c, name="jam_pair_correlation") &
-        result(status)
+    function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) &
+        bind(c, name="jam_pair_correlation") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), intent(in), optional :: kind(*)
@@ -969,8 +1026,8 @@ module jam
 
     ! S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
     ! No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
-    function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed) bind(c, name="jam_structure_factor") &
-        result(status)
+    function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed) &
+        bind(c, name="jam_structure_factor") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: q_max
@@ -984,8 +1041,8 @@ module jam
 
     ! Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
     ! (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
-    function jam_bond_order(sys, l, cutoff, out, out_len, needed) bind(c, name="jam_bond_order") &
-        result(status)
+    function jam_bond_order(sys, l, cutoff, out, out_len, needed) &
+        bind(c, name="jam_bond_order") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), value :: l
@@ -998,8 +1055,8 @@ module jam
 
     ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
     ! about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1
-    function jam_crystal_score(sys, score) bind(c, name="jam_crystal_score") &
-        result(status)
+    function jam_crystal_score(sys, score) &
+        bind(c, name="jam_crystal_score") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(out), optional :: score
@@ -1008,8 +1065,8 @@ module jam
 
     ! Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
     ! JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
-    function jam_local_fraction(sys, out, out_len, needed) bind(c, name="jam_local_fraction") &
-        result(status)
+    function jam_local_fraction(sys, out, out_len, needed) &
+        bind(c, name="jam_local_fraction") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(inout), optional :: out(*)
@@ -1017,6 +1074,104 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_local_fraction
+
+    ! Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
+    ! common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+    ! (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
+    function jam_floppy_mode(sys, contact, out, out_len, needed) &
+        bind(c, name="jam_floppy_mode") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: contact
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_floppy_mode
+
+    ! The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+    ! s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
+    ! the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+    ! Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+    function jam_floppy_modes(sys, median, median_len, s_plus, s_plus_len, s_star, s_star_len, needed) &
+        bind(c, name="jam_floppy_modes") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: median(*)
+      integer(c_size_t), value :: median_len
+      real(c_double), intent(inout), optional :: s_plus(*)
+      integer(c_size_t), value :: s_plus_len
+      real(c_double), intent(inout), optional :: s_star(*)
+      integer(c_size_t), value :: s_star_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_floppy_modes
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_dos_options_init(o, size) &
+        bind(c, name="jam_dos_options_init") result(status)
+      import
+      type(jam_dos_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_dos_options_init
+
+    ! Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
+    ! omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
+    ! and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+    ! JAM_E_TOO_FEW. Threads: alone. @since 0.1
+    function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed) &
+        bind(c, name="jam_density_of_states") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      type(jam_dos_options), intent(in), optional :: o
+      real(c_double), intent(inout), optional :: omega(*)
+      integer(c_size_t), value :: omega_len
+      real(c_double), intent(inout), optional :: density(*)
+      integer(c_size_t), value :: density_len
+      real(c_double), intent(inout), optional :: error(*)
+      integer(c_size_t), value :: error_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_density_of_states
+
+    ! value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+    function jam_curvature(sys, h, u, u_len, value) &
+        bind(c, name="jam_curvature") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      real(c_double), intent(in), optional :: u(*)
+      integer(c_size_t), value :: u_len
+      real(c_double), intent(out), optional :: value
+      integer(c_int32_t) :: status
+    end function jam_curvature
+
+    ! Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1
+    function jam_moduli_get(sys, h, moduli) &
+        bind(c, name="jam_moduli_get") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      type(jam_moduli), intent(inout), optional :: moduli
+      integer(c_int32_t) :: status
+    end function jam_moduli_get
+
+    ! Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
+    ! nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+    ! Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    function jam_compare(sys, other, comparison, out, out_len, needed) &
+        bind(c, name="jam_compare") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: other
+      type(jam_comparison), intent(inout), optional :: comparison
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_compare
   end interface
 
 contains
@@ -1082,5 +1237,11 @@ contains
     integer(c_int32_t) :: status
     status = jam_geometry_options_init(o, c_sizeof(o))
   end subroutine default_geometry_options
+
+  subroutine default_dos_options(o)
+    type(jam_dos_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_dos_options_init(o, c_sizeof(o))
+  end subroutine default_dos_options
 
 end module jam

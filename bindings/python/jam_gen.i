@@ -24,6 +24,14 @@
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kind, size_t kind_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *q, size_t q_len)};
 %apply double *RESULT {double *score};
+%apply (double *FILL, size_t FILL_LEN) {(double *median, size_t median_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *s_plus, size_t s_plus_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *s_star, size_t s_star_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *omega, size_t omega_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *density, size_t density_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
+%apply double *RESULT {double *value};
 %extend jam_create_options {
   jam_create_options() {
     jam_create_options *made = (jam_create_options *)calloc(1, sizeof *made);
@@ -132,6 +140,33 @@
   ~jam_geometry_report() { free($self); }
 }
 %feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1"
+%extend jam_dos_options {
+  jam_dos_options() {
+    jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
+    if (made) { jam_dos_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_dos_options() { free($self); }
+}
+%feature("docstring") jam_dos_options "Options of jam_density_of_states. @since 0.1"
+%extend jam_moduli {
+  jam_moduli() {
+    jam_moduli *made = (jam_moduli *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_moduli() { free($self); }
+}
+%feature("docstring") jam_moduli "Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1"
+%extend jam_comparison {
+  jam_comparison() {
+    jam_comparison *made = (jam_comparison *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_comparison() { free($self); }
+}
+%feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network. @since 0.1"
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
@@ -246,3 +281,20 @@ No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUF
 about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
 JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
+%feature("docstring") jam_floppy_mode "Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
+common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+(JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
+the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
+%feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
+omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
+and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+JAM_E_TOO_FEW. Threads: alone. @since 0.1"
+%feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
+%feature("docstring") jam_moduli_get "Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
+nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"

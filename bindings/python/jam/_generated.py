@@ -302,6 +302,50 @@ class GeometryReport:
     min_force: float
 
 
+@dataclass(frozen=True, repr=False)
+class Moduli:
+    """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
+    
+    reserved: 0
+    bulk: K
+    bulk_affine: K without the non-affine part
+    shear: G, mean over the d (d-1) / 2 coordinate planes
+    shear_affine: G without the non-affine part
+    shear_min: smallest of the planes
+    shear_max: largest of the planes"""
+    reserved: int
+    bulk: float
+    bulk_affine: float
+    shear: float
+    shear_affine: float
+    shear_min: float
+    shear_max: float
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison:
+    """What jam_compare found; contacts only when both have a network. @since 0.1
+    
+    reserved: 0
+    contacts_a: 
+    contacts_b: of sys and of other
+    common_contacts: pairs in both
+    stable_in_both: spheres that are rattlers in neither
+    overlap: common over union
+    packing_fraction_change: phi of other minus phi of sys
+    displacement_rms: over these spheres, mean displacement taken out, in mean diameters of sys
+    displacement_max: likewise"""
+    reserved: int
+    contacts_a: int
+    contacts_b: int
+    common_contacts: int
+    stable_in_both: int
+    overlap: float
+    packing_fraction_change: float
+    displacement_rms: float
+    displacement_max: float
+
+
 # option structs: {C name: {member: (type, meaning)}}
 OPTIONS = {
     "jam_create_options": {
@@ -354,6 +398,12 @@ OPTIONS = {
         "tolerance": ("float", 'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps'),
         "window": ("float", 'jumps are looked for in |h| < window, in (0, 1], default 0.1'),
     },
+    "jam_dos_options": {
+        "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),
+        "vectors": ("int", 'random vectors, 2..1e5, default 16'),
+        "points": ("int", 'values of omega, default 200'),
+        "seed": ("int", 'of the random vectors, default 1'),
+    },
 }
 
 # report structs: {C name: dataclass}
@@ -363,6 +413,8 @@ REPORTS = {
     "jam_md_report": MdReport,
     "jam_report": Report,
     "jam_geometry_report": GeometryReport,
+    "jam_moduli": Moduli,
+    "jam_comparison": Comparison,
 }
 
 # rows: {C name: numpy dtype}, for arrays of structs
@@ -407,4 +459,10 @@ CALLS = {
     "jam_bond_order": ('Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]\n(1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1', (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": ('Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,\nabout 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1', (("score", "scalar_out", "double"),)),
     "jam_local_fraction": ('Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,\nJAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1', (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_mode": ("Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a\ncommon factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress\n(JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1", (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_modes": ("The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;\ns_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,\nthe opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.\nStatus: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1", (("median", "array_out", "double"), ("median_len", "len", "size_t"), ("s_plus", "array_out", "double"), ("s_plus_len", "len", "size_t"), ("s_star", "array_out", "double"), ("s_star_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_density_of_states": ("Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.\nomega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long\nand may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,\nJAM_E_TOO_FEW. Threads: alone. @since 0.1", (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("omega", "array_out", "double"), ("omega_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_curvature": ("value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1", (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
+    "jam_moduli_get": ('Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1', (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli"))),
+    "jam_compare": ('Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,\nnearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.\nThreads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1', (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

@@ -311,6 +311,50 @@ mutable struct jam_geometry_report
 end
 
 """
+Options of jam_density_of_states. @since 0.1
+"""
+mutable struct jam_dos_options
+    struct_size::UInt32  # sizeof(jam_dos_options)
+    moments::Int32  # Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
+    vectors::Int32  # random vectors, 2..1e5, default 16
+    points::Int32  # values of omega, default 200
+    seed::Int64  # of the random vectors, default 1
+    jam_dos_options() = new(24, 0, 0, 0, 0)
+end
+
+"""
+Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
+"""
+mutable struct jam_moduli
+    struct_size::UInt32  # set by the caller: sizeof(jam_moduli)
+    reserved::Int32  # 0
+    bulk::Cdouble  # K
+    bulk_affine::Cdouble  # K without the non-affine part
+    shear::Cdouble  # G, mean over the d (d-1) / 2 coordinate planes
+    shear_affine::Cdouble  # G without the non-affine part
+    shear_min::Cdouble  # smallest of the planes
+    shear_max::Cdouble  # largest of the planes
+    jam_moduli() = new(56, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What jam_compare found; contacts only when both have a network. @since 0.1
+"""
+mutable struct jam_comparison
+    struct_size::UInt32  # set by the caller: sizeof(jam_comparison)
+    reserved::Int32  # 0
+    contacts_a::Int64
+    contacts_b::Int64  # of sys and of other
+    common_contacts::Int64  # pairs in both
+    stable_in_both::Int64  # spheres that are rattlers in neither
+    overlap::Cdouble  # common over union
+    packing_fraction_change::Cdouble  # phi of other minus phi of sys
+    displacement_rms::Cdouble  # over these spheres, mean displacement taken out, in mean diameters of sys
+    displacement_max::Cdouble  # likewise
+    jam_comparison() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
 Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1
 """
 function jam_version()
@@ -722,4 +766,63 @@ JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
 """
 function jam_local_fraction(sys, out, out_len, needed)
     return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
+common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+(JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
+"""
+function jam_floppy_mode(sys, contact, out, out_len, needed)
+    return ccall((:jam_floppy_mode, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
+the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+"""
+function jam_floppy_modes(sys, median, median_len, s_plus, s_plus_len, s_star, s_star_len, needed)
+    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(median), median_len, _ptr(s_plus), s_plus_len, _ptr(s_star), s_star_len, _ref(Csize_t, needed))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_dos_options_init(o, size)
+    return ccall((:jam_dos_options_init, libjam), Int32, (Ref{jam_dos_options}, Csize_t), _ref(jam_dos_options, o), size)
+end
+
+"""
+Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
+omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
+and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+JAM_E_TOO_FEW. Threads: alone. @since 0.1
+"""
+function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed)
+    return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
+end
+
+"""
+value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+"""
+function jam_curvature(sys, h, u, u_len, value)
+    return ccall((:jam_curvature, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), sys, _ref(jam_hessian_options, h), _ptr(u), u_len, _ref(Cdouble, value))
+end
+
+"""
+Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1
+"""
+function jam_moduli_get(sys, h, moduli)
+    return ccall((:jam_moduli_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli, moduli))
+end
+
+"""
+Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
+nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+"""
+function jam_compare(sys, other, comparison, out, out_len, needed)
+    return ccall((:jam_compare, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ref{jam_comparison}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, other, _ref(jam_comparison, comparison), _ptr(out), out_len, _ref(Csize_t, needed))
 end

@@ -1,0 +1,172 @@
+"""python3 -m jam: what jam-pack does, with the same options, and pictures."""
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+import time
+from typing import Any
+
+import numpy as np
+
+from . import files, raw
+from .errors import JamError
+from .system import System
+
+DONE, EARLY, USAGE, FAILED, OUTPUT = range(5)  # exit status, as jam-pack
+CANCELLED, LIMIT = 1, 2
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not (0 < value < math.inf):
+        raise argparse.ArgumentTypeError(f"{text!r} must be a finite number > 0")
+    return value
+
+
+def _stage(text: str) -> tuple[float, float | None]:
+    rate, _, pressure = text.partition(":")
+    return _positive(rate), _positive(pressure) if pressure else None
+
+
+def parser() -> argparse.ArgumentParser:
+    p = argparse.ArgumentParser(prog="python3 -m jam", description="Makes a jammed packing of hard spheres: random start, "
+                                "event-driven molecular dynamics with growth, then iterated linear programming.",
+                                epilog="Example: python3 -m jam --n 512 --dim 2 --diameters-ratio 1.4 --output p.xyz --plot p.png. "
+                                "Exit status: 0 done; 1 stopped early or not jammed, the state reached is written; 2 wrong command "
+                                "line; 3 request or input refused; 4 an output cannot be written.")
+    p.add_argument("--n", type=int, default=1024, help="spheres (1024)")
+    p.add_argument("--dim", type=int, default=3, help="dimension, 2..8 (3)")
+    p.add_argument("--phi0", type=_positive, help="packing fraction of the random start (0.2; halved per dimension above 3)")
+    p.add_argument("--diameters-ratio", type=_positive, default=1.0, metavar="R", help="half of the spheres are R times as large (1)")
+    p.add_argument("--seed", type=int, default=1)
+    p.add_argument("--input", metavar="FILE", help="start from a file; MD is then off unless --growth or --nve is given")
+    p.add_argument("--box", type=_positive, default=1.0, help="side of the box for a plain file that names none (1)")
+    p.add_argument("--shrink", action="store_true", help="shrink overlapping spheres of the file to contact")
+    p.add_argument("--nve", type=float, default=0.0, metavar="C", help="first C collisions per particle without growth (0)")
+    p.add_argument("--growth", type=_stage, action="append", metavar="RATE[:P]", help="a stage; repeatable. Default 1e-2:500, then 3e-3")
+    p.add_argument("--pressure", type=_positive, default=1e7, metavar="P", help="target of stages without :P (1e7)")
+    p.add_argument("--no-md", action="store_true")
+    p.add_argument("--no-crunch", action="store_true")
+    p.add_argument("--lp", choices=["ipm", "clp"], default="ipm")
+    p.add_argument("--threads", type=int, choices=[1, 2], default=1)
+    p.add_argument("--wall-time", type=_positive, metavar="SECONDS", help="limit for the whole run")
+    p.add_argument("--output", metavar="FILE", help="the packing; extended XYZ if the name ends in .xyz, else plain")
+    p.add_argument("--contacts", metavar="FILE.csv")
+    p.add_argument("--report", metavar="FILE|-", help="figures and certificate as JSON")
+    p.add_argument("--vtk", metavar="PREFIX", help="PREFIX.vtp and PREFIX-forces.vtp for ParaView")
+    p.add_argument("--modes", type=int, metavar="K", help="print the K lowest frequencies")
+    p.add_argument("--plot", metavar="PICTURE", help="spheres, force network, forces and the way there, by matplotlib")
+    p.add_argument("--quiet", action="store_true")
+    p.add_argument("--version", action="version", version=f"jam {raw.jam_version()}")
+    return p
+
+
+def _start(o: argparse.Namespace) -> System:
+    if o.input:
+        return System.read(o.input, seed=o.seed, box=o.box, overlap="shrink" if o.shrink else "refuse")
+    sizes = None if o.diameters_ratio == 1 else np.where(np.arange(o.n) < o.n // 2, 1.0, o.diameters_ratio)
+    phi0 = o.phi0 or 0.2 * 0.5 ** max(0, o.dim - 3)
+    return System.random(o.n, o.dim, o.seed, packing_fraction=phi0, diameters=sizes, box=o.box)
+
+
+def _work(system: System, o: argparse.Namespace, out: dict[str, Any]) -> int:
+    """Runs the stages; returns the last status. out collects what the report says."""
+    began, status, progress = time.monotonic(), 0, not o.quiet
+    def left() -> float | None:
+        return None if o.wall_time is None else max(1e-3, o.wall_time - (time.monotonic() - began))
+
+    steps = [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 else []
+    if not o.no_md and (o.growth or (not o.input)):
+        stages = o.growth or [(1e-2, 500.0), (3e-3, None)]
+        steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in stages]
+    for verb, options in steps:
+        md = getattr(system, verb)(progress=progress, wall_time=left(), **options)
+        status = int(md.status)
+        out["collisions"] += md.collisions
+        out["seconds_md"] += md.seconds
+        out["md_stop_reason"] = out["stop_reason"] = md.stop_reason.name.lower()
+        if status in (CANCELLED, LIMIT):
+            return status
+    if not o.no_crunch:
+        r = system.crunch(progress=progress, wall_time=left(), lp_solver=o.lp, threads=o.threads)
+        status, out["crunch"], out["stop_reason"] = int(r.status), r, r.stop_reason.name.lower()
+    return status
+
+
+def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
+    i, r = system.info, out["crunch"]
+    made = {"n": i.n, "dim": i.dim, "seed": i.seed, "packing_fraction": i.packing_fraction, "diameter_mean": i.diameter_mean,
+            "pressure": i.pressure, "collisions": out["collisions"],
+            "collisions_per_second": out["collisions"] / out["seconds_md"] if out["seconds_md"] else None}
+    for key in ("lp_solves", "factorisations", "contacts", "rattlers", "bucklers", "one_ss", "excess_contacts", "max_overlap",
+                "force_residual", "gamma_residual", "min_force", "min_gap", "duality_gap", "gain"):
+        made[key] = getattr(r, key) if r else None
+    made["jammed"] = bool(r.jammed) if r else None
+    made |= {"stop_reason": out["stop_reason"], "md_stop_reason": out["md_stop_reason"], "seconds_md": out["seconds_md"],
+             "seconds_crunch": r.seconds if r else 0.0, "version": raw.jam_version()}
+    return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in made.items()}
+
+
+def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
+    crunched = out["crunch"] is not None
+    if o.output:
+        system.write(o.output)
+    if o.contacts and crunched:
+        files.write_contacts_csv(system, o.contacts)
+    if o.vtk:
+        files.write_vtk(system, o.vtk + ".vtp")
+        if crunched:
+            files.write_vtk_network(system, o.vtk + "-forces.vtp")
+    if o.report:
+        text = json.dumps(_report(system, out), indent=2) + "\n"
+        if o.report == "-":
+            sys.stdout.write(text)
+        else:
+            with files._replacing(o.report) as file:
+                file.write(text)
+    if o.plot:
+        from . import plot
+        (plot.summary(system) if crunched and out["crunch"].contacts else plot.packing(system).figure).savefig(o.plot, dpi=150)
+    if o.modes and crunched:
+        modes = system.modes(o.modes)
+        print("\n".join(f"{w:.9g}" for w in modes.frequencies))
+    if not o.quiet and o.report != "-":
+        print(out["crunch"] if crunched else system.info)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    p = parser()
+    o = p.parse_args(arguments)
+    if o.no_md and (o.growth or o.nve):
+        p.error("--no-md contradicts --growth and --nve")
+    if o.no_crunch and (o.contacts or o.modes):
+        p.error("--contacts and --modes need the crunch that --no-crunch leaves out")
+    for path in filter(None, (o.output, o.contacts, o.plot, o.vtk, None if o.report == "-" else o.report)):
+        folder = os.path.dirname(path) or "."
+        if not os.access(folder, os.W_OK):
+            print(f"jam: {path}: the folder cannot be written", file=sys.stderr)
+            return OUTPUT
+    out: dict[str, Any] = {"collisions": 0, "seconds_md": 0.0, "crunch": None, "stop_reason": "none", "md_stop_reason": "none"}
+    code = DONE
+    try:
+        system = _start(o)
+    except (JamError, ValueError, OSError) as error:
+        print(f"jam: {error}", file=sys.stderr)
+        return FAILED
+    try:
+        code = EARLY if _work(system, o, out) > 0 else DONE
+    except KeyboardInterrupt:
+        print("jam: interrupted; writing the state reached", file=sys.stderr)
+        code = EARLY
+    except JamError as error:
+        print(f"jam: {error}", file=sys.stderr)
+        code = FAILED
+    try:
+        _write(system, o, out)
+    except (JamError, OSError, ValueError) as error:
+        print(f"jam: {error}", file=sys.stderr)
+        return OUTPUT
+    return code

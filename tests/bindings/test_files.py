@@ -1,0 +1,119 @@
+"""Files and the command line: what is written can be read back by other means."""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+
+import jam
+
+
+def crunched(dim=2):
+    s = jam.System.random(n=60 if dim == 2 else 80, dim=dim, seed=3, diameters=[1.0, 1.4] * (30 if dim == 2 else 40), box=2.0)
+    s.crunch()
+    return s
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = Path(cls.folder.name)
+        cls.s = crunched()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_plain_and_xyz_give_the_same_bits(self):
+        for name in ("a.dat", "a.xyz"):
+            self.s.write(self.path / name)
+            back = jam.System.read(self.path / name)
+            np.testing.assert_array_equal(back.positions, self.s.positions)
+            np.testing.assert_array_equal(back.diameters, self.s.diameters)
+            self.assertEqual(back.box, 2.0)
+
+    def arrays(self, path):
+        piece = ElementTree.parse(path).getroot().find("PolyData/Piece")
+        found = {a.get("Name"): np.array(a.text.split(), float).reshape(-1, int(a.get("NumberOfComponents")))
+                 for a in piece.iter("DataArray")}
+        return piece, found
+
+    def test_vtk_spheres(self):
+        for s in (self.s, crunched(3)):
+            jam.files.write_vtk(s, self.path / "s.vtp")
+            piece, a = self.arrays(self.path / "s.vtp")
+            self.assertEqual(int(piece.get("NumberOfPoints")), s.n)
+            np.testing.assert_array_equal(a["Points"][:, :s.dim], s.positions)
+            np.testing.assert_array_equal(a["diameter"][:, 0], s.diameters)
+            np.testing.assert_array_equal(a["contacts"][:, 0], s.coordination)
+            self.assertEqual((a["kind"] == 0).sum(), s.report.rattlers)
+            np.testing.assert_array_equal(a["offsets"][:, 0], np.arange(1, s.n + 1))
+
+    def test_vtk_network(self):
+        jam.files.write_vtk_network(self.s, self.path / "n.vtp")
+        piece, a = self.arrays(self.path / "n.vtp")
+        m = self.s.report.contacts
+        self.assertEqual(int(piece.get("NumberOfLines")), 2 * m)
+        self.assertEqual(len(a["Points"]), 4 * m)
+        self.assertAlmostEqual(a["gap"].max(), self.s.contacts.gaps.max())
+        length = np.linalg.norm(a["Points"][0::2] - a["Points"][1::2], axis=1)
+        s, c = self.s.diameters, self.s.contacts
+        np.testing.assert_allclose(2 * length[:m], 0.5 * (s[c.pairs[:, 0]] + s[c.pairs[:, 1]]), rtol=1e-9)
+
+    def test_csv(self):
+        jam.files.write_csv(self.s, self.path / "s.csv")
+        jam.files.write_contacts_csv(self.s, self.path / "c.csv")
+        rows = list(csv.DictReader((self.path / "s.csv").read_text().splitlines()))
+        self.assertEqual([float(r["x"]) for r in rows], list(self.s.positions[:, 0]))
+        rows = list(csv.DictReader((self.path / "c.csv").read_text().splitlines()))
+        self.assertEqual(list(rows[0]), ["i", "j", "nx", "ny", "gap", "force"])
+        self.assertEqual([float(r["force"]) for r in rows], list(self.s.forces))
+
+    def test_nothing_is_left_when_writing_fails(self):
+        before = sorted(os.listdir(self.path))
+        with self.assertRaises(jam.errors.StateError):
+            jam.files.write_contacts_csv(jam.System.random(n=10), self.path / "never.csv")
+        with self.assertRaises(ValueError):
+            jam.files.write_vtk(jam.System.random(n=10, dim=4, packing_fraction=0.05), self.path / "never.vtp")
+        self.assertEqual(sorted(os.listdir(self.path)), before)
+
+
+class CommandLine(unittest.TestCase):
+    def run_jam(self, *arguments):
+        return subprocess.run([sys.executable, "-m", "jam", *arguments], capture_output=True, text=True, timeout=120)
+
+    def test_from_a_file_to_everything(self):
+        with tempfile.TemporaryDirectory() as folder:
+            f = lambda name: str(Path(folder) / name)  # noqa: E731
+            crunched().write(f("in.xyz"))
+            done = self.run_jam("--input", f("in.xyz"), "--report", "-", "--contacts", f("c.csv"), "--output", f("out.dat"),
+                                "--plot", f("p.png"), "--vtk", f("v"), "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            report = json.loads(done.stdout)
+            self.assertTrue(report["jammed"])
+            self.assertEqual(report["excess_contacts"], 0)
+            self.assertEqual(len(Path(f("c.csv")).read_text().splitlines()), report["contacts"] + 1)
+            self.assertGreater(os.path.getsize(f("p.png")), 10000)
+            self.assertTrue(os.path.exists(f("v.vtp")) and os.path.exists(f("v-forces.vtp")))
+            self.assertAlmostEqual(jam.System.read(f("out.dat")).packing_fraction, report["packing_fraction"], 14)
+
+    def test_exit_status(self):
+        self.assertEqual(self.run_jam("--growth", "-1").returncode, 2)
+        self.assertEqual(self.run_jam("--no-md", "--nve", "3").returncode, 2)
+        self.assertEqual(self.run_jam("--input", "/does/not/exist").returncode, 3)
+        self.assertEqual(self.run_jam("--dim", "9").returncode, 3)
+        self.assertEqual(self.run_jam("--n", "10", "--output", "/does/not/exist/p.xyz").returncode, 4)
+        done = self.run_jam("--n", "10", "--no-md", "--no-crunch")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("packing_fraction", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

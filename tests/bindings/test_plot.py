@@ -1,0 +1,74 @@
+"""Pictures: every function draws on given axes or on its own, without a display and without state."""
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+import jam
+
+
+def ink(figure, darker_than=250):
+    """Share of pixels with a channel below this; of 255 white."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return float((np.asarray(canvas.buffer_rgba())[..., :3] < darker_than).any(-1).mean())
+
+
+class Pictures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.flat = jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30)
+        cls.flat.crunch()
+        cls.deep = jam.System.random(n=64, dim=3, seed=2)
+        cls.deep.crunch()
+
+    def test_packing_and_network(self):
+        for s in (self.flat, self.deep):
+            self.assertGreater(ink(jam.plot.packing(s).figure), 0.15)
+            self.assertGreater(ink(jam.plot.network(s).figure), 0.03)
+            self.assertGreater(ink(jam.plot.summary(s)), 0.05)
+        dark = [ink(jam.plot.packing(self.flat, forces=f, legend=False).figure, 40) for f in (False, True)]
+        self.assertGreater(dark[1], dark[0] + 0.01)
+        ax = jam.plot.packing(self.flat)
+        self.assertEqual(sum(len(c.get_offsets()) >= 60 for c in ax.collections[:1]), 0)  # one collection for each image of the box
+        self.assertGreaterEqual(sum(len(c.get_offsets()) for c in ax.collections), 60)
+
+    def test_before_crunch_and_wrong_dimension(self):
+        self.assertGreater(ink(jam.plot.packing(jam.System.random(n=20, dim=2)).figure), 0.05)
+        with self.assertRaises(jam.errors.StateError):
+            jam.plot.network(jam.System.random(n=20, dim=2))
+        with self.assertRaises(ValueError):
+            jam.plot.packing(jam.System.random(n=10, dim=4, packing_fraction=0.05))
+
+    def test_curves(self):
+        ax = jam.plot.cdf(self.flat.forces, slopes=[1.2], label="forces")
+        self.assertEqual(len(ax.lines), 2)
+        x, c = ax.lines[0].get_data()
+        self.assertTrue((np.diff(x) >= 0).all() and c[-1] == 1.0)
+        t, y = ax.lines[1].get_data()
+        self.assertAlmostEqual(np.log(y[1] / y[0]) / np.log(t[1] / t[0]), 1.2, 9)
+        with self.assertRaises(ValueError):
+            jam.plot.cdf([-1.0, 0.0])
+        modes = self.flat.modes(which="all")
+        ax = jam.plot.density_of_states(modes)
+        edges, values = ax.patches[0].get_data().edges, ax.patches[0].get_data().values
+        self.assertAlmostEqual((values * np.diff(edges)).sum(), 1 - 2 / len(modes), 6)  # all but the translations
+        self.assertGreater(len(jam.plot.convergence(self.flat).lines), 0)
+        record = lambda phi, p: jam.Progress(2, phi, p, 0.0, 0.0, 0.0, 0.0, 10, 0, 0)  # noqa: E731
+        ax = jam.plot.trace([record(0.3, 5.0), record(0.5, 20.0), record(0.5, float("nan"))])
+        self.assertEqual(list(ax.lines[0].get_ydata()), [5.0, 20.0])
+
+    def test_axes_are_taken_and_no_pyplot_is_needed(self):
+        from matplotlib.figure import Figure
+        axes = Figure().subplots(1, 2)
+        self.assertIs(jam.plot.packing(self.flat, axes[0]), axes[0])
+        self.assertIs(jam.plot.cdf(self.flat.forces, axes[1]), axes[1])
+        code = ("import jam, sys; s = jam.System.random(n=20, dim=2); jam.plot.packing(s).figure.savefig('/dev/null', format='png');"
+                "sys.exit('matplotlib.pyplot' in sys.modules)")
+        self.assertEqual(subprocess.run([sys.executable, "-c", code], env={**__import__("os").environ, "DISPLAY": ""}).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

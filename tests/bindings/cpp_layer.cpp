@@ -1,0 +1,111 @@
+// jam.hpp: ownership, views, exceptions through C frames. Links the shared library only.
+#include <cmath>
+#include <cstdarg>
+#include <cstddef>
+#include <csetjmp>
+#include <cstring>
+#include <cstdint>
+extern "C" {
+#include <cmocka.h>
+}
+#include <stdexcept>
+#include "jam/jam.hpp"
+
+namespace {
+
+std::vector<double> two_sizes(int n) {
+  std::vector<double> s(static_cast<std::size_t>(n), 1.0);
+  for (std::size_t k = 0; k < s.size(); k += 2) s[k] = 1.4;
+  return s;
+}
+
+template <class E, class F>
+bool throws(F &&f) {
+  try {
+    f();
+  } catch (const E &) {
+    return true;
+  }
+  return false;
+}
+
+void test_ownership(void **) {
+  jam::System a = jam::System::random(50, 2, 7, 0.3);
+  const double *where = a.positions().data();
+  jam::System b = std::move(a);
+  assert_true(b.positions().data() == where);
+  assert_true(throws<std::logic_error>([&] { a.info(); }));  // NOLINT: the use after move is the test
+  jam::System c = b.copy();
+  assert_true(c.positions().data() != where);
+  assert_int_equal(c.positions().rows(), 50);
+  assert_true(c.positions()(49, 1) == b.positions()(49, 1));
+  c = std::move(b);
+  assert_true(c.positions().data() == where);
+}
+
+void test_errors(void **) {
+  try {
+    jam::System::random(50, 9);
+    fail_msg("dim 9 was taken");
+  } catch (const jam::Error &e) {
+    assert_int_equal(e.status(), JAM_E_DIMENSION);
+    assert_non_null(strstr(e.what(), "9"));
+  }
+  assert_true(throws<jam::Error>([] { jam::System::read("/does/not/exist"); }));
+  assert_true(throws<std::invalid_argument>([] { jam::System bad(nullptr); }));
+  assert_true(throws<jam::Error>([] { jam::System::random(10).forces(); }));
+}
+
+void test_crunch_and_forces(void **) {
+  jam::System s = jam::System::random(60, 2, 3, 0.3, two_sizes(60));
+  const jam_report r = s.crunch();
+  assert_int_equal(s.status(), JAM_OK);
+  assert_int_equal(r.jammed, 1);
+  assert_int_equal(s.last_report().contacts, r.contacts);
+  const auto pairs = s.contacts();
+  const auto normals = s.contact_vectors();
+  const auto force = s.forces();
+  assert_int_equal(pairs.size(), 2 * force.size());
+  std::vector<double> net(120, 0.0);
+  double mean = 0;
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    mean += force[k] / static_cast<double>(force.size());
+    for (std::size_t c = 0; c < 2; ++c) {
+      net[2 * static_cast<std::size_t>(pairs[2 * k]) + c] += force[k] * normals[2 * k + c];
+      net[2 * static_cast<std::size_t>(pairs[2 * k + 1]) + c] -= force[k] * normals[2 * k + c];
+    }
+  }
+  assert_true(std::fabs(mean - 1) < 1e-12);
+  for (double x : net) assert_true(std::fabs(x) < 1e-8);
+  assert_int_equal(s.array<std::int32_t>(jam_hessian_map).size(), static_cast<std::size_t>(r.stable));
+}
+
+void test_callbacks(void **) {
+  jam::System s = jam::System::random(300, 3, 1, 0.3);
+  int calls = 0;
+  s.on_progress([&](const jam_progress &) -> bool {
+    ++calls;
+    throw std::domain_error("from the callback");
+  });
+  assert_true(throws<std::domain_error>([&] { s.crunch(); }));
+  assert_int_equal(calls, 1);
+  jam::System moved = std::move(s);  // the callbacks move along
+  assert_true(throws<std::domain_error>([&] { moved.crunch(); }));
+  moved.on_progress([](const jam_progress &) { return true; });
+  moved.crunch();
+  assert_int_equal(moved.status(), JAM_CANCELLED);
+  moved.on_progress(nullptr);
+  int lines = 0;
+  moved.on_log([&](int, const char *line) { lines += line != nullptr; }, JAM_LOG_DEBUG);
+  moved.cancel();
+  moved.crunch();
+  assert_int_equal(moved.status(), JAM_CANCELLED);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership), cmocka_unit_test(test_errors),
+                              cmocka_unit_test(test_crunch_and_forces), cmocka_unit_test(test_callbacks)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,102 @@
+! The Fortran module: defaults, arrays x(d, n), absent arguments, reports, callbacks, errors.
+module counting
+  use jam
+  implicit none
+  integer, save :: calls = 0
+contains
+  function stop_at_third(progress, user) bind(c) result(stop_now)
+    type(jam_progress), intent(in) :: progress
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: stop_now
+    calls = calls + 1
+    stop_now = 0
+    if (calls >= 3 .and. progress%phase == JAM_PHASE_CRUNCH) stop_now = 1
+    if (c_associated(user)) stop_now = -1
+  end function stop_at_third
+end module counting
+
+program fortran_layer
+  use jam
+  use counting
+  implicit none
+  integer, parameter :: d = 2, n = 60
+  type(c_ptr) :: sys, other, view
+  type(jam_create_options) :: create
+  type(jam_crunch_options) :: options
+  type(jam_report) :: report
+  type(jam_info) :: info
+  real(c_double) :: x(d, n), sizes(n), net(d, n)
+  real(c_double), pointer :: seen(:, :)
+  real(c_double), allocatable :: force(:), normal(:, :)
+  integer(c_int32_t), allocatable :: pairs(:, :)
+  integer(c_size_t) :: needed, view_len
+  integer(c_int32_t) :: status
+  integer :: k, failures
+
+  failures = 0
+  call expect(jam_abi_version() == JAM_ABI, 'abi')
+  call expect(len(jam_text(jam_version())) >= 5, 'version')
+  sizes = 1
+  sizes(1::2) = 1.4_c_double
+  call jam_defaults(create)
+  call expect(create%dim == 3 .and. create%packing_fraction == 0.2_c_double, 'defaults')
+  create%dim = d
+  create%n = n
+  create%seed = 3
+  status = jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys)
+  call expect(status == JAM_OK, 'create')
+  status = jam_info_get(sys, info)
+  call expect(info%n == n .and. info%dim == d, 'info')
+  status = jam_positions_view(sys, view, view_len)
+  call expect(view_len == d*n, 'view length')
+  call c_f_pointer(view, seen, [d, n])
+  x = modulo(seen + 0.25_c_double, 1.0_c_double)
+  status = jam_set_positions(sys, x, size(x, kind=c_size_t))
+  call expect(status == JAM_OK .and. all(seen == x), 'x(d, n) goes in and comes out')
+
+  status = jam_crunch(sys, report=report)
+  call expect(status == JAM_OK .and. report%jammed == 1, 'crunch')
+  status = jam_forces(sys, out_len=0_c_size_t, needed=needed)
+  call expect(status == JAM_OK .and. needed == report%contacts, 'count')
+  allocate (force(needed), normal(d, needed), pairs(2, needed))
+  call expect(jam_forces(sys, force, size(force, kind=c_size_t)) == JAM_OK, 'forces')
+  call expect(jam_contact_vectors(sys, normal, size(normal, kind=c_size_t)) == JAM_OK, 'vectors')
+  call expect(jam_contacts(sys, pairs, size(pairs, kind=c_size_t)) == JAM_OK, 'pairs')
+  net = 0
+  do k = 1, size(force)
+    net(:, pairs(1, k) + 1) = net(:, pairs(1, k) + 1) + force(k)*normal(:, k)  ! indices from 0 in C
+    net(:, pairs(2, k) + 1) = net(:, pairs(2, k) + 1) - force(k)*normal(:, k)
+  end do
+  call expect(maxval(abs(net)) < 1e-8_c_double .and. abs(sum(force)/size(force) - 1) < 1e-12_c_double, 'balance')
+  call expect(jam_forces(sys, force, 1_c_size_t, needed) == JAM_E_BUFFER, 'short buffer')
+
+  status = jam_copy(sys, other)
+  call jam_destroy(sys)
+  call jam_destroy(other)
+  create%n = 300
+  create%dim = 3
+  status = jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys)
+  status = jam_set_progress(sys, c_funloc(stop_at_third), c_null_ptr)
+  call jam_defaults(options)
+  status = jam_crunch(sys, options, report)
+  call expect(status == JAM_CANCELLED .and. calls == 3, 'callback stops')
+  call jam_destroy(sys)
+
+  create%dim = 9
+  status = jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys)
+  call expect(status == JAM_E_DIMENSION .and. index(jam_message(), '9') > 0, 'error text')
+  options%struct_size = 0
+  call jam_destroy(c_null_ptr)
+  if (failures > 0) error stop 1
+  print '(a)', 'fortran layer: all as expected'
+
+contains
+
+  subroutine expect(truth, name)
+    logical, intent(in) :: truth
+    character(*), intent(in) :: name
+    if (truth) return
+    failures = failures + 1
+    print '(3a)', 'failed: ', name, ' '//jam_message()
+  end subroutine expect
+end program fortran_layer

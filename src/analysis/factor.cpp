@@ -1,12 +1,12 @@
 #include "analysis/factor.hpp"
 
-#include <Eigen/SparseCholesky>
 #include "core/error.hpp"
+#include "lp/block_cholesky.hpp"
 
 namespace jam {
 
 struct ShiftedFactor::Impl {
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt;
+  BlockCholesky cholesky;
   bool analysed = false;
 };
 
@@ -16,15 +16,13 @@ ShiftedFactor::~ShiftedFactor() = default;
 
 bool ShiftedFactor::factorise(double shift) {
   shift_ = shift;
-  const CsrMatrix csr = to_csr(m_);
-  const auto n = static_cast<Eigen::Index>(m_.rows());
-  const Eigen::SparseMatrix<double> a = Eigen::Map<const Eigen::SparseMatrix<double>>(
-      n, n, static_cast<Eigen::Index>(csr.value.size()), csr.start.data(), csr.column.data(), csr.value.data());
-  if (!impl_->analysed) impl_->llt.analyzePattern(a);
+  if (!impl_->analysed) impl_->cholesky.analyse(m_.dim, m_.nodes, m_.ei.data(), m_.ej.data(), m_.ei.size());
   impl_->analysed = true;
-  impl_->llt.setShift(shift);
-  impl_->llt.factorize(a);
-  return impl_->llt.info() == Eigen::Success;
+  std::vector<double> diag(m_.diag);
+  const size_t d = static_cast<size_t>(m_.dim);
+  for (size_t i = 0; i < static_cast<size_t>(m_.nodes); ++i)
+    for (size_t c = 0; c < d; ++c) diag[i * d * d + c * d + c] += shift;
+  return impl_->cholesky.factorise(diag.data(), m_.off.data()) == 0;  // no pivot was replaced: positive definite
 }
 
 void ShiftedFactor::factorise_from(double start) {
@@ -34,9 +32,6 @@ void ShiftedFactor::factorise_from(double start) {
   fail(JAM_E_SOLVER, "the matrix is not positive definite even with a shift of %g", bound);
 }
 
-void ShiftedFactor::solve_many(double *x, int count) const {
-  Eigen::Map<Eigen::MatrixXd> b(x, static_cast<Eigen::Index>(m_.rows()), count);
-  b = impl_->llt.solve(b).eval();
-}
+void ShiftedFactor::solve_many(double *x, int count) const { impl_->cholesky.solve_many(x, count); }
 
 }  // namespace jam

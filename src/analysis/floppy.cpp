@@ -5,6 +5,7 @@
 #include <limits>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
+#include "lp/blas.hpp"
 
 namespace jam {
 
@@ -83,6 +84,7 @@ void FloppySolver::measure(size_t l, const double *dr, double &median, double &s
 }
 
 jam_status all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, Monitor &monitor, FloppyModes &out) {
+  const BlasSingleThread single;
   const FloppySolver solver(p, network, g);
   const size_t m = g.contacts(), n = g.unknowns(), block = 64;
   out.median.resize(m);

@@ -12,6 +12,7 @@
 #include "analysis/factor.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "lp/blas.hpp"
 
 namespace jam {
 
@@ -258,6 +259,7 @@ jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockM
 }  // namespace
 
 jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor, Modes &out) {
+  const BlasSingleThread single;
   check_modes_options(o, g);
   const BlockMatrix h = make_hessian(g, w);
   const size_t n = g.unknowns();

@@ -5,6 +5,7 @@
 #include <limits>
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "lp/blas.hpp"
 
 namespace jam {
 namespace {
@@ -209,6 +210,7 @@ bool least_force(const StableGraph &g, std::vector<double> &f) {
 }
 
 StressStates find_stress(const StableGraph &g, bool with_basis, int refinements) {
+  const BlasSingleThread single;
   StressStates out;
   const size_t m = g.contacts();
   if (m == 0) return out;

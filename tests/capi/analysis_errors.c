@@ -1,0 +1,227 @@
+/* What analysis calls say to wrong arguments, missing networks, packings that are not jammed, and short buffers. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <jam/jam.h>
+
+static jam_system *fluid(void) {
+  jam_create_options o;
+  jam_system *s = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.n = 50;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &s), JAM_OK);
+  return s;
+}
+
+/* A square lattice of touching disks: hyperstatic, with floppy rows and columns. */
+static jam_system *square(void) {
+  jam_create_options o;
+  jam_system *s = NULL;
+  double x[32], one = 0.25;
+  int i;
+  for (i = 0; i < 16; ++i) x[2 * i] = 0.25 * (i % 4), x[2 * i + 1] = 0.25 * (i / 4);
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = 2;
+  assert_int_equal(jam_create(&o, x, 32, &one, 1, &s), JAM_OK);
+  return s;
+}
+
+static void null_handles(void **state) {
+  double x;
+  int32_t i;
+  size_t m;
+  (void)state;
+  assert_int_equal(jam_hessian_options_init(NULL, 8), JAM_E_NULL);
+  assert_int_equal(jam_modes_options_init(NULL, 8), JAM_E_NULL);
+  assert_int_equal(jam_geometry_options_init(NULL, 8), JAM_E_NULL);
+  assert_int_equal(jam_dos_options_init(NULL, 8), JAM_E_NULL);
+  assert_int_equal(jam_hessian_map(NULL, &i, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_hessian(NULL, NULL, &i, 1, &i, 1, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_modes(NULL, NULL, NULL, &x, 1, NULL, 0, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_contacts_from_geometry(NULL, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_stress_states(NULL, &x, 1, NULL, 0, NULL, &m), JAM_E_NULL);
+  assert_int_equal(jam_gaps(NULL, 1.0, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_contact_classes(NULL, &i, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_sphere_structure(NULL, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_contact_dots(NULL, 0, &x, 1, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_pair_correlation(NULL, NULL, 0, -1, -1, 2.0, 1, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_structure_factor(NULL, 1.0, &x, 1, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_bond_order(NULL, 6, 1.2, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_crystal_score(NULL, &x), JAM_E_NULL);
+  assert_int_equal(jam_local_fraction(NULL, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_floppy_mode(NULL, 0, &x, 1, &m), JAM_E_NULL);
+  assert_int_equal(jam_floppy_modes(NULL, &x, 1, NULL, 0, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_density_of_states(NULL, NULL, NULL, &x, 1, NULL, 0, NULL, 0, &m), JAM_E_NULL);
+  assert_int_equal(jam_curvature(NULL, NULL, &x, 1, &x), JAM_E_NULL);
+  assert_int_equal(jam_moduli_get(NULL, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_compare(NULL, NULL, NULL, NULL, 0, NULL), JAM_E_NULL);
+}
+
+static void no_network(void **state) {
+  jam_system *s = fluid();
+  jam_moduli moduli = {.struct_size = sizeof(jam_moduli)};
+  double x = 0.0;
+  int32_t i;
+  size_t m;
+  (void)state;
+  assert_int_equal(jam_hessian_map(s, &i, 1, &m), JAM_E_STATE);
+  assert_int_equal(jam_hessian(s, NULL, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_modes(s, NULL, NULL, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_stress_states(s, NULL, 0, NULL, 0, NULL, &m), JAM_E_STATE);
+  assert_int_equal(jam_gaps(s, 1.0, 1, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_gaps(s, 1.0, 0, NULL, 0, NULL, 0, &m), JAM_OK);
+  assert_int_equal(jam_contact_classes(s, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_sphere_structure(s, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_contact_dots(s, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_floppy_mode(s, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_floppy_modes(s, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_density_of_states(s, NULL, NULL, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_curvature(s, NULL, &x, 1, &x), JAM_E_STATE);
+  assert_int_equal(jam_moduli_get(s, NULL, &moduli), JAM_E_STATE);
+  assert_non_null(strstr(jam_last_error(), "jam_contacts_from_geometry"));
+  jam_destroy(s);
+}
+
+/* A fluid has no contacts: an empty network, a status, and no crash in anything that follows. */
+static void all_rattlers(void **state) {
+  jam_system *s = fluid();
+  jam_geometry_report r = {.struct_size = sizeof(jam_geometry_report)};
+  jam_moduli moduli = {.struct_size = sizeof(jam_moduli)};
+  double x[200];
+  int32_t start[4];
+  size_t m;
+  (void)state;
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, &r), JAM_NOT_JAMMED);
+  assert_int_equal(r.contacts, 0);
+  assert_int_equal(jam_hessian_map(s, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 0);
+  assert_int_equal(jam_hessian(s, NULL, start, 4, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(start[0], 0);
+  assert_int_equal(jam_modes(s, NULL, NULL, x, 10, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(m, 0);
+  assert_int_equal(jam_stress_states(s, x, 10, NULL, 0, NULL, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_floppy_modes(s, x, 10, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_floppy_mode(s, 0, x, 10, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_density_of_states(s, NULL, NULL, x, 200, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_moduli_get(s, NULL, &moduli), JAM_NOT_JAMMED);
+  assert_int_equal(jam_sphere_structure(s, 1, NULL, 0, x, 200, &m), JAM_OK);
+  assert_true(x[0] == 0.0);
+  assert_int_equal(jam_gaps(s, 0.5, 1, NULL, 0, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 0);
+  jam_destroy(s);
+}
+
+static void hyperstatic(void **state) {
+  jam_system *s = square();
+  jam_geometry_report r = {.struct_size = sizeof(jam_geometry_report)};
+  double f[32], basis[8 * 32], u[32], residual = 1.0;
+  size_t m;
+  int k;
+  (void)state;
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, &r), JAM_AMBIGUOUS);
+  assert_int_equal(r.contacts, 32);
+  assert_int_equal(r.excess_contacts, 32 - (2 * 15 + 1));
+  assert_int_equal(r.self_stresses, 8);
+  assert_int_equal(jam_stress_states(s, f, 32, basis, 8 * 32, &residual, &m), JAM_AMBIGUOUS);
+  assert_int_equal(m, 8);
+  assert_true(residual < 1e-13);
+  for (k = 0; k < 32; ++k) assert_true(fabs(f[k] - 1.0) < 1e-12);
+  assert_int_equal(jam_floppy_mode(s, 0, u, 32, &m), JAM_E_STATE); /* opening one contact has no unique answer */
+  assert_non_null(strstr(jam_last_error(), "8"));
+  jam_destroy(s);
+}
+
+static void arguments(void **state) {
+  jam_system *s = square(), *t = fluid();
+  jam_hessian_options h;
+  jam_modes_options o;
+  jam_dos_options q;
+  jam_geometry_options g;
+  jam_comparison c = {.struct_size = sizeof(jam_comparison)};
+  double x[2000];
+  int32_t i[2000];
+  size_t m;
+  (void)state;
+  assert_int_equal(jam_hessian_options_init(&h, sizeof h), JAM_OK);
+  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  assert_int_equal(jam_dos_options_init(&q, sizeof q), JAM_OK);
+  assert_int_equal(jam_geometry_options_init(&g, sizeof g), JAM_OK);
+  g.tolerance = -1.0;
+  assert_int_equal(jam_contacts_from_geometry(s, &g, NULL), JAM_E_ARGUMENT);
+  g.tolerance = NAN;
+  assert_int_equal(jam_contacts_from_geometry(s, &g, NULL), JAM_E_ARGUMENT);
+  g.tolerance = 0.0, g.struct_size = 1000;
+  assert_int_equal(jam_contacts_from_geometry(s, &g, NULL), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_AMBIGUOUS);
+  h.stiffness = 7;
+  assert_int_equal(jam_hessian(s, &h, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  h.stiffness = JAM_STIFFNESS_POWER, h.alpha = 1.0;
+  assert_int_equal(jam_hessian(s, &h, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  h.alpha = 2.5, h.prestress = NAN;
+  assert_int_equal(jam_hessian(s, &h, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_hessian(s, NULL, NULL, 0, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_hessian(s, NULL, i, 32, NULL, 0, NULL, 0, &m), JAM_E_BUFFER);
+  assert_int_equal(m, 32 * 2 * 5); /* needed is set: every sphere has its own block and four neighbours' */
+  assert_int_equal(jam_hessian(s, NULL, i, 33, i + 40, 400, x, 400, &m), JAM_OK);
+  o.which = 9;
+  assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  o.which = JAM_MODES_LOWEST, o.count = 0;
+  assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  o.count = 1000000;
+  assert_int_equal(jam_modes(s, NULL, &o, NULL, 0, NULL, 0, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 30); /* no more than there are */
+  assert_int_equal(jam_modes(s, NULL, &o, x, 29, NULL, 0, NULL, 0, &m), JAM_E_BUFFER);
+  o.memory_limit = 10.0;
+  assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, NULL, 0, &m), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "bytes"));
+  assert_int_equal(jam_gaps(s, -1.0, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_pair_correlation(s, i, 3, 0, 0, 2.0, 10, x, 10, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_pair_correlation(s, NULL, 0, 0, 0, 1e9, 10, x, 10, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_pair_correlation(s, NULL, 0, 0, 0, 2.0, 0, x, 10, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_structure_factor(s, INFINITY, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_structure_factor(s, 1e7, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_bond_order(s, 0, 1.2, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_local_fraction(s, NULL, 0, &m), JAM_E_UNSUPPORTED);
+  q.moments = 2;
+  assert_int_equal(jam_density_of_states(s, NULL, &q, x, 200, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  x[0] = NAN;
+  assert_int_equal(jam_curvature(s, NULL, x, 32, x), JAM_E_NONFINITE);
+  assert_int_equal(jam_curvature(s, NULL, NULL, 0, x), JAM_E_ARGUMENT);
+  assert_int_equal(jam_compare(s, t, &c, NULL, 0, NULL), JAM_E_ARGUMENT);
+  jam_destroy(s), jam_destroy(t);
+}
+
+static int32_t stop(const jam_progress *p, void *user) {
+  *(int32_t *)user = p->phase;
+  return 1;
+}
+
+static void cancelled(void **state) {
+  jam_system *s = square();
+  jam_modes_options o;
+  int32_t phase = 0;
+  double x[32] = {7.0};
+  size_t m;
+  (void)state;
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_AMBIGUOUS);
+  assert_int_equal(jam_set_progress(s, stop, &phase), JAM_OK);
+  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  o.which = JAM_MODES_ALL;
+  assert_int_equal(jam_modes(s, NULL, &o, x, 32, NULL, 0, NULL, 0, &m), JAM_CANCELLED);
+  assert_int_equal(phase, JAM_PHASE_ANALYSE);
+  assert_true(x[0] == 7.0); /* nothing written */
+  assert_int_equal(jam_set_progress(s, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_modes(s, NULL, &o, x, 32, NULL, 0, NULL, 0, &m), JAM_OK);
+  jam_destroy(s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(null_handles), cmocka_unit_test(no_network), cmocka_unit_test(all_rattlers),
+                                     cmocka_unit_test(hyperstatic),  cmocka_unit_test(arguments),  cmocka_unit_test(cancelled)};
+  return cmocka_run_group_tests_name("analysis_errors", tests, NULL, NULL);
+}

@@ -1,0 +1,262 @@
+/* Packings crunched from a random start have one state of self-stress; everything the analysis says about them hangs together:
+ * forces from positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow from forces. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+#include <jam/jam.h>
+
+enum { ROOM = 40000, MODES = 400 };
+
+struct network {
+  jam_system *sys;
+  int d;
+  int64_t n, stable, contacts;
+  int32_t *pair, *map;      /* contacts, 2; stable */
+  double *normal, *force;   /* contacts, d; contacts */
+  double *diameter;
+  int32_t *node;            /* sphere -> row, -1 */
+};
+
+static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
+  jam_create_options o;
+  jam_system *s = NULL;
+  double *d = malloc((size_t)n * sizeof *d);
+  int64_t k;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim;
+  o.n = n;
+  o.packing_fraction = phi;
+  for (k = 0; k < n; ++k) d[k] = bidisperse && k % 2 ? 1.4 : 1.0;
+  assert_int_equal(jam_create(&o, NULL, 0, d, (size_t)n, &s), JAM_OK);
+  free(d);
+  report->struct_size = sizeof *report;
+  assert_int_equal(jam_crunch(s, NULL, report), JAM_OK);
+  return s;
+}
+
+static struct network open_network(jam_system *s) {
+  struct network w;
+  jam_info info = {.struct_size = sizeof(jam_info)};
+  size_t m;
+  const double *diameters;
+  int64_t k;
+  w.sys = s;
+  assert_int_equal(jam_info_get(s, &info), JAM_OK);
+  w.d = info.dim;
+  w.n = info.n;
+  w.pair = malloc(ROOM * sizeof *w.pair);
+  w.map = malloc(ROOM * sizeof *w.map);
+  w.node = malloc(ROOM * sizeof *w.node);
+  w.normal = malloc(ROOM * sizeof *w.normal);
+  w.force = malloc(ROOM * sizeof *w.force);
+  w.diameter = malloc(ROOM * sizeof *w.diameter);
+  assert_int_equal(jam_contacts(s, w.pair, ROOM, &m), JAM_OK);
+  w.contacts = (int64_t)m / 2;
+  assert_int_equal(jam_contact_vectors(s, w.normal, ROOM, &m), JAM_OK);
+  assert_int_equal(jam_forces(s, w.force, ROOM, &m), JAM_OK);
+  assert_int_equal(jam_hessian_map(s, w.map, ROOM, &m), JAM_OK);
+  w.stable = (int64_t)m;
+  for (k = 0; k < w.n; ++k) w.node[k] = -1;
+  for (k = 0; k < w.stable; ++k) w.node[w.map[k]] = (int32_t)k;
+  assert_int_equal(jam_diameters_view(s, &diameters, &m), JAM_OK);
+  for (k = 0; k < w.n; ++k) w.diameter[k] = diameters[k];
+  return w;
+}
+
+static void close_network(struct network *w) {
+  free(w->pair), free(w->map), free(w->node), free(w->normal), free(w->force), free(w->diameter);
+  jam_destroy(w->sys);
+}
+
+static double stretch(const struct network *w, int64_t k, const double *u) {
+  const double *a = u + (int64_t)w->node[w->pair[2 * k]] * w->d, *b = u + (int64_t)w->node[w->pair[2 * k + 1]] * w->d;
+  double s = 0.0;
+  int c;
+  for (c = 0; c < w->d; ++c) s += w->normal[k * w->d + c] * (a[c] - b[c]);
+  return s;
+}
+static double sigma(const struct network *w, int64_t k) {
+  return 0.5 * (w->diameter[w->pair[2 * k]] + w->diameter[w->pair[2 * k + 1]]);
+}
+
+/* Forces three ways: multipliers of the LP, null vector on the same network, network and null vector from positions alone. */
+static void forces_from_positions(const struct network *w) {
+  double *f = malloc(ROOM * sizeof *f), residual = 1.0;
+  size_t m = 0, got = 0;
+  int32_t *pair = malloc(ROOM * sizeof *pair);
+  int64_t k;
+  jam_system *copy = NULL;
+  jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
+  assert_int_equal(jam_stress_states(w->sys, f, ROOM, NULL, 0, &residual, &m), JAM_OK);
+  assert_int_equal(m, 1);
+  assert_true(residual < 1e-12);
+  for (k = 0; k < w->contacts; ++k) assert_true(fabs(f[k] - w->force[k]) < 1e-9);
+  assert_int_equal(jam_copy(w->sys, &copy), JAM_OK);
+  assert_int_equal(jam_contacts_from_geometry(copy, NULL, &g), JAM_OK);
+  assert_int_equal(g.excess_contacts, 0);
+  assert_int_equal(g.self_stresses, 1);
+  assert_int_equal(g.zero_modes, w->d);
+  assert_true(g.jump > 1e3);
+  assert_int_equal(jam_contacts(copy, pair, ROOM, &got), JAM_OK);
+  assert_int_equal(got, 2 * w->contacts);
+  for (k = 0; k < 2 * w->contacts; ++k) assert_int_equal(pair[k], w->pair[k]);
+  assert_int_equal(jam_forces(copy, f, ROOM, &got), JAM_OK);
+  for (k = 0; k < w->contacts; ++k) assert_true(fabs(f[k] - w->force[k]) < 1e-9);
+  jam_destroy(copy);
+  free(f), free(pair);
+}
+
+/* S dr = e_l + gamma sigma, exactly, for the stated gamma; no net translation. */
+static void floppy_keeps_contacts(const struct network *w) {
+  double *u = malloc(ROOM * sizeof *u), *b = malloc(ROOM * sizeof *b), *sp = malloc(ROOM * sizeof *sp), *ss = malloc(ROOM * sizeof *ss);
+  double fs = 0.0;
+  size_t m;
+  int64_t k, l;
+  for (k = 0; k < w->contacts; ++k) fs += w->force[k] * sigma(w, k);
+  for (l = 0; l < w->contacts; l += w->contacts / 7 + 1) {
+    const double gamma = -w->force[l] / fs;
+    double mean = 0.0, size = 0.0;
+    assert_int_equal(jam_floppy_mode(w->sys, l, u, ROOM, &m), JAM_OK);
+    assert_int_equal(m, w->stable * w->d);
+    for (k = 0; k < (int64_t)m; ++k) size = fmax(size, fabs(u[k]));
+    for (k = 0; k < w->contacts; ++k) assert_true(fabs(stretch(w, k, u) - gamma * sigma(w, k) - (k == l)) < 1e-9 * (1.0 + size));
+    for (k = 0; k < w->stable; ++k) mean += u[k * w->d];
+    assert_true(fabs(mean) < 1e-9 * size * (double)w->stable);
+  }
+  assert_int_equal(jam_floppy_modes(w->sys, b, ROOM, sp, ROOM, ss, ROOM, &m), JAM_OK);
+  for (k = 0; k < w->contacts; ++k) {
+    assert_true(b[k] > 0.0 && b[k] < 1.5 / sqrt((double)w->stable));
+    assert_true(sp[k] > 0.0 && ss[k] > 0.0);
+  }
+  free(u), free(b), free(sp), free(ss);
+}
+
+/* In a state with one self-stress f, a harmonic network of elongations e keeps only its part along f: the modulus is
+ * (f . e)^2 / (|f|^2 V). */
+static void moduli_follow_from_forces(const struct network *w) {
+  jam_moduli m = {.struct_size = sizeof(jam_moduli)};
+  double ff = 0.0, fe = 0.0, shear = 0.0;
+  int a, b;
+  int64_t k;
+  assert_int_equal(jam_moduli_get(w->sys, NULL, &m), JAM_OK);
+  for (k = 0; k < w->contacts; ++k) {
+    ff += w->force[k] * w->force[k];
+    fe += w->force[k] * sigma(w, k) / w->d; /* at contact |r| = sigma */
+  }
+  assert_true(fabs(m.bulk / (fe * fe / ff) - 1.0) < 1e-8);
+  for (a = 0; a < w->d; ++a)
+    for (b = a + 1; b < w->d; ++b) {
+      fe = 0.0;
+      for (k = 0; k < w->contacts; ++k) fe += w->force[k] * sigma(w, k) * w->normal[k * w->d + a] * w->normal[k * w->d + b];
+      shear += fe * fe / ff / (w->d * (w->d - 1) / 2);
+    }
+  assert_true(fabs(m.shear - shear) < 1e-9 * m.shear_affine);
+  assert_true(m.bulk < m.bulk_affine && m.shear < m.shear_affine);
+}
+
+static void spectrum_identities(const struct network *w) {
+  const size_t rows = (size_t)(w->stable * w->d);
+  jam_modes_options o;
+  double *l = malloc(rows * sizeof *l), *v = malloc(rows * rows * sizeof *v), *y = malloc(rows * sizeof *y), trace = 0.0, value;
+  double low[8];
+  size_t m, k;
+  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  o.which = JAM_MODES_ALL;
+  assert_int_equal(jam_modes(w->sys, NULL, &o, l, rows, v, rows * rows, y, rows, &m), JAM_OK);
+  assert_int_equal(m, rows);
+  for (k = 0; k < m; ++k) {
+    trace += l[k];
+    assert_true(y[k] >= 1.0 / (double)w->stable - 1e-12 && y[k] <= 1.0 + 1e-12);
+    assert_int_equal(fabs(l[k]) < 1e-11, k < (size_t)w->d);
+  }
+  assert_true(fabs(trace - 2.0 * (double)w->contacts) < 1e-9 * trace); /* each contact adds 1 to each of its spheres */
+  assert_int_equal(jam_curvature(w->sys, NULL, v + rows * (rows / 2), rows, &value), JAM_OK);
+  assert_true(fabs(value - l[rows / 2]) < 1e-10);
+  o.which = JAM_MODES_LOWEST;
+  o.count = 8;
+  assert_int_equal(jam_modes(w->sys, NULL, &o, low, 8, NULL, 0, NULL, 0, &m), JAM_OK);
+  for (k = 0; k < 8; ++k) assert_true(fabs(low[k] - l[k + (size_t)w->d]) < 1e-11);
+  { /* the density of states integrates to one, and its second moment is the trace */
+    jam_dos_options q;
+    double *omega = malloc(400 * sizeof *omega), *d = malloc(400 * sizeof *d), *e = malloc(400 * sizeof *e), zero = 0.0, two = 0.0, error = 0.0;
+    assert_int_equal(jam_dos_options_init(&q, sizeof q), JAM_OK);
+    q.points = 400;
+    q.vectors = 32;
+    q.moments = 256;
+    assert_int_equal(jam_density_of_states(w->sys, NULL, &q, omega, 400, d, 400, e, 400, &m), JAM_OK);
+    for (k = 0; k < 400; ++k) {
+      zero += d[k] * (omega[1] - omega[0]);
+      two += d[k] * omega[k] * omega[k] * (omega[1] - omega[0]);
+      error += e[k] * (omega[1] - omega[0]);
+    }
+    assert_true(fabs(zero - 1.0) < 0.02);
+    assert_true(error > 0.0 && fabs(two - trace / (double)(rows - (size_t)w->d)) < 0.05 * two);
+    free(omega), free(d), free(e);
+  }
+  free(l), free(v), free(y);
+}
+
+static void small_packings(void **state) {
+  int dim;
+  (void)state;
+  for (dim = 2; dim <= 4; ++dim) {
+    jam_report report;
+    struct network w = open_network(crunched(dim, dim == 4 ? 150 : 80, dim == 2 ? 0.4 : dim == 3 ? 0.2 : 0.1, dim == 2, &report));
+    assert_int_equal(report.excess_contacts, 0);
+    forces_from_positions(&w);
+    floppy_keeps_contacts(&w);
+    moduli_follow_from_forces(&w);
+    spectrum_identities(&w);
+    close_network(&w);
+  }
+}
+
+static void compares(void **state) {
+  jam_report report;
+  jam_system *a = crunched(3, 60, 0.2, 0, &report), *b = NULL;
+  jam_comparison c = {.struct_size = sizeof(jam_comparison)};
+  const double *x;
+  double *y, *u;
+  size_t m, k;
+  (void)state;
+  assert_int_equal(jam_copy(a, &b), JAM_OK);
+  assert_int_equal(jam_positions_view(a, &x, &m), JAM_OK);
+  y = malloc(m * sizeof *y), u = malloc(m * sizeof *u);
+  for (k = 0; k < m; ++k) y[k] = x[k] + (k % 3 == 0 ? 0.4 : 0.1); /* a translation changes nothing */
+  assert_int_equal(jam_set_positions(b, y, m), JAM_OK);
+  assert_int_equal(jam_contacts_from_geometry(b, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_compare(a, b, &c, u, m, NULL), JAM_OK);
+  assert_true(c.overlap == 1.0);
+  assert_int_equal(c.common_contacts, report.contacts);
+  assert_int_equal(c.stable_in_both, report.stable);
+  assert_true(c.displacement_max < 1e-13 && c.packing_fraction_change == 0.0);
+  free(y), free(u);
+  jam_destroy(a), jam_destroy(b);
+}
+
+static void shared_packing(void **state) {
+  jam_system *s = NULL;
+  jam_report report = {.struct_size = sizeof(jam_report)};
+  struct network w;
+  (void)state;
+  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, &s) != JAM_OK) {
+    printf("shared packing not found: skipped\n");
+    skip();
+  }
+  assert_int_equal(jam_crunch(s, NULL, &report), JAM_OK);
+  w = open_network(s);
+  assert_int_equal(w.contacts, 3010);
+  forces_from_positions(&w);
+  close_network(&w);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(compares), cmocka_unit_test(shared_packing)};
+  return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
+}

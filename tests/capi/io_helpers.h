@@ -65,7 +65,7 @@ static inline char *get_bytes(const char *path, size_t *size) {
   fseek(f, 0, SEEK_END);
   end = ftell(f);
   rewind(f);
-  bytes = malloc((size_t)end + 1);
+  bytes = (char *)malloc((size_t)end + 1);
   *size = fread(bytes, 1, (size_t)end, f);
   bytes[*size] = '\0';
   fclose(f);
@@ -88,7 +88,7 @@ static inline void expect_refused(const char *text, jam_status status, const cha
 static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, double box) {
   jam_create_options o;
   jam_system *sys = NULL;
-  double *diameters = malloc((size_t)n * sizeof *diameters);
+  double *diameters = (double *)malloc((size_t)n * sizeof *diameters);
   int64_t i;
   for (i = 0; i < n; ++i) diameters[i] = i % 2 ? ratio : 1.0;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);

@@ -1,0 +1,125 @@
+// The event calendar: one event per sphere, sorted into buckets of equal time width; only the bucket that is being worked
+// on is a heap. Insert, move and pop cost O(1) as long as the width suits the rate of events (Paul, J. Comput. Phys. 221,
+// 615 (2007)); with a bad width the heap still gives O(log n).
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace jam {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+struct Event {
+  double time = never;
+  int32_t partner = -1;  // sphere to collide with, or -1: leaves its safe sphere
+  int32_t entry = 0;     // of the neighbour list (several images of one partner)
+  uint32_t partner_count = 0, count = 0;  // collisions of the partner when this was predicted; own collisions
+  int32_t next = -1, prev = -1, where = nowhere;  // bucket >= 0, or nowhere, or heap_base - place in the heap
+  static constexpr int32_t nowhere = -1, heap_base = -2;
+};
+
+class Calendar {
+ public:
+  explicit Calendar(size_t n) : event_(n), heads_(buckets_per_sphere * n + 2, -1) {}
+
+  Event &operator[](int32_t i) { return event_[i]; }
+  const Event &operator[](int32_t i) const { return event_[i]; }
+
+  // Throws out the order (not the events) and sorts again; times from `now` on, `width` a bucket.
+  void rebuild(double now, double width) {
+    for (int32_t &h : heads_) h = -1;
+    heap_.clear();
+    start_ = now;
+    inverse_ = width > 0.0 && width < never ? 1.0 / width : 0.0;
+    current_ = 0;
+    for (int32_t i = 0; i < static_cast<int32_t>(event_.size()); ++i) event_[i].where = Event::nowhere, insert(i);
+  }
+  // Call after event time of i has changed.
+  void update(int32_t i) {
+    remove(i);
+    insert(i);
+  }
+  // Sphere of the earliest event; -1 when the buckets are used up: rebuild then.
+  int32_t top() {
+    while (heap_.empty()) {
+      if (current_ + 1 >= last_bucket()) return -1;
+      ++current_;
+      for (int32_t i = heads_[current_], next; i >= 0; i = next) {
+        next = event_[i].next;
+        heap_push(i);
+      }
+      heads_[current_] = -1;
+    }
+    return heap_[0];
+  }
+  // Events later than this are not in the buckets.
+  double horizon() const { return inverse_ > 0.0 ? start_ + static_cast<double>(last_bucket()) / inverse_ : never; }
+  size_t buckets() const { return heads_.size() - 1; }
+
+ private:
+  static constexpr size_t buckets_per_sphere = 6;
+  // The last head collects everything beyond the horizon.
+  int32_t last_bucket() const { return static_cast<int32_t>(heads_.size()) - 1; }
+
+  void insert(int32_t i) {
+    const double x = (event_[i].time - start_) * inverse_;
+    const int32_t bucket = x < static_cast<double>(last_bucket()) ? static_cast<int32_t>(x) : last_bucket();
+    if (bucket <= current_) return heap_push(i);
+    Event &e = event_[i];
+    e.where = bucket;
+    e.prev = -1;
+    e.next = heads_[bucket];
+    if (e.next >= 0) event_[e.next].prev = i;
+    heads_[bucket] = i;
+  }
+  void remove(int32_t i) {
+    Event &e = event_[i];
+    if (e.where >= 0) {
+      if (e.prev >= 0) event_[e.prev].next = e.next; else heads_[e.where] = e.next;
+      if (e.next >= 0) event_[e.next].prev = e.prev;
+    } else if (e.where <= Event::heap_base) {
+      heap_remove(Event::heap_base - e.where);
+    }
+    e.where = Event::nowhere;
+  }
+  void place(size_t slot, int32_t i) {
+    heap_[slot] = i;
+    event_[i].where = Event::heap_base - static_cast<int32_t>(slot);
+  }
+  void heap_push(int32_t i) {
+    heap_.push_back(i);
+    sift_up(heap_.size() - 1, i);
+  }
+  void sift_up(size_t slot, int32_t i) {
+    while (slot > 0) {
+      const size_t parent = (slot - 1) / 2;
+      if (!(event_[i].time < event_[heap_[parent]].time)) break;
+      place(slot, heap_[parent]);
+      slot = parent;
+    }
+    place(slot, i);
+  }
+  void sift_down(size_t slot, int32_t i) {
+    for (size_t child; (child = 2 * slot + 1) < heap_.size(); slot = child) {
+      if (child + 1 < heap_.size() && event_[heap_[child + 1]].time < event_[heap_[child]].time) ++child;
+      if (!(event_[heap_[child]].time < event_[i].time)) break;
+      place(slot, heap_[child]);
+    }
+    place(slot, i);
+  }
+  void heap_remove(size_t slot) {
+    const int32_t moved = heap_.back();
+    heap_.pop_back();
+    if (slot == heap_.size()) return;
+    if (slot > 0 && event_[moved].time < event_[heap_[(slot - 1) / 2]].time) sift_up(slot, moved);
+    else sift_down(slot, moved);
+  }
+
+  std::vector<Event> event_;
+  std::vector<int32_t> heads_, heap_;
+  double start_ = 0.0, inverse_ = 0.0;
+  int32_t current_ = 0;
+};
+
+}  // namespace jam

@@ -1,0 +1,166 @@
+// The event-driven engine: spheres in the unit box (the driver scales), asynchronous, one scheduled event per sphere.
+//
+// Numbers. Coordinates, radii and image shifts are integers with 2^64 (or 2^61, see Shift) to the box, so that differences
+// wrap to the nearest image by themselves and are exact; gaps near contact are taken with 128-bit integers. A gap is thus
+// known to 5e-20 of the box, where doubles in a unit box give 1e-16. Velocities are doubles in the same unit per time.
+// Times are doubles relative to an origin that moves along every few collisions per sphere.
+//
+// Events. Invariant: for each pair in the lists, the earlier of the two scheduled events is not later than the collision of
+// the pair. Predicting sphere i may therefore leave out a partner k whose own event comes before their collision: k will be
+// predicted again by then. An event whose partner has collided since is found stale when it comes up.
+//
+// Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes this
+// list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) + shell.
+// Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
+#pragma once
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "core/packing.hpp"
+#include "edmd/calendar.hpp"
+
+namespace jam {
+
+// Why Engine::advance came back.
+enum class Halt { window, packing_fraction, box_full, stalled, cancelled, wall_time, needs_images };
+
+// Sums since the last reset_sums; all in box units and masses of 1.
+struct MdSums {
+  double virial = 0.0;     // of momentum exchanged without the growth part, r . dp
+  double action = 0.0;     // integral of sum v^2 over time
+  int64_t collisions = 0;  // since construction, never reset
+  int64_t events = 0;      // likewise
+  double time = 0.0;       // likewise
+};
+
+class EngineBase {
+ public:
+  virtual ~EngineBase() = default;
+  // Makes `collisions` more, unless something else halts it.
+  virtual Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) = 0;
+  // Moves all spheres to the present and scales velocities to kT/m = 1.
+  virtual void thermalise() = 0;
+  virtual void write_state(Packing &p) = 0;  // positions, velocities, diameters (when growing) of one moment
+  virtual double twice_kinetic() const = 0;
+  virtual double packing_fraction() const = 0;
+  virtual double mean_diameter() const = 0;
+  virtual double worst_overlap() = 0;  // largest -h over all listed pairs, now
+  MdSums sums;
+  double max_overlap = 0.0;
+};
+
+struct EngineOptions {
+  double growth = 0.0;                // G
+  double target_fraction = never;     // stop exactly there
+};
+
+// Shift: list entries carry their own image shift. Needed when a pair can meet through several images.
+std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o);
+
+template <int D, bool Shift>
+class Engine final : public EngineBase {
+ public:
+  Engine(const Packing &p, const EngineOptions &o);
+  Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) override;
+  void thermalise() override;
+  void write_state(Packing &p) override;
+  double twice_kinetic() const override { return twice_kinetic_; }
+  double packing_fraction() const override;
+  double mean_diameter() const override { return 2.0 * mean_radius() * unit * (1.0 + rate_ * now_); }
+  double worst_overlap() override;
+
+  // Whether lists without image shifts can hold for spheres of this diameter, unit box.
+  static bool fits(double sigma_max) { return sigma_max * (1.0 + 2.0 * smallest_shell + smallest_margin) < 0.4999; }
+
+ private:
+  using Vector = std::array<double, D>;
+  using Place = std::array<uint64_t, D>;
+  struct alignas(64) Body {
+    uint64_t x[D];
+    double v[D];
+    double time;     // when x holds
+    int64_t radius;  // at the origin of time
+  };
+  static constexpr double scale = Shift ? 0x1p61 : 0x1p64, unit = 1.0 / scale;
+  static constexpr double smallest_shell = 0.004, smallest_margin = 0.002;
+
+  // -- hot path, engine.hpp below and engine_events.hpp
+  void move(Body &b) {
+    const double dt = now_ - b.time;
+    for (int c = 0; c < D; ++c) b.x[c] += static_cast<uint64_t>(std::llrint(b.v[c] * dt));
+    b.time = now_;
+  }
+  int64_t difference(const Body &a, const Body &b, int c, const int64_t *offset) const {
+    const auto d = static_cast<int64_t>(a.x[c] - b.x[c]);
+    if constexpr (Shift) return d + offset[c];
+    else return (void)offset, d;
+  }
+  double exact_gap(const Body &a, const Body &b, const int64_t *offset) const;
+  double exit_time(int32_t i) const;
+  void predict(int32_t i);
+  void collide(int32_t i, int32_t k);
+  void separation(int32_t i, int32_t k, double *r) const;
+  void next_event(int32_t i);
+  void prefetch(int32_t i) const;
+
+  // -- time, engine_time.hpp
+  void shift_origin();
+  void rebase();
+  void sort_calendar();
+  void refresh(double velocity_factor, bool lists);
+  bool tune_shell();
+  void take_kinetic();
+  double mean_radius() const;
+
+  // -- lists, engine_lists.hpp
+  void choose_cells();
+  void build_lists();
+  size_t cell_of(const Place &x) const;
+  void recentre(int32_t i);
+  template <class F> void candidates(int32_t i, F &&f) const;
+  template <class F> void each_in_cells(int32_t i, F &&f) const;
+  template <class F> void each_image(int32_t i, int32_t k, double cutoff, F &&f) const;
+  void append(int32_t i, int32_t k, const int64_t *offset);
+  void forget(int32_t i, int32_t k);
+  void widen_lists();
+  const int64_t *offset_of(int32_t i, int32_t entry) const {
+    if constexpr (Shift) return &offset_[(static_cast<size_t>(i) * capacity_ + entry) * D];
+    else return (void)i, (void)entry, nullptr;
+  }
+
+  int32_t n_;
+  EngineOptions options_;
+  double box_;
+  std::vector<Body> body_;
+  Calendar calendar_;
+  std::vector<int32_t> user_;  // number of each sphere for the user; here they are sorted along a curve
+
+  double now_ = 0.0;        // relative to the origin
+  double rate_ = 0.0;       // growth of radii: R(t) = R (1 + rate t)
+  std::vector<double> left_over_;  // of radii, less than one unit
+  double lists_end_ = never, fraction_time_ = never, full_time_ = never;  // when something special happens
+  double target_radius_ = 0.0;  // of sphere 0 at the target packing fraction
+  double kinetic_time_ = 0.0, twice_kinetic_ = 0.0;
+  bool wants_images_ = false;
+
+  // neighbour lists
+  double shell_ = 0.1, margin_ = 0.05;  // relative to sigma
+  std::vector<Place> centre_;
+  std::vector<double> rho_, safe_;      // list radius, safe radius
+  std::vector<int32_t> neighbour_, neighbours_;  // (n, capacity), counts
+  std::vector<int64_t> offset_;         // Shift: (n, capacity, D)
+  size_t capacity_ = 0;
+  double rho_max_ = 0.0;
+  int64_t cells_ = 0;                   // per side; 0: brute force
+  int cell_range_ = 1;
+  std::vector<int32_t> cell_first_, cell_next_;
+
+  // shell and bucket tuning
+  int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0;
+  double time_before_ = 0.0, bucket_width_ = 0.0, collision_time_ = 0.0;
+};
+
+}  // namespace jam

@@ -1,0 +1,217 @@
+// Hot path of the engine: prediction and collision.
+#pragma once
+#include <cstdlib>
+
+#include "edmd/engine.hpp"
+
+namespace jam {
+
+// r^2 - sigma^2 from integers; a and b need not stand at now_.
+template <int D, bool Shift>
+double Engine<D, Shift>::exact_gap(const Body &a, const Body &b, const int64_t *offset) const {
+  const double da = now_ - a.time, db = now_ - b.time;
+  unsigned __int128 r2 = 0;
+  for (int c = 0; c < D; ++c) {
+    int64_t r = difference(a, b, c, offset) - std::llrint(b.v[c] * db);
+    if (da != 0.0) r += std::llrint(a.v[c] * da);
+    const uint64_t m = static_cast<uint64_t>(r < 0 ? -r : r);
+    r2 += static_cast<unsigned __int128>(m) * m;
+  }
+  int64_t sum = a.radius + b.radius;
+  sum += std::llrint(static_cast<double>(sum) * (rate_ * now_));
+  const __int128 gap = static_cast<__int128>(r2 - static_cast<unsigned __int128>(sum) * static_cast<uint64_t>(sum));
+  return static_cast<double>(static_cast<int64_t>(gap >> 64)) * 0x1p64 +
+         2.0 * static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(gap) >> 1));
+}
+
+// When sphere i, which stands at now_, leaves its safe sphere.
+template <int D, bool Shift>
+double Engine<D, Shift>::exit_time(int32_t i) const {
+  const Body &b = body_[i];
+  double rv = 0.0, vv = 0.0, rr = 0.0;
+  for (int c = 0; c < D; ++c) {
+    const double r = static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c]));
+    rv += r * b.v[c];
+    vv += b.v[c] * b.v[c];
+    rr += r * r;
+  }
+  if (vv <= 0.0) return never;
+  const double room = safe_[i] * safe_[i] - rr;
+  if (room <= 0.0) return rv < 0.0 ? now_ - 2.0 * rv / vv : now_;
+  const double root = std::sqrt(rv * rv + vv * room);
+  return now_ + (rv > 0.0 ? room / (rv + root) : (root - rv) / vv);
+}
+
+// Earliest event of sphere i, which stands at now_.
+template <int D, bool Shift>
+void Engine<D, Shift>::predict(int32_t i) {
+  const Body &bi = body_[i];
+  Event &event = calendar_[i];
+  double best = exit_time(i) - now_;
+  int32_t partner = -1;
+  const int32_t *list = &neighbour_[static_cast<size_t>(i) * capacity_];
+  const double grown = 1.0 + rate_ * now_;
+  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) {
+    const int32_t k = list[e];
+    const Body &bk = body_[k];
+    const int64_t *offset = offset_of(i, e);
+    const double dt = now_ - bk.time;
+    double rv = 0.0, vv = 0.0, rr = 0.0;
+    for (int c = 0; c < D; ++c) {
+      const double r = static_cast<double>(difference(bi, bk, c, offset)) - bk.v[c] * dt;
+      const double v = bi.v[c] - bk.v[c];
+      rv += r * v;
+      vv += v * v;
+      rr += r * r;
+    }
+    const double sum = static_cast<double>(bi.radius + bk.radius), sigma = sum * grown, growth = sum * rate_;
+    const double b = rv - sigma * growth, a = vv - growth * growth;
+    if (b >= 0.0 && a >= 0.0) continue;
+    const double sigma2 = sigma * sigma;
+    double gap = rr - sigma2;
+    // The root is not earlier than gap / (-2 b) when a > 0.
+    if (a > 0.0 && gap > 1e-9 * sigma2 && gap > -2.0 * b * best) continue;
+    if (gap < 1e-3 * sigma2) gap = exact_gap(bi, bk, offset);
+    const double disc = b * b - a * gap;
+    double t;
+    if (b < 0.0) {
+      if (gap <= 0.0) t = 0.0;  // in contact or overlapping, and approaching
+      else if (disc < 0.0) continue;
+      else t = gap / (std::sqrt(disc) - b);
+    } else {
+      // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
+      t = disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
+    }
+    if (t < best && now_ + t < calendar_[k].time) best = t, partner = k;
+  }
+  event.time = now_ + best;
+  event.partner = partner;
+  if (partner >= 0) event.partner_count = calendar_[partner].count;
+}
+
+// r_i - r_k of two spheres that both stand at now_; of several images the nearest.
+template <int D, bool Shift>
+void Engine<D, Shift>::separation(int32_t i, int32_t k, double *r) const {
+  if constexpr (!Shift) {
+    for (int c = 0; c < D; ++c) r[c] = static_cast<double>(difference(body_[i], body_[k], c, nullptr));
+  } else {
+    double nearest = never;
+    for (int32_t e = 0; e < neighbours_[i]; ++e) {
+      if (neighbour_[static_cast<size_t>(i) * capacity_ + e] != k) continue;
+      double r2 = 0.0, trial[D];
+      for (int c = 0; c < D; ++c) {
+        trial[c] = static_cast<double>(difference(body_[i], body_[k], c, offset_of(i, e)));
+        r2 += trial[c] * trial[c];
+      }
+      if (r2 >= nearest) continue;
+      nearest = r2;
+      for (int c = 0; c < D; ++c) r[c] = trial[c];
+    }
+  }
+}
+
+// Elastic collision of surfaces that move apart with the growth speed: the pair separates with at least that speed.
+template <int D, bool Shift>
+void Engine<D, Shift>::collide(int32_t i, int32_t k) {
+  Body &a = body_[i], &b = body_[k];
+  double r[D], r2 = 0.0, rv = 0.0;
+  separation(i, k, r);
+  for (int c = 0; c < D; ++c) {
+    r2 += r[c] * r[c];
+    rv += r[c] * (a.v[c] - b.v[c]);
+  }
+  const double inverse = 1.0 / std::sqrt(r2), vn = rv * inverse;
+  const double growth = static_cast<double>(a.radius + b.radius) * rate_;
+  double push = growth - vn;
+  if (push <= 0.0) return;  // a grazing pair that rounding has let go
+  push = std::max(push, 1e-14 * scale);  // never so little that the sum is lost: the pair would collide for ever
+  for (int c = 0; c < D; ++c) {
+    const double dv = push * r[c] * inverse;
+    a.v[c] += dv;
+    b.v[c] -= dv;
+  }
+  ++calendar_[i].count;
+  ++calendar_[k].count;
+  sums.virial -= rv * unit * unit;
+  sums.action += twice_kinetic_ * (now_ - kinetic_time_);
+  kinetic_time_ = now_;
+  twice_kinetic_ += 2.0 * push * growth * unit * unit;
+  ++sums.collisions;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::prefetch(int32_t i) const {
+  const int32_t *list = &neighbour_[static_cast<size_t>(i) * capacity_];
+  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) __builtin_prefetch(&body_[list[e]]);
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::next_event(int32_t i) {
+  Event &event = calendar_[i];
+  now_ = std::max(now_, event.time);
+  move(body_[i]);
+  const int32_t k = event.partner;
+  if (k < 0) {
+    ++exits_;
+    recentre(i);
+    event.time = never;
+    predict(i);
+    calendar_.update(i);
+    return;
+  }
+  Event &other = calendar_[k];
+  if (other.count != event.partner_count) {
+    event.time = never;
+    predict(i);
+    calendar_.update(i);
+    return;
+  }
+  prefetch(k);
+  move(body_[k]);
+  collide(i, k);
+  event.time = other.time = never;
+  predict(i);
+  predict(k);
+  calendar_.update(i);
+  calendar_.update(k);
+}
+
+template <int D, bool Shift>
+Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, double wall_end) {
+  const int64_t goal = sums.collisions + collisions;
+  // Without a collision in so many events nothing will come: no partners, or paths that never meet.
+  const int64_t patience = 1000000 + 200 * static_cast<int64_t>(n_);
+  int64_t last_progress = sums.events, last_collisions = sums.collisions;
+  if (wants_images_) return Halt::needs_images;
+  while (sums.collisions < goal) {
+    if ((sums.events & 1023) == 0) {
+      if (monitor.cancelled()) return Halt::cancelled;
+      if (now_seconds() > wall_end) return Halt::wall_time;
+      if (sums.collisions != last_collisions) last_collisions = sums.collisions, last_progress = sums.events;
+      else if (sums.events - last_progress > patience) return Halt::stalled;
+    }
+    ++sums.events;
+    const int32_t i = calendar_.top();
+    const double t = i < 0 ? never : calendar_[i].time;
+    const double special = std::min(lists_end_, std::min(fraction_time_, full_time_));
+    if (i < 0 && !(special < calendar_.horizon())) {
+      if (calendar_.horizon() == never) return Halt::stalled;  // nothing will ever happen
+      rebase();
+      if (wants_images_) return Halt::needs_images;
+      continue;
+    }
+    if (t < special) {
+      next_event(i);
+      continue;
+    }
+    if (special == never) return Halt::stalled;
+    now_ = std::max(now_, special);
+    if (special == fraction_time_) return Halt::packing_fraction;
+    if (special == full_time_) return Halt::box_full;
+    refresh(1.0, true);
+    if (wants_images_) return Halt::needs_images;
+  }
+  return Halt::window;
+}
+
+}  // namespace jam

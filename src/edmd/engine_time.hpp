@@ -1,0 +1,200 @@
+// The engine: construction, the moving origin of time, refreshing, and reading the state.
+#pragma once
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "edmd/engine.hpp"
+
+namespace jam {
+
+// Order of the spheres along a Morton curve: neighbours in space are near in memory.
+std::vector<int32_t> curve_order(const Packing &p);
+
+template <int D, bool Shift>
+Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o)
+    : n_(static_cast<int32_t>(p.n())), options_(o), box_(p.box), body_(p.n()), calendar_(p.n()), user_(curve_order(p)),
+      left_over_(p.n(), 0.0), centre_(p.n()), rho_(p.n()), safe_(p.n()), neighbours_(p.n(), 0) {
+  for (int32_t i = 0; i < n_; ++i) {
+    const size_t u = static_cast<size_t>(user_[i]);
+    Body &b = body_[i];
+    for (int c = 0; c < D; ++c) {
+      b.x[c] = static_cast<uint64_t>(wrap(p.position[u * D + c] / p.box, 1.0) * scale);
+      b.v[c] = p.velocity[u * D + c] * scale;
+    }
+    b.time = 0.0;
+    b.radius = std::llrint(0.5 * p.diameter[u] / p.box * scale);
+  }
+  const double fraction = packing_fraction();
+  shell_ = std::min(0.3, std::max(0.06, 0.4 - 0.6 * fraction));
+  if (o.growth > 0.0) {
+    rate_ = o.growth * scale / (2.0 * mean_radius());
+    double largest = 0.0;
+    for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
+    full_time_ = (0.5 * scale / largest - 1.0) / rate_;  // a sphere touches its own image
+    if (o.target_fraction < never) {
+      target_radius_ = static_cast<double>(body_[0].radius) * std::pow(o.target_fraction / fraction, 1.0 / D);
+      fraction_time_ = (target_radius_ / static_cast<double>(body_[0].radius) - 1.0) / rate_;
+    }
+  }
+  refresh(1.0, true);
+}
+
+template <int D, bool Shift>
+double Engine<D, Shift>::mean_radius() const {
+  double sum = 0.0;
+  for (const Body &b : body_) sum += static_cast<double>(b.radius);
+  return sum / n_;
+}
+
+template <int D, bool Shift>
+double Engine<D, Shift>::packing_fraction() const {
+  double sum = 0.0;
+  const double grown = 2.0 * unit * (1.0 + rate_ * now_);
+  for (const Body &b : body_) {
+    double volume = 1.0;
+    for (int c = 0; c < D; ++c) volume *= static_cast<double>(b.radius) * grown;
+    sum += volume;
+  }
+  return sum * unit_sphere_volume(D);
+}
+
+// Sets the origin of time to now_; what is too small for the integer radii is carried over.
+template <int D, bool Shift>
+void Engine<D, Shift>::shift_origin() {
+  const double t = now_, factor = rate_ * t;
+  for (int32_t i = 0; i < n_; ++i) {
+    Body &b = body_[i];
+    b.time -= t;
+    calendar_[i].time -= t;
+    if (factor == 0.0) continue;
+    const double add = static_cast<double>(b.radius) * factor + left_over_[i];
+    const int64_t whole = std::llrint(add);
+    b.radius += whole;
+    left_over_[i] = add - static_cast<double>(whole);
+  }
+  sums.action += twice_kinetic_ * (now_ - kinetic_time_);
+  kinetic_time_ = 0.0;
+  lists_end_ -= t;
+  full_time_ -= t;
+  rate_ /= 1.0 + factor;
+  // Anew from the radii, as differences of times would pile up errors.
+  if (target_radius_ > 0.0) {
+    const double left = target_radius_ - static_cast<double>(body_[0].radius) - left_over_[0];
+    fraction_time_ = std::max(0.0, left / static_cast<double>(body_[0].radius) / rate_);
+  }
+  sums.time += t;
+  now_ = 0.0;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::rebase() {
+  shift_origin();
+  if (tune_shell()) refresh(1.0, true);
+  else sort_calendar();
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::sort_calendar() {
+  const double elapsed = sums.time - time_before_;
+  const int64_t events = sums.events - events_before_;
+  if (events > 2 * n_ && elapsed > 0.0) {
+    bucket_width_ = elapsed / static_cast<double>(events);
+    time_before_ = sums.time;
+    events_before_ = sums.events;
+  } else if (bucket_width_ == 0.0) {
+    std::vector<double> times(n_);
+    for (int32_t i = 0; i < n_; ++i) times[i] = calendar_[i].time;
+    std::nth_element(times.begin(), times.begin() + n_ / 2, times.end());
+    bucket_width_ = times[n_ / 2] / n_;
+  }
+  double earliest = never;
+  for (int32_t i = 0; i < n_; ++i) earliest = std::min(earliest, calendar_[i].time);
+  const double least = 4.0 * earliest / static_cast<double>(calendar_.buckets());
+  double width = bucket_width_ < never ? std::max(bucket_width_, least) : least;
+  calendar_.rebuild(0.0, earliest < never ? width : 0.0);
+}
+
+// Brings all spheres to now_, scales velocities, remakes lists if asked or needed, predicts everything.
+template <int D, bool Shift>
+void Engine<D, Shift>::refresh(double velocity_factor, bool lists) {
+  for (Body &b : body_) {
+    move(b);
+    if (velocity_factor != 1.0)
+      for (int c = 0; c < D; ++c) b.v[c] *= velocity_factor;
+  }
+  shift_origin();
+  take_kinetic();
+  if (lists) build_lists();
+  if (wants_images_) return;
+  for (int32_t i = 0; i < n_; ++i) calendar_[i].time = never;
+  for (int32_t i = 0; i < n_; ++i) predict(i);
+  sort_calendar();
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::take_kinetic() {
+  double sum = 0.0;
+  for (const Body &b : body_)
+    for (int c = 0; c < D; ++c) sum += (b.v[c] * unit) * (b.v[c] * unit);
+  twice_kinetic_ = sum;
+}
+
+// A wide shell costs long lists, a narrow one remakes them often. Returns true when it was changed.
+template <int D, bool Shift>
+bool Engine<D, Shift>::tune_shell() {
+  const int64_t made = sums.collisions - collisions_before_, left = exits_ - exits_before_;
+  if (made < 4 * n_ && left < n_) return false;
+  if (made > 0) collision_time_ = (sums.time - time_before_) * n_ / static_cast<double>(made);
+  const double ratio = static_cast<double>(left) / static_cast<double>(std::max<int64_t>(made, 1));
+  collisions_before_ = sums.collisions;
+  exits_before_ = exits_;
+  const double before = shell_;
+  if (ratio > 0.12) shell_ = std::min(1.5, shell_ * 1.25);
+  if (ratio < 0.04) shell_ = std::max(smallest_shell, shell_ * 0.8);
+  return shell_ != before;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::thermalise() {
+  take_kinetic();
+  if (twice_kinetic_ > 0.0) refresh(std::sqrt(D * static_cast<double>(n_) / twice_kinetic_), false);
+}
+
+template <int D, bool Shift>
+double Engine<D, Shift>::worst_overlap() {
+  double worst = 0.0;
+  for (int32_t i = 0; i < n_; ++i) {
+    for (int32_t e = 0; e < neighbours_[i]; ++e) {
+      const Body &a = body_[i], &b = body_[neighbour_[static_cast<size_t>(i) * capacity_ + e]];
+      const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
+      double r2 = 0.0;
+      for (int c = 0; c < D; ++c) {
+        const double r = static_cast<double>(difference(a, b, c, offset_of(i, e))) + a.v[c] * (now_ - a.time) - b.v[c] * (now_ - b.time);
+        r2 += r * r;
+      }
+      if (r2 > sigma * sigma * (1.0 + 1e-6)) continue;
+      const double gap = exact_gap(a, b, offset_of(i, e)) / (sigma * sigma);
+      worst = std::max(worst, -gap / (1.0 + std::sqrt(std::max(0.0, 1.0 + gap))));
+    }
+  }
+  return worst;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::write_state(Packing &p) {
+  for (Body &b : body_) move(b);
+  shift_origin();
+  for (int32_t i = 0; i < n_; ++i) {
+    const size_t u = static_cast<size_t>(user_[i]);
+    const Body &b = body_[i];
+    for (int c = 0; c < D; ++c) {
+      const uint64_t x = Shift ? b.x[c] & ((uint64_t{1} << 61) - 1) : b.x[c];
+      p.position[u * D + c] = wrap(static_cast<double>(x) * unit * box_, box_);
+      p.velocity[u * D + c] = b.v[c] * unit;
+    }
+    if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(b.radius) * box_;
+  }
+}
+
+}  // namespace jam

@@ -74,7 +74,7 @@ class Stage {
     }
     goal_ = stage_.collisions_per_particle * n_ / 2.0;  // each collision is one for two spheres
     // A window is so long that its noise is small and so short that p changes little in it: d ln p = G / 1.63 a collision.
-    const double most = growing_ ? std::min(2.0, std::max(0.02, 0.03 / stage_.growth)) * n_ : std::min(goal_ / 20.0, 20.0 * n_);
+    const double most = growing_ ? std::min(2.0, std::max(0.25, 0.03 / stage_.growth)) * n_ : std::min(goal_ / 20.0, 20.0 * n_);
     window_ = static_cast<int64_t>(std::max(growing_ ? 32.0 : 4.0, most));
   }
   bool already_there() const { return growing_ && jam::packing_fraction(p_) >= stage_.packing_fraction; }
@@ -83,6 +83,7 @@ class Stage {
   int32_t window(double wall_end) {
     const int parts = growing_ ? 4 : 1;
     double virial = 0.0, action = 0.0;
+    bool steady = true;  // no part of the window is far below the target: a stop is not made of noise
     for (int part = 0; part < parts; ++part) {
       int64_t todo = std::max<int64_t>(1, window_ / parts);
       const double left = goal_ - static_cast<double>(total_collisions());
@@ -90,6 +91,7 @@ class Stage {
       const MdSums before = engine_->sums;
       const Halt halt = engine_->advance(todo, monitor_, wall_end);
       const double dv = engine_->sums.virial - before.virial, da = engine_->sums.action - before.action;
+      steady = steady && da > 0.0 && 1.0 + dv / da > 0.25 * stage_.pressure;
       if (da > 0.0) note(1.0 + dv / da, dv, da), virial += dv, action += da;
       if (halt == Halt::needs_images) {
         change_engine();
@@ -103,12 +105,24 @@ class Stage {
     if (action > 0.0) pressure_ = 1.0 + virial / action;
     if (action <= 0.0 && virial > 0.0) return ++frozen_ > 20 ? JAM_STOP_STALLED : JAM_STOP_NONE;
     if (report_progress()) return JAM_STOP_CANCELLED;
-    if (growing_ && pressure_ >= stage_.pressure) return JAM_STOP_PRESSURE;
+    if (growing_ && steady && pressure_ >= stage_.pressure) return JAM_STOP_PRESSURE;
     // Gaps are about sigma / p; below some tens of units of the integers they are noise.
     if (growing_ && pressure_ > 1.0 && engine_->mean_diameter() / pressure_ < 40.0 * 0x1p-61) return JAM_STOP_PRECISION;
     if (static_cast<double>(total_collisions()) >= goal_) return JAM_STOP_COLLISIONS;
-    if (growing_ && std::fabs(engine_->twice_kinetic() / (n_ * p_.dim) - 1.0) > 0.05) engine_->thermalise();
+    thermostat();
     return JAM_STOP_NONE;
+  }
+
+  // Cooling takes away the speed with which spheres make room for each other. When they grow faster than they fly it must
+  // wait until they have grown by a per cent or collided many times, or time would stop.
+  void thermostat() {
+    if (!growing_ || std::fabs(engine_->twice_kinetic() / (n_ * p_.dim) - 1.0) < 0.05) return;
+    const double time = old_time_ + engine_->sums.time;
+    if (stage_.growth > 0.5 && (time - cooled_) * stage_.growth < 0.01 * engine_->mean_diameter() &&
+        total_collisions() - cooled_collisions_ < static_cast<int64_t>(50.0 * n_)) return;
+    cooled_ = time;
+    cooled_collisions_ = total_collisions();
+    engine_->thermalise();
   }
 
   void note(double p, double virial, double action) {
@@ -196,8 +210,8 @@ class Stage {
   const double n_;
   std::unique_ptr<EngineBase> engine_;
   double goal_ = 0.0, pressure_ = std::numeric_limits<double>::quiet_NaN();
-  double all_virial_ = 0.0, all_action_ = 0.0, worst_ = 0.0, old_time_ = 0.0;
-  int64_t window_ = 1, old_collisions_ = 0, old_events_ = 0;
+  double all_virial_ = 0.0, all_action_ = 0.0, worst_ = 0.0, old_time_ = 0.0, cooled_ = 0.0;
+  int64_t window_ = 1, cooled_collisions_ = 0, old_collisions_ = 0, old_events_ = 0;
   int frozen_ = 0;
   std::vector<double> windows_;
 };

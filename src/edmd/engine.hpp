@@ -159,7 +159,7 @@ class Engine final : public EngineBase {
   std::vector<int32_t> cell_first_, cell_next_;
 
   // shell and bucket tuning
-  int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0;
+  int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0, rebase_at_ = 0;
   double time_before_ = 0.0, bucket_width_ = 0.0, collision_time_ = 0.0;
 };
 

@@ -194,7 +194,8 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
     const int32_t i = calendar_.top();
     const double t = i < 0 ? never : calendar_[i].time;
     const double special = std::min(lists_end_, std::min(fraction_time_, full_time_));
-    if (i < 0 && !(special < calendar_.horizon())) {
+    // Also after many events: when they come faster and faster, times must stay small to be sharp.
+    if ((i < 0 && !(special < calendar_.horizon())) || sums.events > rebase_at_) {
       if (calendar_.horizon() == never) return Halt::stalled;  // nothing will ever happen
       rebase();
       if (wants_images_) return Halt::needs_images;

@@ -112,6 +112,7 @@ void Engine<D, Shift>::sort_calendar() {
   for (int32_t i = 0; i < n_; ++i) earliest = std::min(earliest, calendar_[i].time);
   const double least = 4.0 * earliest / static_cast<double>(calendar_.buckets());
   double width = bucket_width_ < never ? std::max(bucket_width_, least) : least;
+  rebase_at_ = sums.events + 8 * static_cast<int64_t>(n_) + 64;
   calendar_.rebuild(0.0, earliest < never ? width : 0.0);
 }
 

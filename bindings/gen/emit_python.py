@@ -63,10 +63,10 @@ def emit(api):
     for s in api.structs:
         if s.name in rows:
             out.append(f'    "{s.name}": [' + ", ".join(f'("{m.name}", "{TYPES[m.type][4]}")' for m in s.members) + "],")
-    out += ["}", "", "# calls on a system: {C name: (doc, ((argument, role, C type), ...))}", "CALLS = {"]
+    out += ["}", "", "# calls on a system: {C name: (doc, whether it must be alone, ((argument, role, C type), ...))}", "CALLS = {"]
     for f in api.functions:
         if f.args and f.args[0].role == "handle":
             args = ", ".join(f'("{a.name}", "{a.role}", "{a.type.scalar}")' for a in f.args[1:])
-            out.append(f'    "{f.name}": ({f.doc!r}, ({args}{"," if len(f.args) == 2 else ""})),')
+            out.append(f'    "{f.name}": ({f.doc!r}, {not f.args[0].type.const}, ({args}{"," if len(f.args) == 2 else ""})),')
     out.append("}")
     return "\n".join(out) + "\n"

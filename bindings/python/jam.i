@@ -95,7 +95,7 @@ static void jam_on_log(int32_t level, const char *line, void *user) {
 }
 %typemap(arginit) (const T *IN, size_t IN_LEN) { memset(&view$argnum, 0, sizeof view$argnum); }
 %typemap(freearg) (const T *IN, size_t IN_LEN) { PyBuffer_Release(&view$argnum); }
-%typemap(doc) (const T *IN, size_t IN_LEN) "$1_name: buffer of T"
+%typemap(argout) (const T *IN, size_t IN_LEN) ""  // else a single result of the same name elsewhere would be taken
 %enddef
 %define FILL_TYPE(T, KIND)
 %typemap(in, numinputs=1) (T *FILL, size_t FILL_LEN) (Py_buffer view) {
@@ -105,6 +105,7 @@ static void jam_on_log(int32_t level, const char *line, void *user) {
 }
 %typemap(arginit) (T *FILL, size_t FILL_LEN) { memset(&view$argnum, 0, sizeof view$argnum); }
 %typemap(freearg) (T *FILL, size_t FILL_LEN) { PyBuffer_Release(&view$argnum); }
+%typemap(argout) (T *FILL, size_t FILL_LEN) ""
 %enddef
 IN_TYPE(double, "f")
 IN_TYPE(int32_t, "i")

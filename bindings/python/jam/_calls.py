@@ -1,7 +1,8 @@
 """Calls any C function of the header by its conventions: options by keyword, arrays as numpy, count then fill."""
 from __future__ import annotations
 
-from typing import Any
+from collections import namedtuple
+from typing import Any, Callable
 
 import numpy as np
 
@@ -79,52 +80,85 @@ def describe(struct: str) -> str:
     return "\n".join(f"    {name}: {text}" for name, (_, text) in OPTIONS[struct].items())
 
 
-def invoke(handle: Any, name: str, *args: Any, **named: Any) -> Any:
-    """Calls jam_<name> on a handle. Inputs are taken in the order of the header; outputs are returned.
+# Shapes of the arrays that calls fill, by name of function and array: m is *needed, d the dimension. Others are flat (m,).
+SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
+    "contacts": {"iout": lambda m, d: (m // 2, 2)},
+    "contact_vectors": {"out": lambda m, d: (m // d, d)},
+    "floppy_mode": {"out": lambda m, d: (m // d, d)},
+    "compare": {"out": lambda m, d: (m // d, d)},
+    "gaps": {"pair": lambda m, d: (m, 2)},
+    "sphere_structure": {"c": lambda m, d: (m, d)},
+}
+INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
 
-    Arrays come back flat, as the header says; several outputs as a tuple; nothing else: the status.
+
+def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str, Any]:
+    """Python arguments by the header's names; what is no argument must be a member of an option struct."""
+    inputs = [a for a in table if a[1] in INPUTS]
+    plain = [a[0] for a in inputs if a[1] != "struct_in"]
+    structs = {a[0]: a[2] for a in inputs if a[1] == "struct_in"}
+    if len(args) > len(plain):
+        raise TypeError(f"{name} takes at most {len(plain)} positional arguments: {', '.join(plain)}")
+    given = dict(zip(plain, args))
+    members: dict[str, dict] = {s: {} for s in structs}
+    for key, value in named.items():
+        owners = [s for s, kind in structs.items() if key in OPTIONS[kind]]
+        if key in plain:
+            given[key] = value
+        elif len(owners) == 1:
+            members[owners[0]][key] = value
+        else:
+            raise TypeError(f"{name}: unknown option {key!r}; there are {', '.join(plain + [k for s in structs.values() for k in OPTIONS[s]])}")
+    given.update({s: options(kind, members[s]) for s, kind in structs.items()})
+    optional = {a[0] for a in inputs if a[1] == "array_in"}
+    if missing := set(plain) - optional - set(given):
+        raise TypeError(f"{name} needs {', '.join(sorted(missing))}")
+    return given
+
+
+def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any]) -> tuple[StatusCode, Any]:
+    """Calls jam_<name>: inputs by position or keyword, members of option structs by keyword, outputs returned.
+
+    Returns the status and the outputs: None, one result, or a named tuple. Arrays are asked for their size first.
     """
-    table = CALLS["jam_" + name][1]
-    inputs = [a for a in table if a[1] in ("scalar", "string", "array_in", "struct_in")]
-    if len(args) > len(inputs):
-        raise TypeError(f"{name} takes at most {len(inputs)} arguments")
-    given = {**dict(zip((a[0] for a in inputs), args))}
-    if struct := next((a[2] for a in inputs if a[1] == "struct_in"), None):
-        given.update({k: named.pop(k) for k in list(named) if any(k == a[0] for a in inputs)})
-        given.setdefault(next(a[0] for a in inputs if a[1] == "struct_in"), options(struct, named))
-    else:
-        given.update(named)
-    unknown = set(given) - {a[0] for a in inputs}
-    missing = {a[0] for a in inputs if a[1] != "array_in"} - set(given)
-    if unknown or missing:
-        raise TypeError(f"{name}: unexpected {sorted(unknown)}, missing {sorted(missing)}")
-    passed, fills, reports = [], [], []
+    table = CALLS["jam_" + name][2]
+    given = _take_inputs(name, table, args, named)
+    passed, fills, outputs, asked = [], [], {}, []
     for arg, role, ctype in table:
         if role == "array_in":
             value = given.get(arg)
             passed.append(None if value is None else as_array(value, ctype, arg).reshape(-1))
-        elif role in ("scalar", "string", "struct_in"):
+        elif role == "handle":
+            passed.append(getattr(given[arg], "handle", given[arg]))
+        elif role in INPUTS:
             passed.append(given[arg])
         elif role == "struct_out":
-            reports.append((new_report(ctype), ctype))
-            passed.append(reports[-1][0])
+            outputs[arg] = (new_report(ctype), ctype)
+            passed.append(outputs[arg][0])
         elif role == "array_out":
-            fills.append((len(passed), ctype))
+            fills.append((arg, len(passed), ctype))
+            outputs[arg] = None
             passed.append(None)
+        elif role == "scalar_out":
+            asked.append(arg)
     function = getattr(raw, "jam_" + name)
     answer = function(handle, *passed)
-    arrays = []
-    if fills:
-        if len(fills) > 1:
-            raise TypeError(f"{name} has several output arrays: no method is made for it")
-        at, ctype = fills[0]
-        needed = answer[1]
-        arrays = [np.empty(needed, np.dtype(ROWS[ctype]) if ctype in ROWS else _DTYPES[ctype])]
-        passed[at] = arrays[0]
-        answer = function(handle, *passed)
-        answer = [answer[0], *answer[2:]]
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
-    results = arrays + [freeze(r, n) for r, n in reports] + scalars
-    if not results:
-        return StatusCode(status)
-    return results[0] if len(results) == 1 else tuple(results)
+    if fills and "needed" in asked and status in (0, StatusCode.AMBIGUOUS):
+        m = scalars[asked.index("needed")]
+        for arg, at, ctype in fills:
+            shape = SHAPES.get(name, {}).get(arg, lambda m, d: (m,))(m, dim)
+            outputs[arg] = np.empty(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else _DTYPES[ctype])
+            passed[at] = outputs[arg].reshape(-1)
+        status, *scalars = function(handle, *passed)
+        if status in (StatusCode.CANCELLED,):
+            outputs.update({arg: None for arg, _, _ in fills})
+    results = {a: freeze(*o) if isinstance(o, tuple) else o for a, o in outputs.items()}
+    results.update({a: v for a, v in zip(asked, scalars) if a != "needed"})
+    if len(results) > 1:
+        return StatusCode(status), namedtuple(camel(name), results)(**results)
+    return StatusCode(status), next(iter(results.values()), None)
+
+
+def camel(name: str) -> str:
+    return "".join(w.capitalize() for w in name.split("_"))

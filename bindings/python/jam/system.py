@@ -140,6 +140,8 @@ class System:
         self._carried: tuple | None = None  # report and contacts that came with a pickle
         #: Progress records of this system's calls, at most one every 0.05 s
         self.trace: list[Progress] = []
+        #: Status of the last call: > 0 where it stopped early or the answer is not unique
+        self.status: StatusCode = StatusCode.OK
         handle._dispatch = self._dispatch = _Dispatch()  # the C side holds a borrowed reference
         raw.set_progress(handle, self._dispatch)
 
@@ -313,7 +315,8 @@ class System:
                     user.close()
         self._carried = None
         frozen = _calls.freeze(made, report)
-        object.__setattr__(frozen, "status", StatusCode(status))
+        self.status = StatusCode(status)
+        object.__setattr__(frozen, "status", self.status)
         return frozen
 
     def run(self, collisions_per_particle: float | None = None, *, progress: Any = None, **options: Any) -> MdReport:
@@ -369,8 +372,7 @@ class System:
         """Pairs, unit vectors, gaps and forces of the contacts, as copies."""
         if self._carried:
             return self._carried[1]
-        d = self.dim
-        return Contacts(self.call("contacts").reshape(-1, 2), self.call("contact_vectors").reshape(-1, d),
+        return Contacts(self.call("contacts"), self.call("contact_vectors"),
                         self.call("contact_gaps"), self.call("forces"))
 
     @property
@@ -432,9 +434,32 @@ class System:
         """Writes the packing, 17 digits: 'plain' or 'xyz' (extended XYZ); 'auto' goes by the name."""
         raw.jam_write(self.handle, os.fspath(path), _calls.as_enum(format, "Format"))
 
-    def call(self, name: str, *args: Any, **named: Any) -> Any:
-        """Calls the C function jam_<name> on this system by the header's conventions; outputs are returned."""
-        return _calls.invoke(self.handle, name, *args, **named)
+    def call(self, name: str, *args: Any, progress: Any = None, **named: Any) -> Any:
+        """Calls the C function jam_<name> on this system by the header's conventions.
+
+        Inputs by position or keyword, members of option structs by keyword; arrays of any real dtype. Outputs are
+        returned: an array, a number, a report, or a named tuple of them. self.status holds the StatusCode.
+        """
+        handle, user = self.handle, reporter(progress)
+        with self._dispatch.to(self._recorder(user)):
+            try:
+                self.status, result = _calls.invoke(handle, self.dim, name, args, named)
+            finally:
+                if hasattr(user, "close"):
+                    user.close()
+        if CALLS["jam_" + name][1] and name in _MOVERS:
+            self._carried = None
+        return result
+
+    def stress_states(self, *, progress: Any = None) -> tuple[np.ndarray, np.ndarray, float]:
+        """States of self-stress from positions alone: force (contacts,), basis (m, contacts), residual."""
+        handle, contacts = self.handle, self.report.contacts
+        with self._dispatch.to(self._recorder(reporter(progress))):
+            m = raw.jam_stress_states(handle, None, None)[-1]
+            force, basis = np.empty(contacts if m else 0), np.empty((m, contacts))
+            status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
+        self.status = StatusCode(status)
+        return force, basis, residual
 
 
 def _restore(positions: Any, diameters: Any, velocities: Any, options: dict, results: Any, trace: list) -> System:
@@ -445,19 +470,27 @@ def _restore(positions: Any, diameters: Any, velocities: Any, options: dict, res
     return made
 
 
+_MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry"}
+_HIDDEN = {"destroy", "set_progress", "set_log", "copy", "positions_view", "velocities_view", "diameters_view", "set_positions",
+           "set_velocities", "info_get", "report_get"}
+
+
 def _add_methods() -> None:
-    """A method for every other call of the header that fills at most one array."""
-    for name, (doc, table) in CALLS.items():
-        short = name.removeprefix("jam_").removesuffix("_get")
-        roles = [a[1] for a in table]
-        if name == "jam_destroy" or hasattr(System, short) or roles.count("array_out") > 1 or {"callback", "new_handle", "view", "handle"} & set(roles):
+    """A method for every call of the header that has none yet: new functions appear by themselves."""
+    for name, (doc, _, table) in CALLS.items():
+        short = name.removeprefix("jam_")
+        method_name = short.removesuffix("_get")
+        if hasattr(System, method_name) or short in _HIDDEN or {"callback", "new_handle", "view"} & {a[1] for a in table}:
             continue
 
-        def method(self: System, *args: Any, _name: str = name.removeprefix("jam_"), **named: Any) -> Any:
+        def method(self: System, *args: Any, _name: str = short, **named: Any) -> Any:
             return self.call(_name, *args, **named)
 
-        method.__name__, method.__qualname__, method.__doc__ = short, f"System.{short}", doc
-        setattr(System, short, method)
+        inputs = [a[0] for a in table if a[1] in _calls.INPUTS and a[1] != "struct_in"]
+        members = [k for a in table if a[1] == "struct_in" for k in _calls.OPTIONS[a[2]]]
+        method.__name__, method.__qualname__ = method_name, f"System.{method_name}"
+        method.__doc__ = f"{method_name}({', '.join(inputs + [m + '=' for m in members])})\n\n{doc}"
+        setattr(System, method_name, method)
 
 
 _add_methods()

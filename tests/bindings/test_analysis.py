@@ -1,0 +1,92 @@
+"""Analysis calls from Python: hessian, modes, and the methods that are made from the header."""
+import unittest
+
+import numpy as np
+
+import jam
+
+
+class Network(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.s = jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30)
+        cls.r = cls.s.crunch()
+
+    def test_hessian_is_the_contact_matrix_squared(self):
+        s, h, c = self.s, self.s.hessian(), self.s.contacts
+        where = np.full(s.n, -1)
+        where[s.hessian_map()] = np.arange(self.r.stable)
+        a = np.zeros((len(c), 2 * self.r.stable))
+        for k, (i, j) in enumerate(c.pairs):
+            a[k, 2 * where[i]:2 * where[i] + 2] += c.vectors[k]
+            a[k, 2 * where[j]:2 * where[j] + 2] -= c.vectors[k]
+        np.testing.assert_allclose(h.toarray(), a.T @ a, atol=1e-12)
+        hard = s.hessian("hard").toarray()
+        np.testing.assert_allclose(hard, a.T @ (c.forces[:, None] ** 2 * a), atol=1e-10)
+        u = np.random.default_rng(0).normal(size=(self.r.stable, 2))
+        self.assertAlmostEqual(s.curvature(u, stiffness="hard") / (u.reshape(-1) @ hard @ u.reshape(-1)), 1, 10)
+
+    def test_modes(self):
+        s, h = self.s, self.s.hessian()
+        every, low = s.modes(which="all"), s.modes(5)
+        self.assertEqual((len(every), len(low), low.status), (2 * self.r.stable, 5, 0))
+        np.testing.assert_allclose(every.values, np.linalg.eigvalsh(h.toarray()), atol=1e-10)
+        np.testing.assert_allclose(low.values, every.values[2:7], atol=1e-9)
+        v = low.vectors.reshape(5, -1)
+        np.testing.assert_allclose(h @ v.T, v.T * low.values, atol=1e-7)
+        np.testing.assert_allclose(low.participation, (low.vectors ** 2).sum(2).__pow__(2).sum(1), rtol=1e-9)
+        with self.assertRaises(ValueError):
+            s.modes(which="some")
+
+    def test_made_methods(self):
+        s, r = self.s, self.r
+        gap, pair = s.gaps(1.0, True)
+        self.assertEqual(pair.shape, (len(gap), 2))
+        self.assertTrue((np.diff(gap) >= 0).all() and gap[-1] <= 1)
+        self.assertAlmostEqual(gap[0] / r.min_gap, 1, 6)
+        made = s.sphere_structure(weighted=True)
+        self.assertEqual((made.c.shape, made.s.shape), ((s.n, 2), (s.n,)))
+        self.assertLess(np.abs(made.c).max(), 1e-8)  # weighted by force it is the net force
+        self.assertEqual(len(s.contact_classes()), r.contacts)
+        floppy = s.floppy_modes()
+        self.assertEqual(len(floppy.s_plus), r.contacts)
+        self.assertEqual(s.floppy_mode(3).shape, (r.stable, 2))
+        g = s.pair_correlation(a=-1, b=-1, r_max=2.0, bins=30)
+        self.assertEqual(len(g), 30)
+        kinds = np.arange(s.n) % 2
+        self.assertTrue((s.pair_correlation(kinds, 0, 1, 2.0, 30) != g).any())
+        moduli = s.moduli()
+        self.assertGreater(moduli.bulk, 0)
+        self.assertIn("bulk_affine", repr(moduli))
+        dos = s.density_of_states(points=50, vectors=8)
+        self.assertEqual(len(dos.omega), 50)
+        self.assertAlmostEqual(np.trapz(dos.density, dos.omega), 1, 0)
+        force, basis, residual = s.stress_states()
+        np.testing.assert_allclose(force, s.forces, atol=1e-8)
+        self.assertEqual(basis.shape, (1, r.contacts))
+        self.assertLess(residual, 1e-8)
+        comparison, moved = s.compare(s.copy())
+        self.assertEqual((comparison.overlap, np.abs(moved).max()), (1.0, 0.0))
+        self.assertIsInstance(s.crystal_score(), float)
+
+    def test_contacts_from_geometry(self):
+        s = jam.System.from_arrays(self.s.positions, self.s.diameters)
+        report = s.contacts_from_geometry()
+        self.assertEqual((report.contacts, report.self_stresses), (self.r.contacts, 1))
+        np.testing.assert_allclose(np.sort(s.forces), np.sort(self.s.forces), atol=1e-8)
+
+    def test_wrong_calls(self):
+        with self.assertRaisesRegex(TypeError, "h_max"):
+            self.s.gaps()
+        with self.assertRaisesRegex(TypeError, "stifness"):
+            self.s.curvature(np.zeros(3), stifness="hard")
+        with self.assertRaises(jam.errors.ArgumentError):
+            self.s.curvature(np.zeros(3))
+        with self.assertRaises(jam.errors.ArgumentError):
+            self.s.gaps(-1.0, True)
+        with self.assertRaises(jam.errors.StateError):
+            jam.System.random(n=10).gaps(1.0, True)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,203 @@
+// Times and errors of the analysis. usage: analysis [PACKING]   (a packing to crunch; default: the shared N = 1024 file)
+// JSON on stdout. Wall times are medians of `runs`; cpu is the process time of the same run, which other work on the machine
+// does not stretch.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "analysis/floppy.hpp"
+#include "analysis/geometry.hpp"
+#include "analysis/modes.hpp"
+#include "analysis/spectrum.hpp"
+#include "analysis/structure.hpp"
+#include "capi/system.hpp"
+
+using namespace jam;
+
+namespace {
+
+struct Time {
+  double wall, cpu;
+};
+double cpu_now() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+Time timed(int runs, const std::function<void()> &f) {
+  std::vector<std::pair<double, double>> t;
+  for (int k = 0; k < runs; ++k) {
+    const double w = now_seconds(), c = cpu_now();
+    f();
+    t.push_back({now_seconds() - w, cpu_now() - c});
+  }
+  std::sort(t.begin(), t.end());
+  return {t[t.size() / 2].first, t[t.size() / 2].second};
+}
+void show(const char *name, Time t, const char *tail = ",") { std::printf("  \"%s\": {\"wall\": %.4g, \"cpu\": %.4g}%s\n", name, t.wall, t.cpu, tail); }
+double peak_mb() {
+  rusage u{};
+  getrusage(RUSAGE_SELF, &u);
+  return static_cast<double>(u.ru_maxrss) / 1024.0;
+}
+
+Modes modes_of(const StableGraph &g, int32_t which, int64_t count, double tolerance) {
+  jam_modes_options o = default_modes_options();
+  o.which = which;
+  o.count = count;
+  o.tolerance = tolerance;
+  Monitor monitor;
+  Modes out;
+  find_modes(g, contact_weights(g, 1.0, default_hessian_options()), o, monitor, out);
+  return out;
+}
+
+// copies^d copies side by side: a larger network with the same contacts.
+void tile(const Packing &p, const ContactNetwork &net, int copies, Packing &q, ContactNetwork &out) {
+  const int d = p.dim;
+  q = p;
+  q.box = p.box * copies;
+  q.position.clear();
+  q.diameter.clear();
+  int total = 1;
+  for (int k = 0; k < d; ++k) total *= copies;
+  auto cell = [&](int c, int k) { for (; k > 0; --k) c /= copies; return c % copies; };
+  for (int c = 0; c < total; ++c)
+    for (size_t i = 0; i < p.n(); ++i) {
+      for (int k = 0; k < d; ++k) q.position.push_back(p.position[i * d + k] + cell(c, k) * p.box);
+      q.diameter.push_back(p.diameter[i]);
+    }
+  for (int c = 0; c < total; ++c)
+    for (size_t e = 0; e < net.size(); ++e) {
+      // r = x_i - x_j + offset: j stands offset / box cells before i's cell
+      int to = 0, stride = 1;
+      for (int k = 0; k < d; ++k, stride *= copies) {
+        int m = cell(c, k) - static_cast<int>(std::lround(net.pairs.offset[e * d + k] / p.box));
+        const int wrapped = (m % copies + copies) % copies;
+        out.pairs.offset.push_back((wrapped - m) * p.box);
+        to += wrapped * stride;
+      }
+      out.pairs.i.push_back(static_cast<int32_t>(c * p.n() + net.pairs.i[e]));
+      out.pairs.j.push_back(static_cast<int32_t>(to * p.n() + net.pairs.j[e]));
+      out.force.push_back(net.force[e]);
+    }
+}
+
+// Largest distance between the cumulative spectrum of the exact modes and of the kernel polynomial density.
+double cumulative_error(const std::vector<double> &lambda, size_t translations, const DensityOfStates &dos) {
+  double sum = 0.0, worst = 0.0;
+  const double step = dos.omega.size() > 1 ? dos.omega[1] - dos.omega[0] : 0.0;
+  for (size_t k = 0; k < dos.omega.size(); ++k) {
+    sum += dos.density[k] * step;
+    const double edge = dos.omega[k] + 0.5 * step;
+    const auto below = std::upper_bound(lambda.begin(), lambda.end(), edge * edge) - lambda.begin();
+    worst = std::max(worst, std::fabs(sum - (static_cast<double>(below) - static_cast<double>(translations)) / static_cast<double>(lambda.size() - translations)));
+  }
+  return worst;
+}
+
+double force_error(const std::vector<double> &f, const std::vector<double> &exact) {
+  double mean = 0.0, worst = 0.0;
+  for (double v : f) mean += v / static_cast<double>(f.size());
+  for (size_t k = 0; k < f.size(); ++k) worst = std::max(worst, std::fabs(f[k] / mean - exact[k]));
+  return worst;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  jam_system *sys = nullptr;
+  if (jam_read(argc > 1 ? argv[1] : JAM_TEST_SHARED "/ls-n1024-d3.dat", nullptr, &sys) != JAM_OK) {
+    std::fprintf(stderr, "%s\n", jam_last_error());
+    return 1;
+  }
+  jam_report report{};
+  report.struct_size = sizeof report;
+  const Time crunch = timed(1, [&] { jam_crunch(sys, nullptr, &report); });
+  const std::unique_ptr<jam_system, void (*)(jam_system *)> owner(sys, jam_destroy);
+  const Packing &p = sys->packing;
+  const ContactNetwork &net = sys->contacts;
+  const StableGraph g = make_graph(p, net);
+  std::printf("{\n  \"n\": %zu, \"dim\": %d, \"contacts\": %zu, \"excess\": %lld,\n", p.n(), p.dim, net.size(), static_cast<long long>(report.excess_contacts));
+  show("crunch", crunch);
+  auto geometry = [&] { contacts_from_geometry(p, default_geometry_options()); };
+  auto gaps = [&] { find_gaps(p, &net, 1.0, true); };
+  auto classes = [&] { classify_contacts(p, net); };
+  auto structure = [&] { sphere_structure(p, net, false), sphere_structure(p, net, true), contact_dots(p, net, false); };
+  show("contacts_and_forces", timed(7, geometry));
+  show("gaps", timed(7, gaps));
+  show("classes", timed(7, classes));
+  show("structure", timed(7, structure));
+  show("contacts_forces_gaps_classes_structure", timed(7, [&] { geometry(), gaps(), classes(), structure(); }));
+  show("lowest_100", timed(3, [&] { modes_of(g, JAM_MODES_LOWEST, 100, 1e-10); }));
+  Monitor monitor;
+  show("floppy_all", timed(1, [&] { FloppyModes f; all_floppy_modes(p, net, g, monitor, f); }));
+  Modes all;
+  const Time dense = timed(1, [&] { all = modes_of(g, JAM_MODES_ALL, 1, 1e-10); });
+  show("full_spectrum_with_vectors", dense);
+
+  // ---- spectrum: error against time
+  // Reference: another Krylov space, Rayleigh quotients summed over contacts (relative accuracy).
+  const size_t t = static_cast<size_t>(g.dim), low = 20;
+  const Modes exact = modes_of(g, JAM_MODES_LOWEST, 137, 1e-14);
+  auto relative = [&](const std::vector<double> &l, size_t from) {
+    double worst = 0.0;
+    for (size_t k = 0; k < low && k + from < l.size(); ++k) worst = std::max(worst, std::fabs(l[k + from] / exact.lambda[k] - 1.0));
+    return worst;
+  };
+  std::printf("  \"spectrum\": [\n    {\"method\": \"dense\", \"seconds\": %.4g, \"error\": %.3g}", dense.cpu, relative(all.lambda, t));
+  for (int count : {20, 100, 300, 700}) {
+    Modes m;
+    const Time s = timed(1, [&] { m = modes_of(g, JAM_MODES_LOWEST, count, 1e-10); });
+    std::printf(",\n    {\"method\": \"lanczos\", \"count\": %d, \"seconds\": %.4g, \"error\": %.3g}", count, s.cpu, relative(m.lambda, 0));
+  }
+  const BlockMatrix h = make_hessian(g, contact_weights(g, 1.0, default_hessian_options()));
+  for (int vectors : {4, 16, 64, 256}) {
+    jam_dos_options o = default_dos_options();
+    o.moments = 256;
+    o.vectors = vectors;
+    o.points = 1024;  // finer than the kernel, so that its sum is its integral
+    DensityOfStates dos;
+    const Time s = timed(1, [&] { dos = DensityOfStates(); density_of_states(g, h, o, monitor, dos); });
+    std::printf(",\n    {\"method\": \"kernel polynomial\", \"vectors\": %d, \"seconds\": %.4g, \"cumulative_error\": %.3g}", vectors, s.cpu, cumulative_error(all.lambda, t, dos));
+  }
+
+  // ---- forces: error against time, relative to the mean force
+  std::vector<double> reference(net.size());  // from a random vector: another path to the same line
+  for (size_t k = 0; k < reference.size(); ++k) reference[k] = 1.0 + std::sin(1.0 + static_cast<double>(k * k));
+  const NullSpace space(g);
+  space.project(reference, 12);
+  double mean = 0.0;
+  for (double v : reference) mean += v / static_cast<double>(reference.size());
+  for (double &v : reference) v /= mean;
+  std::printf("\n  ],\n  \"forces\": [\n    {\"method\": \"multipliers\", \"seconds\": %.4g, \"error\": %.3g, \"residual\": %.3g}", crunch.cpu,
+              force_error(net.force, reference), balance_residual(g, net.force.data()));
+  for (int refinements : {0, 1, 2, 4}) {
+    std::vector<double> f;
+    const Time s = timed(3, [&] {
+      const NullSpace again(g);
+      f.assign(net.size(), 1.0);
+      again.project(f, refinements);
+    });
+    std::printf(",\n    {\"method\": \"null vector\", \"refinements\": %d, \"seconds\": %.4g, \"error\": %.3g, \"residual\": %.3g}", refinements, s.cpu,
+                force_error(f, reference), balance_residual(g, f.data()));
+  }
+  std::printf("\n  ],\n");
+
+  // ---- a larger network: copies of this one (its spectrum is the folded one; cost and memory are those of any network)
+  Packing big;
+  ContactNetwork many;
+  tile(p, net, 2, big, many);
+  const StableGraph wide = make_graph(big, many);
+  std::printf("  \"tiled_n\": %zu,\n", big.n());
+  show("tiled_lowest_100", timed(1, [&] { modes_of(wide, JAM_MODES_LOWEST, 100, 1e-10); }));
+  show("tiled_forces", timed(1, [&] { const NullSpace s(wide); std::vector<double> f(wide.contacts(), 1.0); s.project(f); }));
+  std::printf("  \"peak_mb\": %.0f\n}\n", peak_mb());
+  return 0;
+}

@@ -17,7 +17,11 @@ constexpr double keep = 0.95;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 constexpr int correctors = 3;
-// Newton steps without a better duality gap before the path gives up: near a buckling network it wanders.
+// Short steps or forces far from balance say that the barrier sank faster than the network could follow: warm it up by
+// this factor instead. That is what keeps the path from wandering along a buckling network. Not while dilute.
+constexpr double reheat = 1.5, short_step = 0.1, unbalanced_forces = 0.2, warm_below = 0.02;
+// Newton steps without progress before the path gives up. Progress is a lower duality gap, or growth by a fair part of
+// the gap: along a buckling network the gap stays and the density rises.
 constexpr int patience = 60;
 
 class Path {
@@ -31,15 +35,17 @@ class Path {
     open_gaps();
     list_pairs(false);
     int idle = 0;
-    double best = std::numeric_limits<double>::infinity();
+    double best = std::numeric_limits<double>::infinity(), reference = unit_now();
     while (measure()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
       monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e balance %.1e phi %.12f pairs %zu steps %.2f %.2f moved %.1e centring %.2f",
                    out.factorisations, gap_, balance_, packing_fraction(p_), pairs_.size(), alpha_p_, alpha_d_, last_step_, centring_);
       out.reached = gap_ <= control_.target && balance_ < 1e-3;
-      idle = gap_ < 0.9 * best ? 0 : idle + 1;
-      best = std::min(best, gap_);
+      const double grown = std::log(unit_now() / reference);
+      const bool progress = gap_ < 0.9 * best || grown > 0.1 * gap_;
+      idle = progress ? 0 : idle + 1;
+      if (progress) best = std::min(best, gap_), reference = unit_now();
       if (out.reached || idle > patience || out.factorisations >= control_.max_factorisations ||
           monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
         break;
@@ -72,6 +78,8 @@ class Path {
     const double jammed = p_.dim == 2 ? 0.84 : 0.9 * std::pow(2.0, 3.0 - p_.dim);
     return std::max(0.3, 1.5 * (std::pow(packing_fraction(p_), -1.0 / p_.dim) - std::pow(jammed, -1.0 / p_.dim)) + 0.25);
   }
+
+  double unit_now() const { return p_.diameter.front(); }  // diameters grow in a common factor
 
   // New list; multipliers of pairs that stay are kept, new ones start on the central path.
   void list_pairs(bool warm) {
@@ -192,6 +200,8 @@ class Path {
     double after = 0.0;
     for (size_t k = 0; k < rows; ++k) after += (y_[k] + ad * main_.y[k]) * (lp_.c[k] + ap * main_.w[k]);
     centring_ = std::min(std::max(std::pow(after / gap_, 3), 1e-6), 0.9);
+    balanced_once_ = balanced_once_ || balance_ < unbalanced_forces;
+    if (balanced_once_ && gap_ < warm_below && (std::min(alpha_p_, alpha_d_) < short_step || balance_ > unbalanced_forces)) centring_ = reheat;
     for (size_t k = 0; k < rows; ++k) target_[k] = centring_ * mu - y_[k] * lp_.c[k] - ap * ad * main_.w[k] * main_.y[k];
     solve(true, main_);
     centre(centring_ * mu);
@@ -269,6 +279,7 @@ class Path {
   double unit_ = 1.0, reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double gap_ = 0.0, mu_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, centring_ = 0.0;
+  bool balanced_once_ = false;
 };
 
 }  // namespace

@@ -1,0 +1,298 @@
+"""
+    Jam
+
+Jammed packings of hard spheres, made and analysed by libjam.
+
+    using Jam
+    s = System(n = 1024, dim = 3, seed = 1)
+    compress!(s)
+    report = crunch!(s)
+    forces(s)
+
+Arrays are d-by-n matrices: the bytes of C's (n, d). Indices are 1-based here, 0-based in `Jam.raw`-level calls (jam_*).
+The library is found as libjam.so.0, or by the environment variable JAM_LIBRARY when the package is precompiled.
+"""
+module Jam
+
+const libjam = get(ENV, "JAM_LIBRARY", "libjam.so.0")
+
+include("raw.jl")
+
+export System, JamError, run!, compress!, crunch!, cancel, info, report, positions, diameters, velocities,
+       set_positions!, set_velocities!, scale_diameters!, contacts, contact_vectors, contact_gaps, forces,
+       coordination, hessian_rows, modes, call_array
+
+"A call failed; the system is as it was before. `status` is the code, `text` the library's."
+struct JamError <: Exception
+    status::Int32
+    text::String
+end
+Base.showerror(io::IO, e::JamError) = print(io, "JamError ", e.status, ": ", e.text)
+
+"Throws for a status below zero, else returns it (> 0: stopped early, the state is valid)."
+function check(status::Integer)
+    status >= 0 && return Int32(status)
+    text = unsafe_string(jam_last_error())
+    isempty(text) && (text = unsafe_string(jam_status_string(status)))
+    throw(JamError(status, text))
+end
+
+"N spheres in a periodic cube; owns the C handle, which a finalizer frees."
+mutable struct System
+    handle::Ptr{Cvoid}
+    status::Int32                 # of the last call
+    callback::Any                 # of the running call
+    thrown::Any                   # by the callback
+    function System(handle::Ptr{Cvoid})
+        s = new(handle, JAM_OK, nothing, nothing)
+        finalizer(close, s)
+        return s
+    end
+end
+
+"Frees the system; any other use is then an error. Views of it must not be used any more."
+function Base.close(s::System)
+    s.handle == C_NULL && return nothing
+    jam_destroy(s.handle)
+    s.handle = C_NULL
+    return nothing
+end
+
+function handle(s::System)
+    s.handle == C_NULL && throw(ArgumentError("the system is closed"))
+    return s.handle
+end
+
+"An option struct of the library's defaults, changed by the keywords."
+function options(::Type{T}, init, given) where {T}
+    o = T()
+    check(init(o, sizeof(T)))
+    for (name, value) in pairs(given)
+        hasfield(T, name) || throw(ArgumentError("unknown option $name; there are $(join(fieldnames(T)[2:end], ", "))"))
+        setfield!(o, name, convert(fieldtype(T, name), value))
+    end
+    return o
+end
+
+function create(given, x, sizes)
+    o = options(jam_create_options, jam_create_options_init, given)
+    out = Ref{Ptr{Cvoid}}(C_NULL)
+    check(jam_create(o, x, x === nothing ? 0 : length(x), sizes, sizes === nothing ? 0 : length(sizes), out))
+    return System(out[])
+end
+
+dense(x) = convert(Array{Cdouble}, collect(x))
+
+"""
+    System(; n, dim, seed, packing_fraction, diameters, box, model, mk_zeta)
+
+Random sequential start; of `diameters` only the ratios count.
+"""
+System(; diameters = nothing, given...) = create(given, nothing, diameters === nothing ? nothing : dense(diameters))
+
+"""
+    System(positions, diameters; box, overlap, seed, model, mk_zeta)
+
+From a d-by-n matrix of positions and n diameters (or one).
+"""
+function System(x::AbstractMatrix, diameters; given...)
+    return create((; n = size(x, 2), dim = size(x, 1), given...), dense(x), diameters isa Number ? [Cdouble(diameters)] : dense(diameters))
+end
+
+"""
+    System(path; box, overlap, seed)
+
+From a file, plain text or extended XYZ.
+"""
+function System(path::AbstractString; given...)
+    o = options(jam_create_options, jam_create_options_init, given)
+    out = Ref{Ptr{Cvoid}}(C_NULL)
+    check(jam_read(path, o, out))
+    return System(out[])
+end
+
+function Base.copy(s::System)
+    out = Ref{Ptr{Cvoid}}(C_NULL)
+    check(jam_copy(handle(s), out))
+    return System(out[])
+end
+
+"Writes the packing, 17 digits; format: one of JAM_FORMAT_AUTO, JAM_FORMAT_PLAIN, JAM_FORMAT_XYZ."
+Base.write(path::AbstractString, s::System; format = JAM_FORMAT_AUTO) = (check(jam_write(handle(s), path, format)); nothing)
+
+function info(s::System)
+    made = jam_info()
+    check(jam_info_get(handle(s), made))
+    return made
+end
+
+function Base.show(io::IO, s::System)
+    s.handle == C_NULL && return print(io, "System(closed)")
+    i = info(s)
+    print(io, "System(n = ", i.n, ", dim = ", i.dim, ", packing_fraction = ", i.packing_fraction, ", box = ", i.box, ")")
+end
+
+function view_of(s::System, f)
+    p, count = Ref{Ptr{Cdouble}}(C_NULL), Ref{Csize_t}(0)
+    check(f(handle(s), p, count))
+    return unsafe_wrap(Array, p[], Int(count[]))
+end
+
+"d-by-n copy of the positions in [0, box)."
+positions(s::System) = reshape(copy(view_of(s, jam_positions_view)), Int(info(s).dim), :)
+"d-by-n copy of the velocities, kT/m = 1."
+velocities(s::System) = reshape(copy(view_of(s, jam_velocities_view)), Int(info(s).dim), :)
+"Copy of the n diameters."
+diameters(s::System) = copy(view_of(s, jam_diameters_view))
+
+function set_positions!(s::System, x::AbstractMatrix)
+    y = dense(x)
+    check(jam_set_positions(handle(s), y, length(y)))
+    return s
+end
+function set_velocities!(s::System, v::AbstractMatrix)
+    y = dense(v)
+    check(jam_set_velocities(handle(s), y, length(y)))
+    return s
+end
+scale_diameters!(s::System, factor) = (check(jam_scale_diameters(handle(s), factor)); s)
+
+# Called by C on the calling task's thread. Nothing may be thrown across C: it is kept and thrown again behind it.
+function progress_c(p::Ptr{jam_progress}, user::Ptr{Cvoid})::Int32
+    s = unsafe_pointer_to_objref(user)::System
+    s.thrown === nothing || return Int32(1)
+    try
+        return Int32(s.callback(copy_struct(p)) === true)
+    catch e
+        s.thrown = (e, catch_backtrace())
+        return Int32(1)
+    end
+end
+
+function copy_struct(p::Ptr{T}) where {T}
+    made = T()
+    GC.@preserve made unsafe_copyto!(Ptr{UInt8}(pointer_from_objref(made)), Ptr{UInt8}(p), sizeof(T))
+    return made
+end
+
+# Runs f(handle) with the callback set; progress(p) returns true to stop.
+function verb(f, s::System, progress)
+    h = handle(s)
+    if progress === nothing
+        s.status = GC.@preserve s check(f(h))
+        return nothing
+    end
+    s.callback, s.thrown = progress, nothing
+    trampoline = @cfunction(progress_c, Int32, (Ptr{jam_progress}, Ptr{Cvoid}))
+    GC.@preserve s begin
+        check(jam_set_progress(h, trampoline, pointer_from_objref(s)))
+        status = f(h)
+        jam_set_progress(h, nothing, nothing)
+    end
+    s.callback = nothing
+    if s.thrown !== nothing
+        e, s.thrown = s.thrown, nothing
+        throw(e[1])
+    end
+    s.status = check(status)
+    return nothing
+end
+
+"""
+    run!(s; collisions_per_particle, wall_time, progress)
+
+Event-driven NVE dynamics; returns a jam_md_report. `s.status > 0` says that it stopped early.
+"""
+function run!(s::System; progress = nothing, given...)
+    o, made = options(jam_run_options, jam_run_options_init, given), jam_md_report()
+    verb(h -> jam_run(h, o, made), s, progress)
+    return made
+end
+
+"""
+    compress!(s; growth_rate, pressure, packing_fraction, collisions_per_particle, wall_time, progress)
+
+Lubachevsky-Stillinger growth; without options the two-stage protocol. Returns a jam_md_report.
+"""
+function compress!(s::System; progress = nothing, given...)
+    o = isempty(given) ? nothing : options(jam_compress_options, jam_compress_options_init, given)
+    made = jam_md_report()
+    verb(h -> jam_compress(h, o, made), s, progress)
+    return made
+end
+
+"""
+    crunch!(s; max_lps, gain_tolerance, ..., progress)
+
+Iterated linear programming down to the jamming point; returns the jam_report with the certificate.
+"""
+function crunch!(s::System; progress = nothing, given...)
+    o, made = options(jam_crunch_options, jam_crunch_options_init, given), jam_report()
+    verb(h -> jam_crunch(h, o, made), s, progress)
+    return made
+end
+
+"Stops the call that runs on s in another thread; without one, the next call."
+cancel(s::System) = (check(jam_cancel(handle(s))); nothing)
+
+"Report of the last crunch."
+function report(s::System)
+    made = jam_report()
+    check(jam_report_get(handle(s), made))
+    return made
+end
+
+"""
+    call_array(T, f, s, args...)
+
+Any C function that fills one array: asks for the size, then fills. `call_array(Cdouble, Jam.jam_forces, s)`.
+"""
+function call_array(::Type{T}, f, s::System, args...) where {T}
+    needed = Ref{Csize_t}(0)
+    check(f(handle(s), args..., nothing, 0, needed))
+    out = Vector{T}(undef, Int(needed[]))
+    s.status = check(f(handle(s), args..., out, length(out), needed))
+    return out
+end
+
+"2-by-contacts matrix of sphere indices, from 1."
+contacts(s::System) = reshape(call_array(Int32, jam_contacts, s), 2, :) .+ Int32(1)
+"d-by-contacts matrix of unit vectors, from the second to the first sphere."
+contact_vectors(s::System) = reshape(call_array(Cdouble, jam_contact_vectors, s), Int(info(s).dim), :)
+contact_gaps(s::System) = call_array(Cdouble, jam_contact_gaps, s)
+"Contact forces, mean 1."
+forces(s::System) = call_array(Cdouble, jam_forces, s)
+"Contacts of each sphere, 0 for rattlers."
+coordination(s::System) = call_array(Int32, jam_coordination, s)
+
+"""
+    hessian_rows(s; stiffness, alpha, prestress) -> (row_start, column, value)
+
+Compressed rows, 1-based; symmetric, so `SparseMatrixCSC(m, m, row_start, column, value)` is the Hessian.
+"""
+function hessian_rows(s::System; given...)
+    o = options(jam_hessian_options, jam_hessian_options_init, given)
+    needed = Ref{Csize_t}(0)
+    check(jam_hessian(handle(s), o, nothing, 0, nothing, 0, nothing, 0, needed))
+    rows = Int(info(s).dim) * length(call_array(Int32, jam_hessian_map, s)) + 1
+    start, column, value = Vector{Int32}(undef, rows), Vector{Int32}(undef, needed[]), Vector{Cdouble}(undef, needed[])
+    check(jam_hessian(handle(s), o, start, length(start), column, length(column), value, length(value), needed))
+    return start .+ Int32(1), column .+ Int32(1), value
+end
+
+"""
+    modes(s, k; which, frequency, progress) -> (values, vectors)
+
+The k modes asked for: omega^2 ascending, and a (d N')-by-k matrix.
+"""
+function modes(s::System, k::Integer; progress = nothing, given...)
+    h = options(jam_hessian_options, jam_hessian_options_init, (;))
+    o = options(jam_modes_options, jam_modes_options_init, (; count = k, given...))
+    m = Int(info(s).dim) * length(call_array(Int32, jam_hessian_map, s))
+    count = o.which == JAM_MODES_ALL ? m : min(k, m)
+    values, vectors, needed = Vector{Cdouble}(undef, count), Matrix{Cdouble}(undef, m, count), Ref{Csize_t}(0)
+    verb(c -> jam_modes(c, h, o, values, length(values), vectors, length(vectors), nothing, 0, needed), s, progress)
+    return values[1:needed[]], vectors[:, 1:needed[]]
+end
+
+end # module

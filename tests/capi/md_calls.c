@@ -1,0 +1,345 @@
+/* jam_run and jam_compress: arguments, statuses, edge cases, cancelling. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static jam_system *make(int64_t n, int32_t dim, double fraction) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n;
+  o.dim = dim;
+  o.packing_fraction = fraction;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_md_report empty_report(void) {
+  jam_md_report r;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  return r;
+}
+
+static double fraction_of(const jam_system *sys) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  return info.packing_fraction;
+}
+
+static void says(const char *word) {
+  if (!strstr(jam_last_error(), word)) print_error("'%s' does not name %s\n", jam_last_error(), word);
+  assert_non_null(strstr(jam_last_error(), word));
+}
+
+static void refuses_bad_arguments(void **state) {
+  jam_system *sys = make(20, 3, 0.2);
+  jam_run_options r;
+  jam_compress_options c;
+  jam_md_report report = empty_report();
+  const double bad[] = {0.0, -1.0, NAN};
+  int k;
+  (void)state;
+  assert_int_equal(jam_run_options_init(NULL, sizeof r), JAM_E_NULL);
+  assert_int_equal(jam_run_options_init(&r, 2), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_compress_options_init(NULL, sizeof c), JAM_E_NULL);
+  assert_int_equal(jam_compress_options_init(&c, sizeof c + 8), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_run(NULL, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_compress(NULL, NULL, NULL), JAM_E_NULL);
+  report.struct_size = 0;
+  assert_int_equal(jam_run(sys, NULL, &report), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_compress(sys, NULL, &report), JAM_E_STRUCT_SIZE);
+  for (k = 0; k < 3; ++k) {
+    jam_run_options_init(&r, sizeof r);
+    r.collisions_per_particle = bad[k];
+    assert_int_equal(jam_run(sys, &r, NULL), JAM_E_ARGUMENT);
+    says("collisions_per_particle");
+    jam_run_options_init(&r, sizeof r);
+    r.wall_time = bad[k];
+    assert_int_equal(jam_run(sys, &r, NULL), JAM_E_ARGUMENT);
+    says("wall_time");
+    jam_compress_options_init(&c, sizeof c);
+    c.growth_rate = bad[k];
+    assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
+    says("growth_rate");
+    jam_compress_options_init(&c, sizeof c);
+    c.pressure = bad[k];
+    assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
+    says("pressure");
+    jam_compress_options_init(&c, sizeof c);
+    c.packing_fraction = bad[k];
+    assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
+    says("packing_fraction");
+  }
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = INFINITY;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
+  jam_run_options_init(&r, sizeof r);
+  r.struct_size = 4000;
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STRUCT_SIZE);
+  assert_true(fabs(fraction_of(sys) - 0.2) < 1e-12);
+  jam_destroy(sys);
+}
+
+static void one_sphere_and_rest(void **state) {
+  jam_system *sys = make(1, 3, 0.1);
+  jam_md_report report = empty_report();
+  double zero[60] = {0.0};
+  (void)state;
+  assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
+  assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
+  /* Growing ends when the sphere touches its own images. */
+  assert_int_equal(jam_compress(sys, NULL, &report), JAM_NOT_CONVERGED);
+  assert_true(fabs(fraction_of(sys) - 3.14159265358979 / 6.0) < 1e-9);
+  jam_destroy(sys);
+  sys = make(20, 3, 0.2);
+  assert_int_equal(jam_set_velocities(sys, zero, 60), JAM_OK);
+  assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
+  assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
+  assert_int_equal(report.collisions, 0);
+  assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK); /* draws velocities */
+  jam_destroy(sys);
+}
+
+static void exact_packing_fraction(void **state) {
+  jam_system *sys = make(100, 3, 0.2);
+  jam_compress_options c;
+  jam_md_report report = empty_report();
+  (void)state;
+  jam_compress_options_init(&c, sizeof c);
+  c.packing_fraction = 0.45;
+  c.pressure = 1e12;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  assert_int_equal(report.stop_reason, JAM_STOP_PACKING_FRACTION);
+  assert_true(fabs(fraction_of(sys) - 0.45) < 1e-13);
+  assert_true(fabs(report.packing_fraction - 0.45) < 1e-13);
+  /* A target below the present one is there already. */
+  c.packing_fraction = 0.3;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  assert_int_equal(report.stop_reason, JAM_STOP_PACKING_FRACTION);
+  assert_int_equal(report.collisions, 0);
+  assert_true(fabs(fraction_of(sys) - 0.45) < 1e-13);
+  jam_destroy(sys);
+}
+
+static void exact_collisions(void **state) {
+  jam_system *sys = make(50, 3, 0.3);
+  jam_run_options r;
+  jam_compress_options c;
+  jam_md_report report = empty_report();
+  (void)state;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = 10.0;
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  assert_int_equal(report.stop_reason, JAM_STOP_COLLISIONS);
+  assert_int_equal(report.collisions, 250);
+  assert_true(report.events >= report.collisions && report.time > 0.0 && report.collisions_per_second > 0.0);
+  jam_compress_options_init(&c, sizeof c);
+  c.collisions_per_particle = 4.0;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
+  assert_int_equal(report.stop_reason, JAM_STOP_COLLISIONS);
+  assert_int_equal(report.collisions, 100);
+  jam_destroy(sys);
+}
+
+/* A simple cubic lattice. */
+static jam_system *lattice(double diameter) {
+  double x[27 * 3];
+  jam_create_options o;
+  jam_system *sys = NULL;
+  int k;
+  for (k = 0; k < 27; ++k) {
+    x[3 * k] = (k % 3) / 3.0;
+    x[3 * k + 1] = (k / 3 % 3) / 3.0;
+    x[3 * k + 2] = (k / 9) / 3.0;
+  }
+  jam_create_options_init(&o, sizeof o);
+  o.n = 27;
+  assert_int_equal(jam_create(&o, x, 81, &diameter, 1, &sys), JAM_OK);
+  return sys;
+}
+
+static void starts_at_contact(void **state) {
+  /* A row of three that touch at the start, and one sphere apart. */
+  const double row[] = {0.25, 0.5, 0.5, 0.5, 0.5, 0.5, 0.75, 0.5, 0.5, 0.5, 0.125, 0.125}, diameter = 0.25;
+  jam_system *sys = NULL;
+  jam_create_options o;
+  jam_run_options r;
+  jam_compress_options c;
+  jam_md_report report = empty_report();
+  jam_status status;
+  (void)state;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = 200.0;
+  r.wall_time = 10.0;
+  jam_compress_options_init(&c, sizeof c);
+  c.wall_time = 10.0;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 4;
+  assert_int_equal(jam_create(&o, row, 12, &diameter, 1, &sys), JAM_OK);
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  assert_true(report.max_overlap < 1e-14 && report.energy_drift < 1e-12);
+  jam_destroy(sys);
+  assert_int_equal(jam_create(&o, row, 12, &diameter, 1, &sys), JAM_OK);
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  assert_true(report.max_overlap < 1e-13);
+  jam_destroy(sys);
+  /* All at exact contact: nothing can move, time stands still, and that is said. */
+  sys = lattice(1.0 / 3.0);
+  assert_int_equal(jam_run(sys, &r, &report), JAM_NOT_CONVERGED);
+  assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
+  status = jam_compress(sys, &c, &report);
+  assert_true(status >= 0 && report.seconds < 15.0 && report.max_overlap < 1e-13);
+  jam_destroy(sys);
+  sys = lattice(0.999 / 3.0);
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  assert_true(report.max_overlap < 1e-14 && report.energy_drift < 1e-12);
+  jam_destroy(sys);
+}
+
+/* Compressing what is jammed already ends by pressure, precision or stall, never by a hang. */
+static void jammed_start(void **state) {
+  jam_system *sys = make(32, 3, 0.2);
+  jam_compress_options c;
+  jam_md_report report = empty_report();
+  jam_status status;
+  double before;
+  (void)state;
+  assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK);
+  before = fraction_of(sys);
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 1e-2;
+  c.pressure = 1e19;
+  c.wall_time = 20.0;
+  status = jam_compress(sys, &c, &report);
+  assert_true(status == JAM_PRECISION || status == JAM_NOT_CONVERGED || status == JAM_LIMIT);
+  assert_true(report.seconds < 25.0);
+  assert_true(report.max_overlap < 1e-13);
+  assert_true(fraction_of(sys) >= before && fraction_of(sys) < before + 1e-5);
+  assert_int_equal(jam_compress(sys, &c, &report) >= 0, 1);
+  jam_destroy(sys);
+}
+
+static void fast_growth_ends(void **state) {
+  const double rates[] = {1.0, 10.0, 100.0};
+  int k;
+  (void)state;
+  for (k = 0; k < 3; ++k) {
+    jam_system *sys = make(64, 3, 0.2);
+    jam_compress_options c;
+    jam_md_report report = empty_report();
+    jam_compress_options_init(&c, sizeof c);
+    c.growth_rate = rates[k];
+    c.pressure = 1e6;
+    c.wall_time = 10.0;
+    assert_true(jam_compress(sys, &c, &report) >= 0);
+    assert_true(report.seconds < 12.0);
+    assert_true(report.max_overlap < 1e-12);
+    assert_true(fraction_of(sys) > 0.4);
+    jam_destroy(sys);
+  }
+}
+
+static void wall_limit_ends(void **state) {
+  jam_system *sys = make(200, 3, 0.3);
+  jam_run_options r;
+  jam_compress_options c;
+  jam_md_report report = empty_report();
+  (void)state;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = INFINITY;
+  assert_int_equal(jam_run(sys, &r, &report), JAM_E_ARGUMENT); /* would never end */
+  r.wall_time = 0.05;
+  assert_int_equal(jam_run(sys, &r, &report), JAM_LIMIT);
+  assert_int_equal(report.stop_reason, JAM_STOP_WALL_TIME);
+  assert_true(report.seconds < 2.0);
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 1e-9;
+  c.wall_time = 0.05;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
+  assert_int_equal(report.stop_reason, JAM_STOP_WALL_TIME);
+  jam_destroy(sys);
+}
+
+static int32_t stop_after(const jam_progress *p, void *user) {
+  int *calls = user;
+  assert_int_equal(p->struct_size, sizeof *p);
+  return --*calls < 0;
+}
+
+static void cancels_with_a_valid_state(void **state) {
+  int calls;
+  (void)state;
+  for (calls = 0; calls < 4; ++calls) {
+    jam_system *sys = make(300, 3, 0.2), *again = NULL;
+    const double *x, *d;
+    size_t x_len, d_len;
+    int left = calls;
+    jam_create_options o;
+    jam_md_report report = empty_report();
+    assert_int_equal(jam_set_progress(sys, stop_after, &left), JAM_OK);
+    assert_int_equal(jam_compress(sys, NULL, &report), JAM_CANCELLED);
+    assert_int_equal(report.stop_reason, JAM_STOP_CANCELLED);
+    /* Valid: jam_create takes it without an overlap. */
+    jam_positions_view(sys, &x, &x_len);
+    jam_diameters_view(sys, &d, &d_len);
+    jam_create_options_init(&o, sizeof o);
+    o.n = 300;
+    assert_int_equal(jam_create(&o, x, x_len, d, d_len, &again), JAM_OK);
+    jam_destroy(again);
+    jam_destroy(sys);
+  }
+  {
+    jam_system *sys = make(100, 3, 0.2);
+    jam_cancel(sys);
+    assert_int_equal(jam_run(sys, NULL, NULL), JAM_CANCELLED);
+    assert_int_equal(jam_run(sys, NULL, NULL), JAM_OK);
+    jam_destroy(sys);
+  }
+}
+
+/* Positions in a box of another side are the same packing, scaled. */
+static void box_only_scales(void **state) {
+  jam_system *a = make(60, 3, 0.3), *b = NULL;
+  const double *x, *d, *y, *e;
+  double scaled[180], diameter;
+  size_t len;
+  jam_create_options o;
+  jam_md_report ra = empty_report(), rb = empty_report();
+  int k;
+  (void)state;
+  jam_positions_view(a, &x, &len);
+  for (k = 0; k < 180; ++k) scaled[k] = 8.0 * x[k];
+  jam_diameters_view(a, &d, &len);
+  diameter = 8.0 * d[0];
+  jam_create_options_init(&o, sizeof o);
+  o.n = 60;
+  o.box = 8.0;
+  assert_int_equal(jam_create(&o, scaled, 180, &diameter, 1, &b), JAM_OK);
+  assert_int_equal(jam_compress(a, NULL, &ra), JAM_OK);
+  assert_int_equal(jam_compress(b, NULL, &rb), JAM_OK);
+  assert_true(ra.pressure == rb.pressure && ra.collisions == rb.collisions && ra.time == rb.time);
+  jam_positions_view(b, &y, &len);
+  for (k = 0; k < 180; ++k) assert_true(y[k] == 8.0 * x[k]);
+  jam_diameters_view(b, &e, &len);
+  assert_true(e[0] == 8.0 * d[0]);
+  jam_destroy(a);
+  jam_destroy(b);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(refuses_bad_arguments), cmocka_unit_test(one_sphere_and_rest),        cmocka_unit_test(exact_packing_fraction),
+      cmocka_unit_test(exact_collisions),      cmocka_unit_test(starts_at_contact),          cmocka_unit_test(jammed_start),
+      cmocka_unit_test(fast_growth_ends),      cmocka_unit_test(wall_limit_ends),            cmocka_unit_test(cancels_with_a_valid_state),
+      cmocka_unit_test(box_only_scales),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

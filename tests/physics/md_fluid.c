@@ -1,0 +1,161 @@
+/* Fluids of hard spheres against closed forms, conservation laws, and the approach to jamming. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
+  jam_create_options o;
+  jam_compress_options c;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n;
+  o.dim = dim;
+  o.packing_fraction = 0.5 * fraction;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 0.03;
+  c.pressure = 1e12;
+  c.packing_fraction = fraction;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  return sys;
+}
+
+static jam_md_report run(jam_system *sys, double collisions_per_particle) {
+  jam_run_options r;
+  jam_md_report report;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = collisions_per_particle;
+  report.struct_size = sizeof report;
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  return report;
+}
+
+/* Carnahan and Starling, J. Chem. Phys. 51, 635 (1969). */
+static double carnahan_starling(double f) { return (1 + f + f * f - f * f * f) / pow(1 - f, 3); }
+
+static void equation_of_state(void **state) {
+  const double fractions[] = {0.3, 0.4, 0.49};
+  int k;
+  (void)state;
+  for (k = 0; k < 3; ++k) {
+    jam_system *sys = fluid(1000, 3, fractions[k]);
+    jam_md_report report;
+    double deviation;
+    run(sys, 100);
+    report = run(sys, 1000);
+    deviation = report.pressure / carnahan_starling(fractions[k]) - 1.0;
+    print_message("phi %.2f: p %.4f(%.4f), %+.2f %% of Carnahan-Starling\n", fractions[k], report.pressure, report.pressure_error, 100 * deviation);
+    assert_true(report.pressure_error < 0.005 * report.pressure);
+    assert_true(fabs(deviation) < 0.005 + 2.0 * report.pressure_error / report.pressure);
+    assert_true(fabs(deviation) < 0.01);
+    jam_destroy(sys);
+  }
+}
+
+/* d = 2: Henderson, Mol. Phys. 30, 971 (1975): (1 + phi^2/8) / (1 - phi)^2, good to a few per mille here. d = 4, 5: the
+ * virial series to third order, B3/B2^2 = 0.506340 and 0.414063 (Luban and Baram 1982), at a low packing fraction. */
+static void other_dimensions(void **state) {
+  const double b3[] = {0, 0, 0, 0, 0.506340, 0.414063};
+  jam_system *sys = fluid(500, 2, 0.4);
+  jam_md_report report;
+  int32_t d;
+  (void)state;
+  report = run(sys, 1000);
+  assert_true(fabs(report.pressure / ((1 + 0.02) / 0.36) - 1.0) < 0.01);
+  jam_destroy(sys);
+  for (d = 4; d <= 5; ++d) {
+    const double fraction = 0.02, b2 = pow(2.0, d - 1) * fraction;
+    sys = fluid(500, d, fraction);
+    report = run(sys, 500);
+    /* The fourth term is below 0.3 b2^3. */
+    print_message("d %d: p - 1 = %.4f(%.4f), series %.4f\n", d, report.pressure - 1, report.pressure_error, b2 + b3[d] * b2 * b2);
+    assert_true(fabs(report.pressure - 1.0 - b2 - b3[d] * b2 * b2) < 0.3 * b2 * b2 * b2 + 4.0 * report.pressure_error);
+    jam_destroy(sys);
+  }
+}
+
+static void conservation(void **state) {
+  jam_system *sys = fluid(500, 3, 0.45);
+  const double *v;
+  size_t len, k;
+  double before[3] = {0, 0, 0}, after[3] = {0, 0, 0};
+  jam_md_report report;
+  (void)state;
+  jam_velocities_view(sys, &v, &len);
+  for (k = 0; k < len; ++k) before[k % 3] += v[k];
+  report = run(sys, 500);
+  jam_velocities_view(sys, &v, &len);
+  for (k = 0; k < len; ++k) after[k % 3] += v[k];
+  assert_true(report.energy_drift < 1e-11);
+  for (k = 0; k < 3; ++k) assert_true(fabs(after[k] - before[k]) < 1e-10);
+  for (k = 0; k < 3; ++k) assert_true(fabs(before[k]) < 1e-10); /* zero total momentum */
+  jam_destroy(sys);
+}
+
+/* Turning all velocities round leads back: the dynamics lose nothing but rounding, which grows with time. */
+static void reversible(void **state) {
+  jam_system *sys = fluid(200, 3, 0.3);
+  const double *x, *v;
+  double start[600], back[600];
+  size_t len, k;
+  (void)state;
+  jam_positions_view(sys, &x, &len);
+  memcpy(start, x, sizeof start);
+  run(sys, 6);
+  jam_velocities_view(sys, &v, &len);
+  for (k = 0; k < len; ++k) back[k] = -v[k];
+  assert_int_equal(jam_set_velocities(sys, back, len), JAM_OK);
+  run(sys, 6);
+  jam_positions_view(sys, &x, &len);
+  /* Both halves end at a collision, so the way back ends one collision early: within one free flight. */
+  for (k = 0; k < len; ++k) {
+    double dx = x[k] - start[k];
+    dx -= round(dx);
+    assert_true(fabs(dx) < 0.02);
+  }
+  jam_destroy(sys);
+}
+
+static void free_volume_pressure(void **state) {
+  /* p = d / (1 - phi/phi_J) near jamming: phi_J from two pressures must agree. */
+  jam_create_options o;
+  jam_compress_options c;
+  jam_system *sys = NULL;
+  jam_md_report report;
+  double jammed[3];
+  int k;
+  (void)state;
+  report.struct_size = sizeof report;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 256;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK);
+  assert_true(report.packing_fraction > 0.62 && report.packing_fraction < 0.75);
+  assert_true(report.max_overlap < 1e-13);
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 3e-3;
+  for (k = 0; k < 3; ++k) {
+    c.pressure = pow(10.0, 8 + 2 * k);
+    assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+    jammed[k] = report.packing_fraction / (1.0 - 3.0 / report.pressure);
+    assert_true(report.max_overlap < 1e-13);
+  }
+  assert_true(fabs(jammed[1] / jammed[0] - 1.0) < 1e-7);
+  assert_true(fabs(jammed[2] / jammed[1] - 1.0) < 1e-9);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(equation_of_state), cmocka_unit_test(other_dimensions),     cmocka_unit_test(conservation),
+      cmocka_unit_test(reversible),        cmocka_unit_test(free_volume_pressure),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,217 @@
+// The engine against a naive one (all pairs, all images, long double), and its invariants on awkward systems.
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/create.hpp"
+#include "core/pairs.hpp"
+#include "core/rng.hpp"
+#include "edmd/engine.hpp"
+#include "edmd/md.hpp"
+
+extern "C" {
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+}
+
+using namespace jam;
+
+namespace {
+
+Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.dim = dim;
+  o.n = n;
+  o.seed = seed;
+  o.packing_fraction = fraction;
+  std::vector<double> diameters(n, 1.0);
+  for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
+  Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size());
+  Rng rng(seed, Stream::velocities, 1000000);
+  for (double &v : p.velocity) v = rng.normal();
+  p.has_velocity = true;
+  return p;
+}
+
+MdStage nve(double collisions_per_particle) { return {0.0, 0.0, 0.0, collisions_per_particle, 1e9}; }
+
+// Makes `collisions` on p by looking at every pair and image each time; diameters grow as sigma (1 + rate t).
+void naive(Packing &p, int collisions, long double rate) {
+  const int d = p.dim, n = static_cast<int>(p.n());
+  std::vector<long double> x(p.position.begin(), p.position.end()), v(p.velocity.begin(), p.velocity.end());
+  long double now = 0.0L;
+  int images = 1;
+  for (int c = 0; c < d; ++c) images *= 3;
+  for (int done = 0; done < collisions; ++done) {
+    long double best = 1e30L;
+    int bi = -1, bj = -1, bm = 0;
+    const auto vector = [&](int i, int j, int m, long double *r) {
+      for (int c = 0; c < d; ++c, m /= 3) {
+        r[c] = x[i * d + c] - x[j * d + c];
+        r[c] -= std::round(r[c]);
+        r[c] += m % 3 - 1;
+      }
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j)
+        for (int m = 0; m < images; ++m) {
+          long double r[8], rv = 0, vv = 0, rr = 0;
+          vector(i, j, m, r);
+          for (int c = 0; c < d; ++c) {
+            const long double w = v[i * d + c] - v[j * d + c];
+            rv += r[c] * w, vv += w * w, rr += r[c] * r[c];
+          }
+          const long double s0 = 0.5L * (p.diameter[i] + p.diameter[j]), s = s0 * (1 + rate * now), g = s0 * rate;
+          const long double a = vv - g * g, b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
+          if (b >= 0 || disc < 0) continue;
+          const long double t = gap <= 0 ? 0 : gap / (std::sqrt(disc) - b);
+          if (t < best) best = t, bi = i, bj = j, bm = m;
+        }
+    assert_true(bi >= 0);
+    for (size_t k = 0; k < x.size(); ++k) x[k] += v[k] * best;
+    now += best;
+    // Positions are not wrapped: the image is the one found, nearest plus its shift.
+    long double r[8], rr = 0, rv = 0;
+    long double back[8];
+    for (int c = 0; c < d; ++c) back[c] = x[bi * d + c] - v[bi * d + c] * best - (x[bj * d + c] - v[bj * d + c] * best);
+    for (int c = 0, m = bm; c < d; ++c, m /= 3) {
+      r[c] = x[bi * d + c] - x[bj * d + c] - std::round(back[c]) + (m % 3 - 1);
+      rr += r[c] * r[c], rv += r[c] * (v[bi * d + c] - v[bj * d + c]);
+    }
+    const long double push = 0.5L * (p.diameter[bi] + p.diameter[bj]) * rate - rv / std::sqrt(rr);
+    for (int c = 0; c < d; ++c) {
+      v[bi * d + c] += push * r[c] / std::sqrt(rr);
+      v[bj * d + c] -= push * r[c] / std::sqrt(rr);
+    }
+  }
+  for (size_t k = 0; k < x.size(); ++k) {
+    p.position[k] = wrap(static_cast<double>(x[k] - std::floor(x[k])), 1.0);
+    p.velocity[k] = static_cast<double>(v[k]);
+  }
+  for (double &s : p.diameter) s *= static_cast<double>(1 + rate * now);
+}
+
+double furthest(const Packing &a, const Packing &b) {
+  double worst = 0.0;
+  for (size_t k = 0; k < a.position.size(); ++k) {
+    const double x = a.position[k] - b.position[k];
+    worst = std::fmax(worst, std::fmax(std::fabs(x - std::round(x)), std::fabs(a.velocity[k] - b.velocity[k])));
+  }
+  return worst;
+}
+
+struct Case {
+  int dim, n;
+  double fraction, ratio, growth;
+  int collisions;
+};
+
+void agrees_with_naive_engine(void **) {
+  // Small boxes (several images of one pair) among them.
+  const Case cases[] = {{3, 24, 0.25, 1.0, 0.0, 60}, {3, 24, 0.25, 1.0, 0.05, 60}, {2, 16, 0.35, 3.0, 0.02, 40}, {3, 2, 0.3, 1.0, 0.0, 10},
+                        {2, 2, 0.4, 1.0, 0.01, 10},  {3, 3, 0.3, 1.5, 0.02, 12},   {4, 10, 0.12, 1.0, 0.0, 25},  {5, 6, 0.05, 1.0, 0.01, 10}};
+  for (const Case &c : cases) {
+    Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 5), q = p;
+    EngineOptions o;
+    o.growth = c.growth;
+    Monitor monitor;
+    monitor.begin();
+    auto engine = make_engine(p, o);
+    assert_int_equal(engine->advance(c.collisions, monitor, 1e300), Halt::window);
+    engine->write_state(p);
+    naive(q, c.collisions, c.growth > 0.0 ? c.growth / diameter_mean(q) : 0.0L);
+    const double distance = furthest(p, q);
+    if (!(distance < 1e-7)) print_error("d=%d n=%d growth=%g: %g\n", c.dim, c.n, c.growth, distance);
+    assert_true(distance < 1e-7);
+    assert_true(std::fabs(diameter_mean(p) / diameter_mean(q) - 1.0) < 1e-9);
+  }
+}
+
+// No pair of any image may overlap, lists or not.
+void never_overlaps(void **) {
+  struct {
+    int dim, n;
+    double fraction, ratio, growth, pressure;
+  } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4}, {2, 200, 0.4, 10.0, 0.1, 1e3}, {3, 2, 0.2, 1.0, 0.1, 1e6}, {3, 3, 0.1, 2.0, 0.1, 1e6},
+                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},   {6, 40, 0.01, 1.0, 0.3, 1e3}, {3, 200, 0.2, 1.0, 20.0, 1e3}};
+  for (const auto &c : cases) {
+    Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7);
+    Monitor monitor;
+    monitor.begin();
+    jam_md_report report{};
+    const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 20.0}, monitor, report);
+    const double gap = closest_pair(p).gap;
+    if (status != JAM_OK || !(gap > -1e-14)) print_error("d=%d n=%d ratio=%g: status %d, p %g, gap %g\n", c.dim, c.n, c.ratio, status, report.pressure, gap);
+    assert_int_equal(status, JAM_OK);
+    assert_true(gap > -1e-14);
+    assert_true(report.max_overlap < 1e-13);
+    assert_true(report.pressure >= c.pressure);
+  }
+}
+
+void stops_inside_a_dense_fluid_without_overlap(void **) {
+  Packing p = random_packing(3, 400, 0.3, 10.0, 3);
+  Monitor monitor;
+  monitor.begin();
+  for (int k = 0; k < 20; ++k) {
+    jam_md_report report{};
+    assert_int_equal(run_stage(p, nve(3.7), monitor, report), JAM_OK);
+    assert_true(closest_pair(p).gap > -1e-14);
+  }
+}
+
+void same_bits_twice(void **) {
+  for (int k = 0; k < 2; ++k) {
+    Packing p = random_packing(3, 100, 0.3, 1.4, 11), q = p;
+    Monitor monitor;
+    monitor.begin();
+    jam_md_report report{};
+    const MdStage stage = k == 0 ? nve(50.0) : MdStage{0.01, 1e4, never, never, never};
+    run_stage(p, stage, monitor, report);
+    run_stage(q, stage, monitor, report);
+    assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));
+    assert_memory_equal(p.velocity.data(), q.velocity.data(), p.velocity.size() * sizeof(double));
+  }
+}
+
+void calendar_gives_events_in_order(void **) {
+  const int n = 200;
+  Calendar calendar(n);
+  Rng rng(1, Stream::velocities, 77);
+  for (int i = 0; i < n; ++i) calendar[i].time = rng.uniform() * rng.uniform();
+  calendar.rebuild(0.0, 1e-3);
+  double last = 0.0;
+  int seen = 0;
+  for (int step = 0; step < 5000; ++step) {
+    int32_t i = calendar.top();
+    if (i < 0) {
+      calendar.rebuild(last, 1e-3);
+      i = calendar.top();
+    }
+    assert_true(i >= 0);
+    for (int k = 0; k < n; ++k) assert_true(calendar[k].time >= calendar[i].time);
+    assert_true(calendar[i].time >= last);
+    last = calendar[i].time;
+    calendar[i].time = last + 0.1 * rng.uniform() * rng.uniform();
+    calendar.update(i);
+    const auto other = static_cast<int32_t>(rng.bits() % n);
+    calendar[other].time = last + 0.3 * rng.uniform();
+    calendar.update(other);
+    ++seen;
+  }
+  assert_int_equal(seen, 5000);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(calendar_gives_events_in_order), cmocka_unit_test(agrees_with_naive_engine), cmocka_unit_test(never_overlaps),
+      cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap), cmocka_unit_test(same_bits_twice),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -3,27 +3,34 @@
 #include <mutex>
 
 extern "C" {
+void openblas_set_num_threads(int count);
 int openblas_get_num_threads(void);
-void openblas_set_num_threads(int n);
 }
 
 namespace jam {
 namespace {
-std::mutex lock;
-int inside = 0, host_threads = 1;
+struct Host {
+  std::mutex lock;
+  int guards = 0, threads = 1;
+};
+Host &host() {
+  static Host h;
+  return h;
+}
 }  // namespace
 
 BlasSingleThread::BlasSingleThread() {
-  const std::lock_guard<std::mutex> hold(lock);
-  if (inside++ == 0) {
-    host_threads = openblas_get_num_threads();
-    if (host_threads != 1) openblas_set_num_threads(1);
-  }
+  Host &h = host();
+  const std::lock_guard<std::mutex> hold(h.lock);
+  if (h.guards++ > 0) return;
+  h.threads = openblas_get_num_threads();
+  if (h.threads != 1) openblas_set_num_threads(1);
 }
 
 BlasSingleThread::~BlasSingleThread() {
-  const std::lock_guard<std::mutex> hold(lock);
-  if (--inside == 0 && host_threads != 1) openblas_set_num_threads(host_threads);
+  Host &h = host();
+  const std::lock_guard<std::mutex> hold(h.lock);
+  if (--h.guards == 0 && h.threads != 1) openblas_set_num_threads(h.threads);
 }
 
 }  // namespace jam

@@ -14,19 +14,17 @@ namespace {
 
 constexpr double one = 1.0, minus_one = -1.0, zero = 0.0;
 constexpr int inc = 1;
-// A pivot below this part of its original diagonal is rounding noise.
-constexpr double noise = 1e-16;
 constexpr double huge_pivot = 1e64;  // the square root of what replaces it
 
 // Unblocked Cholesky of the leading columns of a small block; returns the number of replaced pivots.
-int factor_small(double *a, int lda, int columns, const double *original) {
+int factor_small(double *a, int lda, int columns, const double *original, double relative, double least) {
   int replaced = 0;
   for (int j = 0; j < columns; ++j) {
     double *cj = a + static_cast<size_t>(j) * lda;
     double pivot = cj[j];
-    if (pivot > noise * original[j]) {
+    if (pivot > std::max(relative * original[j], least)) {
       pivot = std::sqrt(pivot);
-    } else if (pivot == pivot) {
+    } else if (std::isfinite(pivot)) {  // else it stays and factorise() finds it
       pivot = huge_pivot;
       ++replaced;
     }
@@ -105,7 +103,7 @@ int BlockCholesky::factor_panel(double *panel, int front, int width, const doubl
   for (int j = 0; j < width; j += block) {
     const int now = std::min(block, width - j), rest = front - j - now, inside = width - j - now;
     double *a = panel + static_cast<size_t>(j) * front + j;
-    replaced += factor_small(a, front, now, original + j);
+    replaced += factor_small(a, front, now, original + j, relative_, floor_);
     if (rest == 0) continue;
     dtrsm_("R", "L", "T", "N", &rest, &now, &one, a, &front, a + now, &front);
     if (inside == 0) continue;

@@ -6,13 +6,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "lp/ordering.hpp"
+
 namespace jam {
 
 class BlockCholesky {
  public:
   // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees and
   // large fronts side by side.
-  void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1);
+  void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1,
+               Ordering ordering = Ordering::metis);
+  // The same with the elimination order of the last call, for a graph that changed little; analyse() when n is another.
+  void analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1);
+  // A pivot at or below max(relative * its diagonal entry in A, floor) counts as lost. Default 1e-16 and 0.
+  void set_pivot_rule(double relative, double floor) { relative_ = relative, floor_ = floor; }
   // Numeric part, allocates nothing. diag: n blocks of dim * dim, full and symmetric; off: one block an edge, row-major,
   // rows of ei and columns of ej. A pivot lost to rounding is replaced by a huge number, which fixes that component of the
   // solution at 0 (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, ch. 11). Returns how many were; -1: the
@@ -26,6 +33,7 @@ class BlockCholesky {
   double flops() const { return flops_; }
   size_t bytes() const;
   size_t factor_nonzeros() const { return values_.size(); }
+  size_t supernodes() const { return supernodes_.size(); }
 
  private:
   // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
@@ -63,7 +71,8 @@ class BlockCholesky {
 
   int dim_ = 0, threads_ = 1;
   int32_t n_ = 0;
-  double flops_ = 0.0;
+  double flops_ = 0.0, relative_ = 1e-16, floor_ = 0.0;
+  std::vector<int32_t> order_;  // of the last analyse(), for analyse_keep_order()
   std::vector<int32_t> position_;  // node -> place in the elimination order
   std::vector<Supernode> supernodes_;
   std::vector<int32_t> rows_;

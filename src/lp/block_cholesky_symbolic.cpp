@@ -250,10 +250,17 @@ void BlockCholesky::plan() {
   }
 }
 
-void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads) {
+void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads,
+                            Ordering ordering) {
+  order_ = order_nodes(make_graph(n, ei, ej, edges), ordering);
+  analyse_keep_order(dim, n, ei, ej, edges, threads);
+}
+
+void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads) {
+  if (order_.size() != static_cast<size_t>(n)) return analyse(dim, n, ei, ej, edges, threads);
   dim_ = dim, n_ = n, threads_ = threads;
   const Graph graph = make_graph(n, ei, ej, edges);
-  std::vector<int32_t> order = nested_dissection(graph), place(n);
+  std::vector<int32_t> order = order_, place(n);
   const auto invert = [&] {
     for (int32_t k = 0; k < n; ++k) place[order[k]] = k;
   };

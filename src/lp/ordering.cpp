@@ -44,4 +44,12 @@ std::vector<int32_t> nested_dissection(const Graph &graph) {
   return order;
 }
 
+std::vector<int32_t> order_nodes(const Graph &graph, Ordering which) {
+  if (which == Ordering::metis) return nested_dissection(graph);
+  if (which == Ordering::dissection) return order_by_dissection(graph);
+  std::vector<int32_t> order(graph.size());
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 }  // namespace jam

@@ -1,0 +1,280 @@
+// The block Cholesky on neighbour graphs of sphere packings, N = 256 .. 16384, beside sequential MUMPS (when found at
+// configure time) and the dense matrix product of this machine. JSON to stdout.
+//   cholesky [largest N = 16384] [seconds per measurement = 1] [orderings: all | default]
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+#ifdef JAM_BENCH_MUMPS
+#include <dmumps_c.h>
+#endif
+#include "core/rng.hpp"
+#include "lp/blas.hpp"
+#include "lp/block_cholesky.hpp"
+
+using namespace jam;
+
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+struct Times {
+  double median, least;
+};
+
+Times summary(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return {v[v.size() / 2], v[0]};
+}
+
+template <class F>
+Times timed(double budget, F &&work) {
+  std::vector<double> t;
+  const double begin = now();
+  do {
+    const double t0 = now();
+    work();
+    t.push_back(now() - t0);
+  } while (t.size() < 3 || (now() - begin < budget && t.size() < 25));
+  return summary(t);
+}
+
+struct Points {
+  double box = 1.0;  // edge; positions in [0, box)
+  std::vector<double> x;
+  size_t size() const { return x.size() / 3; }
+};
+
+struct Pairs {
+  std::vector<int32_t> i, j;
+};
+
+Pairs pairs_within(const Points &p, double radius) {
+  const int cells = std::max(1, static_cast<int>(p.box / radius));
+  std::vector<std::vector<int32_t>> cell(static_cast<size_t>(cells) * cells * cells);
+  const auto index = [&](int a, int b, int c) {
+    const auto wrap = [&](int v) { return (v + cells) % cells; };
+    return (static_cast<size_t>(wrap(a)) * cells + wrap(b)) * cells + wrap(c);
+  };
+  const auto of = [&](double v) { return std::min(cells - 1, static_cast<int>(v / p.box * cells)); };
+  for (size_t k = 0; k < p.size(); ++k) cell[index(of(p.x[3 * k]), of(p.x[3 * k + 1]), of(p.x[3 * k + 2]))].push_back(static_cast<int32_t>(k));
+  Pairs out;
+  for (int32_t k = 0; k < static_cast<int32_t>(p.size()); ++k) {
+    std::vector<int32_t> found;
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b)
+        for (int c = -1; c <= 1; ++c)
+          for (int32_t l : cell[index(of(p.x[3 * k]) + a, of(p.x[3 * k + 1]) + b, of(p.x[3 * k + 2]) + c)]) {
+            if (l <= k) continue;
+            double r2 = 0.0;
+            for (int q = 0; q < 3; ++q) {
+              double t = p.x[3 * k + q] - p.x[3 * l + q];
+              t -= p.box * std::nearbyint(t / p.box);
+              r2 += t * t;
+            }
+            if (r2 < radius * radius) found.push_back(l);
+          }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (int32_t l : found) out.i.push_back(k), out.j.push_back(l);
+  }
+  return out;
+}
+
+// Random points pushed apart by soft spheres of the diameter that fills 0.64 of the box: a few sweeps give the local
+// order of a dense packing.
+Points relaxed_points(size_t n) {
+  Points p;
+  p.x.resize(3 * n);
+  Rng rng(static_cast<int64_t>(n), Stream::rsa_positions);
+  for (double &v : p.x) v = rng.uniform();
+  const double sigma = std::cbrt(0.64 * 6.0 / 3.14159265358979 / static_cast<double>(n));
+  std::vector<double> push(3 * n);
+  for (int sweep = 0; sweep < 60; ++sweep) {
+    const Pairs near = pairs_within(p, 1.1 * sigma);
+    std::fill(push.begin(), push.end(), 0.0);
+    for (size_t k = 0; k < near.i.size(); ++k) {
+      double t[3], r2 = 1e-30;
+      for (int q = 0; q < 3; ++q) {
+        t[q] = p.x[3 * near.i[k] + q] - p.x[3 * near.j[k] + q];
+        t[q] -= std::nearbyint(t[q]);
+        r2 += t[q] * t[q];
+      }
+      const double strength = 0.3 * (1.1 * sigma / std::sqrt(r2) - 1.0);
+      for (int q = 0; q < 3; ++q) push[3 * near.i[k] + q] += strength * t[q], push[3 * near.j[k] + q] -= strength * t[q];
+    }
+    for (size_t k = 0; k < p.x.size(); ++k) {
+      p.x[k] += std::max(-0.2 * sigma, std::min(0.2 * sigma, push[k]));
+      p.x[k] -= std::floor(p.x[k]);
+    }
+  }
+  return p;
+}
+
+bool read_shared(Points &p) {
+  std::ifstream in(JAM_TEST_SHARED "/ls-n1024-d3.dat");
+  double dim, n, sigma, v;
+  if (!(in >> dim >> n >> sigma)) return false;
+  while (p.x.size() < 3 * static_cast<size_t>(n) && in >> v) p.x.push_back(v - std::floor(v));
+  return p.x.size() == 3 * static_cast<size_t>(n);
+}
+
+// The radius that gives `degree` pairs a particle.
+Pairs pairs_of_degree(const Points &p, double degree) {
+  double low = 0.0, high = 2.0 * p.box / std::cbrt(static_cast<double>(p.size()));
+  Pairs out;
+  for (int step = 0; step < 16; ++step) {
+    const double middle = 0.5 * (low + high);
+    out = pairs_within(p, middle);
+    const double found = static_cast<double>(out.i.size()) / static_cast<double>(p.size());
+    if (std::fabs(found - degree) < 0.02) break;
+    (found < degree ? low : high) = middle;
+  }
+  return out;
+}
+
+// A^T D A + box with weights over ten decades, as in the middle of an interior point.
+void make_values(const Points &p, const Pairs &e, std::vector<double> &diag, std::vector<double> &off) {
+  Rng rng(7, Stream::velocities);
+  diag.assign(9 * p.size(), 0.0), off.resize(9 * e.i.size());
+  for (size_t i = 0; i < p.size(); ++i)
+    for (int q = 0; q < 3; ++q) diag[9 * i + 4 * q] = 1e-2;
+  for (size_t k = 0; k < e.i.size(); ++k) {
+    double t[3];
+    for (int q = 0; q < 3; ++q) {
+      t[q] = p.x[3 * e.i[k] + q] - p.x[3 * e.j[k] + q];
+      t[q] -= p.box * std::nearbyint(t[q] / p.box);
+    }
+    const double weight = std::pow(10.0, 6.0 * rng.uniform() - 2.0) / (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
+    for (int a = 0; a < 9; ++a) {
+      const double v = weight * t[a / 3] * t[a % 3];
+      diag[9 * e.i[k] + a] += v, diag[9 * e.j[k] + a] += v, off[9 * k + a] = -v;
+    }
+  }
+}
+
+double relative_residual(const Points &p, const Pairs &e, const std::vector<double> &diag, const std::vector<double> &off,
+                         const std::vector<double> &x, const std::vector<double> &b) {
+  std::vector<double> r(b);
+  double norm_a = 0.0, norm_x = 0.0, norm_r = 0.0;
+  for (size_t i = 0; i < p.size(); ++i)
+    for (int a = 0; a < 9; ++a) r[3 * i + a / 3] -= diag[9 * i + a] * x[3 * i + a % 3], norm_a = std::max(norm_a, std::fabs(diag[9 * i + a]));
+  for (size_t k = 0; k < e.i.size(); ++k)
+    for (int a = 0; a < 9; ++a) {
+      r[3 * e.i[k] + a / 3] -= off[9 * k + a] * x[3 * e.j[k] + a % 3];
+      r[3 * e.j[k] + a % 3] -= off[9 * k + a] * x[3 * e.i[k] + a / 3];
+    }
+  for (double v : r) norm_r = std::max(norm_r, std::fabs(v));
+  for (double v : x) norm_x = std::max(norm_x, std::fabs(v));
+  return norm_r / (norm_a * norm_x);
+}
+
+double dgemm_rate() {
+  const int n = 1000;
+  const double one = 1.0, zero = 0.0;
+  std::vector<double> a(n * n, 1.0), b(n * n, 1.0), c(n * n, 0.0);
+  const BlasSingleThread single;
+  return 2e-9 * n * n * n / timed(1.0, [&] { dgemm_("N", "T", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n); }).median;
+}
+
+#ifdef JAM_BENCH_MUMPS
+struct MumpsTimes {
+  double analyse = 0, flops = 0;
+  Times factorise{}, solve{};
+};
+
+MumpsTimes time_mumps(const Points &p, const Pairs &e, const std::vector<double> &diag, const std::vector<double> &off, double budget) {
+  std::vector<int> row, column;
+  std::vector<double> value;
+  const auto add = [&](int r, int c, double v) { row.push_back(r + 1), column.push_back(c + 1), value.push_back(v); };
+  for (int i = 0; i < static_cast<int>(p.size()); ++i)
+    for (int a = 0; a < 9; ++a)
+      if (a % 3 <= a / 3) add(3 * i + a / 3, 3 * i + a % 3, diag[9 * i + a]);
+  for (size_t k = 0; k < e.i.size(); ++k)
+    for (int a = 0; a < 9; ++a) add(3 * e.j[k] + a % 3, 3 * e.i[k] + a / 3, off[9 * k + a]);  // j > i: lower triangle
+  const BlasSingleThread single;
+  DMUMPS_STRUC_C m;
+  std::memset(&m, 0, sizeof m);
+  m.par = 1, m.sym = 1, m.comm_fortran = -987654, m.job = -1;
+  dmumps_c(&m);
+  m.icntl[0] = m.icntl[1] = m.icntl[2] = -1, m.icntl[3] = 0;
+  m.icntl[6] = 5, m.icntl[13] = 50;  // METIS; half as much memory again
+  m.n = static_cast<int>(3 * p.size()), m.nnz = static_cast<int64_t>(row.size());
+  m.irn = row.data(), m.jcn = column.data(), m.a = value.data();
+  const auto call = [&](int job) {
+    m.job = job;
+    dmumps_c(&m);
+    if (m.infog[0] < 0) std::fprintf(stderr, "MUMPS job %d: infog %d %d\n", job, m.infog[0], m.infog[1]);
+  };
+  std::vector<double> b(3 * p.size(), 1.0);
+  m.rhs = b.data(), m.nrhs = 1, m.lrhs = m.n;
+  MumpsTimes t;
+  const double t0 = now();
+  call(1);
+  t.analyse = now() - t0;
+  t.factorise = timed(budget, [&] { call(2); });
+  t.solve = timed(0.2 * budget, [&] { call(3); });
+  t.flops = m.rinfog[2];
+  call(-2);
+  return t;
+}
+#endif
+
+void report(const char *graph, const Points &p, double degree, double budget, bool all, double rate, bool first) {
+  const Pairs e = pairs_of_degree(p, degree);
+  std::vector<double> diag, off;
+  make_values(p, e, diag, off);
+  std::printf("%s\n  {\"graph\": \"%s\", \"n\": %zu, \"pairs_per_particle\": %.2f", first ? "" : ",", graph, p.size(),
+              static_cast<double>(e.i.size()) / static_cast<double>(p.size()));
+  const std::vector<std::pair<const char *, Ordering>> orderings = {{"own", Ordering::dissection}, {"metis", Ordering::metis}};
+  for (const auto &o : orderings) {
+    if (!all && o.second == Ordering::metis) continue;
+    for (int threads = 1; threads <= (all ? 2 : 1); ++threads) {
+      BlockCholesky f;
+      const auto analyse = [&] { f.analyse(3, static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size(), threads, o.second); };
+      const double t_analyse = timed(0.3 * budget, analyse).median;
+      int replaced = 0;
+      const Times t = timed(budget, [&] { replaced = f.factorise(diag.data(), off.data()); });
+      std::vector<double> b(3 * p.size(), 1.0), x;
+      const double t_solve = timed(0.2 * budget, [&] { x = b, f.solve(x.data()); }).median;
+      std::printf(",\n   \"%s_%d\": {\"analyse_s\": %.3g, \"factorise_s\": %.4g, \"factorise_least_s\": %.4g, \"solve_s\": %.3g, \"flops\": %.4g, \"gflops\": %.3g, "
+                  "\"share_of_dgemm\": %.3g, \"nonzeros\": %zu, \"bytes\": %zu, \"supernodes\": %zu, \"replaced\": %d, "
+                  "\"residual\": %.2g, \"solve_gb_per_s\": %.3g}",
+                  o.first, threads, t_analyse, t.median, t.least, t_solve, f.flops(), 1e-9 * f.flops() / t.median, 1e-9 * f.flops() / t.median / rate, f.factor_nonzeros(),
+                  f.bytes(), f.supernodes(), replaced, relative_residual(p, e, diag, off, x, b),
+                  16e-9 * static_cast<double>(f.factor_nonzeros()) / t_solve);
+    }
+  }
+#ifdef JAM_BENCH_MUMPS
+  const MumpsTimes m = time_mumps(p, e, diag, off, budget);
+  std::printf(",\n   \"mumps\": {\"analyse_s\": %.3g, \"factorise_s\": %.4g, \"factorise_least_s\": %.4g, \"solve_s\": %.3g, \"flops\": %.4g}", m.analyse,
+              m.factorise.median, m.factorise.least, m.solve.median,
+              m.flops);
+#endif
+  std::printf("}");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const size_t largest = argc > 1 ? static_cast<size_t>(std::atoll(argv[1])) : 16384;
+  const double budget = argc > 2 ? std::atof(argv[2]) : 1.0;
+  const bool all = argc < 4 || std::strcmp(argv[3], "default") != 0;
+  const double rate = dgemm_rate();
+  std::printf("{\"benchmark\": \"cholesky\", \"dgemm_gflops\": %.4g, \"runs\": [", rate);
+  bool first = true;
+  for (size_t n = 256; n <= largest; n *= n >= 4096 ? 4 : 2) {
+    report("relaxed", relaxed_points(n), 6.5, budget, all, rate, first);
+    first = false;
+  }
+  Points shared;
+  if (read_shared(shared)) report("shared file", shared, 6.5, budget, all, rate, first);
+  std::printf("\n]}\n");
+  return 0;
+}

@@ -1,0 +1,224 @@
+// Sparse block Cholesky against dense factorisations: random graphs in d = 1..5, disconnected, tiny, singular, indefinite
+// and non-finite matrices; both orderings, both numbers of threads.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <thread>
+#include "core/rng.hpp"
+#include "lp/block_cholesky.hpp"
+// Last: cmocka defines a macro `fail`.
+extern "C" {
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+}
+
+using namespace jam;
+
+namespace {
+
+struct Problem {
+  int dim = 0;
+  int32_t n = 0;
+  std::vector<int32_t> ei, ej;
+  std::vector<double> diag, off;
+  Eigen::MatrixXd dense() const {
+    const int b = dim * dim;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n * dim, n * dim);
+    for (int32_t i = 0; i < n; ++i)
+      for (int p = 0; p < b; ++p) a(i * dim + p / dim, i * dim + p % dim) = diag[i * b + p];
+    for (size_t k = 0; k < ei.size(); ++k)
+      for (int p = 0; p < b; ++p) {
+        a(ei[k] * dim + p / dim, ej[k] * dim + p % dim) = off[k * b + p];
+        a(ej[k] * dim + p % dim, ei[k] * dim + p / dim) = off[k * b + p];
+      }
+    return a;
+  }
+};
+
+// Edges between points of a cube (`local`) or between any two nodes, about `degree` at a node, in either direction.
+Problem make_problem(int dim, int32_t n, double degree, bool local, int64_t seed) {
+  Problem p;
+  p.dim = dim, p.n = n;
+  Rng rng(seed, Stream::analysis_start);
+  std::vector<double> x(3 * static_cast<size_t>(n));
+  for (double &v : x) v = rng.uniform();
+  const double radius = std::cbrt(degree / (4.19 * n));
+  for (int32_t i = 0; i < n; ++i)
+    for (int32_t j = i + 1; j < n; ++j) {
+      double r2 = 0.0;
+      for (int c = 0; c < 3; ++c) {
+        double t = std::fabs(x[3 * i + c] - x[3 * j + c]);
+        t = std::min(t, 1.0 - t);
+        r2 += t * t;
+      }
+      const bool joined = local ? r2 < radius * radius : rng.uniform() * n < degree;
+      if (joined && rng.uniform() < 0.5) p.ei.push_back(i), p.ej.push_back(j);
+      else if (joined) p.ei.push_back(j), p.ej.push_back(i);
+    }
+  const int b = dim * dim;
+  p.diag.assign(static_cast<size_t>(n) * b, 0.0), p.off.resize(p.ei.size() * b);
+  for (double &v : p.off) v = 2.0 * rng.uniform() - 1.0;
+  for (int32_t i = 0; i < n; ++i) {
+    for (int q = 0; q < b; ++q)
+      if (q % dim <= q / dim) p.diag[i * b + q] = p.diag[i * b + (q % dim) * dim + q / dim] = rng.uniform() - 0.5;
+    for (int q = 0; q < dim; ++q) p.diag[i * b + q * (dim + 1)] = dim + rng.uniform();
+  }
+  for (size_t k = 0; k < p.ei.size(); ++k)
+    for (int q = 0; q < dim; ++q) p.diag[p.ei[k] * b + q * (dim + 1)] += dim, p.diag[p.ej[k] * b + q * (dim + 1)] += dim;
+  return p;
+}
+
+// Stiffness of unit springs: sum over edges of n n^T, translations are its null space when the graph hangs together.
+void make_springs(Problem &p, int64_t seed) {
+  Rng rng(seed, Stream::velocities);
+  const int d = p.dim, b = d * d;
+  std::fill(p.diag.begin(), p.diag.end(), 0.0);
+  for (size_t k = 0; k < p.ei.size(); ++k)
+    for (int q = 0; q < d; ++q) {
+      const double weight = 0.5 + rng.uniform();
+      for (int c = 0; c < d; ++c) p.off[k * b + q * d + c] = q == c ? -weight : 0.0;
+      p.diag[p.ei[k] * b + q * (d + 1)] += weight, p.diag[p.ej[k] * b + q * (d + 1)] += weight;
+    }
+}
+
+double solve_error(const Problem &p, const BlockCholesky &f, int nrhs) {
+  const Eigen::MatrixXd a = p.dense();
+  Eigen::MatrixXd b = Eigen::MatrixXd::Random(a.rows(), nrhs), x = b;
+  if (nrhs == 1) f.solve(x.data());
+  else f.solve_many(x.data(), nrhs);
+  if (!x.allFinite()) return 1e300;
+  return (a * x - b).norm() / (a.norm() * x.norm() + b.norm());
+}
+
+int analyse_and_factorise(BlockCholesky &f, const Problem &p, int threads, Ordering ordering) {
+  f.analyse(p.dim, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads, ordering);
+  return f.factorise(p.diag.data(), p.off.data());
+}
+
+const Ordering kOrderings[] = {Ordering::dissection, Ordering::metis, Ordering::natural};
+
+void random_graphs(void **) {
+  for (int dim = 1; dim <= 5; ++dim)
+    for (int32_t n : {1, 2, 3, 7, 40, 150, 400})
+      for (double degree : {0.0, 1.0, 6.0, 14.0})
+        for (int local = 0; local < 2; ++local) {
+          if (n > 150 && dim > 3) continue;
+          const Problem p = make_problem(dim, n, degree, local, dim * 1000 + n);
+          for (Ordering ordering : kOrderings) {
+            BlockCholesky f;
+            assert_int_equal(analyse_and_factorise(f, p, 1 + n % 2, ordering), 0);
+            assert_true(solve_error(p, f, 1) < 1e-14);
+            assert_true(solve_error(p, f, 3) < 1e-14);
+            assert_true(f.factor_nonzeros() >= static_cast<size_t>(n) * dim * (dim + 1) / 2);
+          }
+        }
+}
+
+void orders_are_permutations(void **) {
+  for (int32_t n : {1, 2, 50, 3000}) {
+    const Problem p = n > 1000 ? make_problem(1, n, 12.0, true, 5) : make_problem(1, n, 3.0, false, 5);
+    for (Ordering ordering : kOrderings) {
+      const Graph g = make_graph(n, p.ei.data(), p.ej.data(), p.ei.size());
+      const auto order = order_nodes(g, ordering);
+      assert_int_equal(std::set<int32_t>(order.begin(), order.end()).size(), n);
+      assert_int_equal(order.size(), n);
+      if (ordering != Ordering::metis) assert_true(order == order_nodes(g, ordering));
+    }
+  }
+}
+
+void threads_agree(void **) {
+  const Problem p = make_problem(3, 700, 13.0, true, 3);
+  BlockCholesky one, two;
+  assert_int_equal(analyse_and_factorise(one, p, 1, Ordering::dissection), 0);
+  std::vector<double> b(static_cast<size_t>(p.n) * 3, 1.0), x = b, y = b, z = b;
+  one.solve(x.data());
+  one.factorise(p.diag.data(), p.off.data());
+  one.solve(y.data());
+  assert_true(x == y);  // bit for bit
+  assert_int_equal(analyse_and_factorise(two, p, 2, Ordering::dissection), 0);
+  y = b;
+  two.solve(y.data());
+  for (size_t k = 0; k < x.size(); ++k) assert_true(std::fabs(x[k] - y[k]) < 1e-12);
+  std::thread other([&] { one.solve(z.data()); });
+  y = b;
+  one.solve(y.data());
+  other.join();
+  assert_true(x == y && x == z);
+}
+
+void singular(void **) {
+  for (int dim = 2; dim <= 5; ++dim) {
+    Problem p = make_problem(dim, 60, 16.0, true, 11);
+    make_springs(p, 2);
+    BlockCholesky f;
+    f.set_pivot_rule(1e-12, 0.0);
+    // One translation per direction in every part that hangs together.
+    const int zeros = static_cast<int>(p.dense().rows()) - static_cast<int>(Eigen::FullPivLU<Eigen::MatrixXd>(p.dense()).setThreshold(1e-10).rank());
+    assert_true(zeros >= dim);
+    assert_int_equal(analyse_and_factorise(f, p, 1, Ordering::dissection), zeros);
+    // A right-hand side in the range is solved, with 0 in the replaced components.
+    Eigen::VectorXd b = p.dense() * Eigen::VectorXd::Random(p.n * dim), x = b;
+    f.solve(x.data());
+    assert_true((p.dense() * x - b).norm() < 1e-10 * b.norm());
+    f.set_pivot_rule(0.0, 1e9);  // everything below the floor
+    assert_int_equal(f.factorise(p.diag.data(), p.off.data()), p.n * dim);
+    f.solve(x.data());
+    assert_true(x.norm() < 1e-90);
+  }
+}
+
+void indefinite_and_not_finite(void **) {
+  Problem p = make_problem(3, 300, 12.0, true, 8);
+  BlockCholesky f;
+  assert_int_equal(analyse_and_factorise(f, p, 1, Ordering::dissection), 0);
+  const Problem good = p;
+  for (int q = 0; q < 3; ++q) p.diag[100 * 9 + q * 4] = -5.0;
+  assert_true(f.factorise(p.diag.data(), p.off.data()) > 0);
+  std::vector<double> x(900, 1.0);
+  f.solve(x.data());
+  assert_true(std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); }));
+  for (double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
+    for (int where = 0; where < 8; ++where) {
+      p = good;
+      if (where < 4) p.diag[where * 9 * 70 + 3] = bad;  // below the diagonal of its block
+      else p.off[p.off.size() / 9 * (where - 4)] = bad;
+      for (int threads = 1; threads <= 2; ++threads) {
+        BlockCholesky g;
+        assert_int_equal(analyse_and_factorise(g, p, threads, Ordering::dissection), -1);
+      }
+    }
+  assert_int_equal(f.factorise(good.diag.data(), good.off.data()), 0);  // no memory of what was before
+  assert_true(solve_error(good, f, 1) < 1e-14);
+}
+
+void order_kept(void **) {
+  Problem p = make_problem(3, 300, 12.0, true, 21);
+  BlockCholesky f;
+  assert_int_equal(analyse_and_factorise(f, p, 1, Ordering::dissection), 0);
+  for (int k = 0; k < 20; ++k) p.ei.pop_back(), p.ej.pop_back();
+  const std::set<std::pair<int32_t, int32_t>> present = [&] {
+    std::set<std::pair<int32_t, int32_t>> s;
+    for (size_t k = 0; k < p.ei.size(); ++k) s.insert({std::min(p.ei[k], p.ej[k]), std::max(p.ei[k], p.ej[k])});
+    return s;
+  }();
+  for (int32_t i = 0; i < 20; ++i)
+    if (!present.count({i, i + 150})) p.ei.push_back(i), p.ej.push_back(i + 150);
+  p.off.assign(p.ei.size() * 9, -0.05);
+  f.analyse_keep_order(3, p.n, p.ei.data(), p.ej.data(), p.ei.size());
+  assert_int_equal(f.factorise(p.diag.data(), p.off.data()), 0);
+  assert_true(solve_error(p, f, 1) < 1e-14);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(orders_are_permutations), cmocka_unit_test(threads_agree),
+                              cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -26,6 +26,8 @@ GUESTS = {
     r"[ds]mumps_c\.h": ["src/lp/"],
     r"Eigen/": ["src/lp/", "src/analysis/", "src/crunch/"],
 }
+# Files that may keep state of the process, each with its reason.
+STATEFUL = {"src/lp/blas.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"}
 
 
 def problem(path, line, text):
@@ -151,7 +153,7 @@ def file_sizes():
 
 
 def no_side_effects():
-    """The library prints nothing, ends no process, takes no signal and keeps no state of its own (but for a lock)."""
+    """The library prints nothing, ends no process, takes no signal and keeps no state of its own (but for locks)."""
     calls = r"(?<![\w.>:])(?:std::)?(printf|fprintf|puts|putchar|perror|exit|_exit|abort|quick_exit|signal|sigaction|raise|setlocale|srand|rand)\s*\("
     streams = r"\bstd::(cout|cerr|clog)\b|\bstderr\b|\bstdout\b"
     state = r"^(?:static |inline )*(?:int|double|bool|size_t|int32_t|int64_t|char|std::(?!mutex)\w+(?:<[^;()]*>)?) \w+(?:\[\w*\])?(?: = [^;(]*|\{[^;]*\})?;"
@@ -162,7 +164,7 @@ def no_side_effects():
                 found = re.search(pattern, line)
                 if found:
                     problem(path, number, f"{found.group(0).strip()} has no place in the library")
-            if re.match(state, line):
+            if re.match(state, line) and str(path.relative_to(root)) not in STATEFUL:
                 problem(path, number, f"mutable state of the process: {line.strip()}")
 
 

@@ -136,12 +136,13 @@ class JamPack(unittest.TestCase):
         return report, xyz
 
     def test_from_nothing(self):
-        report, xyz = self.job("--n", 128, "--seed", 3)
-        self.assertEqual((report["n"], report["dim"], report["seed"]), (128, 3, 3))
+        report, xyz = self.job("--n", 128, "--seed", 1)
+        self.assertEqual((report["n"], report["dim"], report["seed"]), (128, 3, 1))
         self.assertTrue(0.60 < report["packing_fraction"] < 0.67, report["packing_fraction"])
+        self.assertGreater(report["pressure"], 9e6)
         self.assertGreater(report["collisions"], 0)
         first = xyz.read_bytes()
-        self.job("--n", 128, "--seed", 3)
+        self.job("--n", 128, "--seed", 1)
         self.assertEqual(first, xyz.read_bytes(), "the same seed gives other bits")
         again = self.report("--input", xyz)  # a jammed packing crunched again stays
         self.assertEqual(again["collisions"], 0)
@@ -180,6 +181,10 @@ class JamPack(unittest.TestCase):
         self.assertLess(time.monotonic() - began, 20)
         self.assertEqual(report["stop_reason"], "wall_time")
         self.report("--input", self.dir / "p.dat", "--no-crunch")
+        began = time.monotonic()
+        report = self.report("--n", 1024, "--no-md", "--wall-time", 0.5, status=1)
+        self.assertLess(time.monotonic() - began, 20)
+        self.assertEqual(report["stop_reason"], "wall_time")
 
     def test_ctrl_c_keeps_the_state(self):
         out = self.dir / "p.xyz"

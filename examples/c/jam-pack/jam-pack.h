@@ -30,6 +30,7 @@ typedef struct outcome {
   int has_md, has_crunch;
   int32_t md_stop;
   int64_t collisions;
+  double pressure; /* that dynamics reached; the crunch ends at infinite pressure */
   double seconds_md;
 } outcome;
 

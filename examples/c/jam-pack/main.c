@@ -74,6 +74,7 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->has_md = 1;
   result->md_stop = md->stop_reason;
   result->collisions += md->collisions;
+  result->pressure = md->pressure;
   result->seconds_md += md->seconds;
 }
 

@@ -122,7 +122,7 @@ int write_report(const outcome *result, const char *path) {
   put_count(f, "seed", info->seed, 1);
   put_number(f, "packing_fraction", info->packing_fraction);
   put_number(f, "diameter_mean", info->diameter_mean);
-  put_number(f, "pressure", info->pressure);
+  put_number(f, "pressure", result->has_md ? result->pressure : NAN);
   put_count(f, "collisions", result->collisions, 1);
   put_number(f, "collisions_per_second", rate);
   put_count(f, "lp_solves", r->lp_solves, crunched);
@@ -196,7 +196,7 @@ void print_summary(const outcome *result) {
   printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
          (long long)info->seed, info->packing_fraction);
   if (result->has_md)
-    printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", info->pressure, (double)result->collisions,
+    printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", result->pressure, (double)result->collisions,
            result->seconds_md, jam_stop_string(result->md_stop));
   if (!result->has_crunch) return;
   printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", r->jammed ? "jammed" : "not jammed",

@@ -141,7 +141,7 @@ def main():
     axes[0].legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=3, frameon=False)
     axes[1].text(0.5, -0.03, f"{len(contacts[0])} contact forces", transform=axes[1].transAxes, ha="center")
     figure.subplots_adjust(0.01, 0.05, 0.99, 0.99, 0.02)
-    figure.savefig(sys.argv[3], dpi=110)
+    figure.savefig(sys.argv[3], dpi=90)
     print(f"{sys.argv[3]}: {len(x)} spheres, {rattlers} rattlers, {bucklers} bucklers, {len(contacts[0])} contacts")
 
 

@@ -24,3 +24,5 @@ configure_package_config_file(pkgconfig/jamConfig.cmake.in jamConfig.cmake INSTA
 write_basic_package_version_file(jamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/jamConfig.cmake ${PROJECT_BINARY_DIR}/jamConfigVersion.cmake DESTINATION ${JAM_CMAKE_DIR})
 install(EXPORT jamTargets NAMESPACE jam:: DESTINATION ${JAM_CMAKE_DIR})
+
+include(pkgconfig/package.cmake)

@@ -34,6 +34,7 @@ class Pictures(unittest.TestCase):
         ax = jam.plot.packing(self.flat)
         self.assertEqual(sum(len(c.get_offsets()) >= 60 for c in ax.collections[:1]), 0)  # one collection for each image of the box
         self.assertGreaterEqual(sum(len(c.get_offsets()) for c in ax.collections), 60)
+        self.assertTrue(all(len(c.get_offsets()) for c in ax.collections))  # an empty one would draw a stray circle
 
     def test_before_crunch_and_wrong_dimension(self):
         self.assertGreater(ink(jam.plot.packing(jam.System.random(n=20, dim=2)).figure), 0.05)

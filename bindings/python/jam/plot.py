@@ -54,6 +54,8 @@ def _project(x: np.ndarray, box: float, view: tuple[float, float]) -> tuple[np.n
 
 def _circles(ax: Any, centres: np.ndarray, diameters: Any, colours: Any, **more: Any) -> None:
     from matplotlib.collections import EllipseCollection
+    if not len(centres):
+        return  # matplotlib would draw one circle of the size of the axes
     diameters = np.broadcast_to(diameters, len(centres))
     ax.add_collection(EllipseCollection(diameters, diameters, np.zeros(len(centres)), units="xy", offsets=centres,
                                         offset_transform=ax.transData, facecolors=colours, **more))

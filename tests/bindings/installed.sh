@@ -1,0 +1,42 @@
+#!/bin/sh
+# Consumers of an installed tree in C, C++, Fortran and Python, without the build tree.
+# usage: installed.sh BUILD_FOLDER SOURCE_FOLDER PYTHON_FOLDER_BELOW_PREFIX LIBRARY_FOLDER_BELOW_PREFIX
+set -eu
+build=$1 source=$2 python_dir=$3 lib_dir=$4
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cmake --install "$build" --prefix "$work/p" >"$work/log"
+cd "$work"
+export PKG_CONFIG_PATH="$work/p/$lib_dir/pkgconfig"
+link="-L$work/p/$lib_dir -Wl,-rpath,$work/p/$lib_dir"
+flags=$(pkg-config --cflags --libs jam)
+# shellcheck disable=SC2086
+cc -std=c99 "$source/examples/c/first.c" -o c_first $flags $link -lm && ./c_first >c.out
+# shellcheck disable=SC2086
+c++ -std=c++17 "$source/examples/cpp/first.cpp" -o cpp_first $flags $link -pthread && ./cpp_first >cpp.out
+# shellcheck disable=SC2086
+gfortran -I"$work/p/$lib_dir/fortran/jam" "$source/examples/fortran/first.f90" -o f_first $link -ljam_fortran -ljam && ./f_first >f.out
+# the installed source serves a compiler whose .mod files differ
+# shellcheck disable=SC2086
+gfortran -J"$work" "$work/p/share/jam/fortran/jam.f90" "$source/examples/fortran/first.f90" -o f_source $link -ljam && ./f_source >f2.out
+cmp f.out f2.out
+PYTHONPATH="$work/p/$python_dir" /usr/bin/python3 -c "
+import jam, os
+assert os.path.realpath(jam.__file__).startswith(os.path.realpath('$work')), jam.__file__
+s = jam.System.random(n=40, dim=2, seed=3, diameters=[1.0, 1.4] * 20)
+assert s.crunch().jammed"
+test -f "$work/p/share/jam/julia/Jam/src/raw.jl"
+mkdir cmake_consumer && cd cmake_consumer
+cat >CMakeLists.txt <<EOF
+cmake_minimum_required(VERSION 3.22)
+project(consumer LANGUAGES CXX Fortran)
+find_package(jam REQUIRED)
+add_executable(cpp $source/examples/cpp/first.cpp)
+set_target_properties(cpp PROPERTIES CXX_STANDARD 17)
+find_package(Threads REQUIRED)
+target_link_libraries(cpp jam::jam Threads::Threads)
+add_executable(fortran $source/examples/fortran/first.f90)
+target_link_libraries(fortran jam::fortran)
+EOF
+cmake -S . -B b -DCMAKE_PREFIX_PATH="$work/p" >log && cmake --build b >>log && ./b/cpp >/dev/null && ./b/fortran >/dev/null
+echo "C, C++, Fortran (module and source), Python and CMake consumers run"

@@ -17,7 +17,12 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(JAM_BUILD_PYTHON)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
+  # the compiled module belongs to one minor version of Python
+  execute_process(COMMAND ${JAM_PYTHON} -c "import sys; v = sys.version_info; print(f'{v[0]}.{v[1]};{v[0]}.{v[1] + 1}', end='')"
+                  OUTPUT_VARIABLE versions)
+  list(GET versions 0 this)
+  list(GET versions 1 next)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= ${this}), python3 (<< ${next}), python3-numpy")
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-scipy, python3-matplotlib")
 endif()
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)

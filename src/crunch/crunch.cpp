@@ -155,7 +155,6 @@ class Chain {
     const double gain = std::sqrt(1.0 + std::max(answer_.g, 0.0)) - 1.0, step = largest_step(answer_, network_, lp_.dim);
     out_.report.gain = gain;
     out_.report.max_step = step;
-    out_.packing.pressure = std::numeric_limits<double>::quiet_NaN();
     monitor_.log(JAM_LOG_INFO, "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
                  static_cast<long long>(out_.report.lp_solves), gain, step, alpha, pairs_.size(), answer_.iterations, network_.active.size(),
                  static_cast<long long>(network_.stable_count), bound_, packing_fraction(out_.packing));

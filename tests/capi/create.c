@@ -1,0 +1,231 @@
+/* jam_create and its neighbours: every refusal named in the header, views, setters, copies, seeds. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "jam/jam.h"
+
+static jam_create_options options(void) {
+  jam_create_options o;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  return o;
+}
+
+/* Status as told, handle untouched, text holding `part`. */
+static void refused(const jam_create_options *o, const double *x, size_t nx, const double *s, size_t ns, jam_status status, const char *part) {
+  jam_system *out = (jam_system *)0x1;
+  assert_int_equal(jam_create(o, x, nx, s, ns, &out), status);
+  assert_ptr_equal(out, (jam_system *)0x1);
+  if (!strstr(jam_last_error(), part)) fail_msg("'%s' does not hold '%s'", jam_last_error(), part);
+}
+
+static void bad_options(void **state) {
+  jam_create_options o = options();
+  (void)state;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "n is 0");
+  o.n = (int64_t)1 << 31;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "2147483648");
+  o.n = -5;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "-5");
+  o.n = 10, o.dim = 1;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_DIMENSION, "dim is 1");
+  o.dim = 9;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_DIMENSION, "dim is 9");
+  o.dim = 3, o.box = 0.0;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "box is 0");
+  o.box = INFINITY;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "box is inf");
+  o.box = 1.0, o.packing_fraction = NAN;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "packing_fraction is");
+  o.packing_fraction = -0.1;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "-0.1");
+  o.packing_fraction = 0.2, o.overlap = 7;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "overlap is 7");
+  o.overlap = 0, o.model = 5;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "model is 5");
+  o.model = 0, o.struct_size = sizeof o + 8;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_STRUCT_SIZE, "struct_size");
+  o.struct_size = 0;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_STRUCT_SIZE, "struct_size is 0");
+  assert_int_equal(jam_create(NULL, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_create_options_init(NULL, sizeof o), JAM_E_NULL);
+  assert_int_equal(jam_create_options_init(&o, sizeof o + 1), JAM_E_STRUCT_SIZE);
+}
+
+/* An older, shorter struct leaves what it does not know at the defaults. */
+static void older_caller(void **state) {
+  jam_create_options o = options();
+  jam_system *sys = NULL;
+  jam_info info;
+  (void)state;
+  o.n = 50, o.seed = 9, o.box = -1.0; /* box lies beyond the size told: it must not be read */
+  o.struct_size = offsetof(jam_create_options, box);
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_true(info.box == 1.0 && info.seed == 9 && info.n == 50 && info.monodisperse == 1);
+  assert_true(fabs(info.packing_fraction - 0.2) < 1e-14);
+  jam_destroy(sys);
+}
+
+static void too_dense_ends(void **state) {
+  jam_create_options o = options();
+  (void)state;
+  o.n = 500, o.packing_fraction = 0.55; /* saturation of random sequential addition is 0.384 in d = 3 */
+  refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "reached packing fraction 0.3");
+  o.n = 1, o.packing_fraction = 0.9; /* one sphere wider than the box */
+  refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "box");
+}
+
+static void bad_arrays(void **state) {
+  jam_create_options o = options();
+  double x[9] = {0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 0.9, 0.9, 0.9}, s = 0.2, three[3] = {0.2, -0.1, 0.2};
+  (void)state;
+  refused(&o, x, 8, &s, 1, JAM_E_ARGUMENT, "not a multiple of dim");
+  refused(&o, NULL, 9, &s, 1, JAM_E_NULL, "positions");
+  refused(&o, x, 9, NULL, 1, JAM_E_NULL, "diameters");
+  refused(&o, x, 9, NULL, 0, JAM_E_ARGUMENT, "without diameters");
+  refused(&o, x, 9, three, 3, JAM_E_ARGUMENT, "diameters[1] is -0.1");
+  three[1] = NAN;
+  refused(&o, x, 9, three, 3, JAM_E_NONFINITE, "diameters[1]");
+  refused(&o, x, 9, three, 2, JAM_E_ARGUMENT, "1 or n");
+  o.n = 4;
+  refused(&o, x, 9, &s, 1, JAM_E_ARGUMENT, "n * dim is 12");
+  o.n = 0, x[4] = INFINITY;
+  refused(&o, x, 9, &s, 1, JAM_E_NONFINITE, "sphere 1, component 1");
+}
+
+static void overlap_is_named_or_shrunk(void **state) {
+  jam_create_options o = options();
+  const double x[6] = {0.02, 0.5, 0.5, 0.94, 0.5, 0.5}, s = 0.1; /* 0.08 apart through the wall */
+  const double *view;
+  size_t len;
+  jam_system *sys = NULL;
+  (void)state;
+  refused(&o, x, 6, &s, 1, JAM_E_OVERLAP, "spheres 0 and 1 overlap by 0.2");
+  o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_create(&o, x, 6, &s, 1, &sys), JAM_OK);
+  assert_int_equal(jam_diameters_view(sys, &view, &len), JAM_OK);
+  assert_int_equal(len, 2);
+  assert_true(fabs(view[0] - 0.08) < 1e-15 && view[1] == view[0]);
+  jam_destroy(sys);
+}
+
+static void outside_is_wrapped(void **state) {
+  const double x[6] = {-0.25, 1.5, -1e-20, 3.0, 2.25, 0.5}, s = 0.1;
+  const double expected[6] = {0.75, 0.5, 0.0, 0.0, 0.25, 0.5};
+  const double *view;
+  size_t len, k;
+  jam_system *sys = NULL;
+  (void)state;
+  assert_int_equal(jam_create(NULL, x, 6, &s, 1, &sys), JAM_OK);
+  assert_int_equal(jam_positions_view(sys, &view, &len), JAM_OK);
+  for (k = 0; k < 6; ++k) assert_true(view[k] == expected[k]);
+  jam_destroy(sys);
+}
+
+static void same_seed_same_bits(void **state) {
+  jam_create_options o = options();
+  jam_system *a, *b, *c;
+  const double *xa, *xb, *xc;
+  size_t len;
+  (void)state;
+  o.n = 300, o.seed = 42;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &a), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &b), JAM_OK);
+  o.seed = 43;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &c), JAM_OK);
+  jam_positions_view(a, &xa, &len), jam_positions_view(b, &xb, &len), jam_positions_view(c, &xc, &len);
+  assert_memory_equal(xa, xb, len * sizeof(double));
+  assert_true(memcmp(xa, xc, len * sizeof(double)) != 0);
+  jam_destroy(a), jam_destroy(b), jam_destroy(c);
+}
+
+static void setters_and_copies(void **state) {
+  jam_create_options o = options();
+  jam_system *sys, *copy;
+  const double *x, *s, *again;
+  double moved[12];
+  size_t len, k;
+  (void)state;
+  o.n = 4, o.packing_fraction = 0.05;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &len);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  for (k = 0; k < 12; ++k) moved[k] = (double)(k / 3) * 0.25 + 1.0;
+  assert_int_equal(jam_set_positions(sys, moved, 11), JAM_E_ARGUMENT);
+  assert_int_equal(jam_set_positions(sys, moved, 12), JAM_OK);
+  jam_positions_view(sys, &again, &len);
+  assert_ptr_equal(again, x);
+  assert_true(x[3] == 0.25);
+  moved[3] = moved[0], moved[4] = moved[1], moved[5] = moved[2];
+  assert_int_equal(jam_set_positions(sys, moved, 12), JAM_E_OVERLAP);
+  assert_true(x[3] == 0.25);
+  assert_int_equal(jam_scale_diameters(sys, 100.0), JAM_E_OVERLAP);
+  assert_int_equal(jam_scale_diameters(sys, NAN), JAM_E_ARGUMENT);
+  assert_int_equal(jam_scale_diameters(sys, 0.5), JAM_OK);
+  jam_positions_view(copy, &again, &len);
+  assert_true(again[0] != x[0]);
+  jam_destroy(sys);
+  jam_destroy(copy);
+  jam_destroy(NULL);
+}
+
+static void null_handles(void **state) {
+  const double *v;
+  size_t len;
+  (void)state;
+  assert_int_equal(jam_positions_view(NULL, &v, &len), JAM_E_NULL);
+  assert_int_equal(jam_cancel(NULL), JAM_E_NULL);
+  assert_int_equal(jam_info_get(NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_set_log(NULL, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_copy(NULL, NULL), JAM_E_NULL);
+  assert_string_equal(jam_status_string(JAM_E_NULL), "a needed pointer is NULL");
+  assert_string_equal(jam_status_string(12345), "unknown status");
+  assert_string_equal(jam_stop_string(JAM_STOP_CONVERGED), "converged");
+  assert_int_equal(jam_abi_version(), JAM_ABI);
+}
+
+/* Random starts in every dimension hold no overlap: looked at pair by pair with nearest images. */
+static void starts_are_valid(void **state) {
+  int d;
+  (void)state;
+  for (d = 2; d <= JAM_MAX_DIM; ++d) {
+    jam_create_options o = options();
+    const double *x, *s;
+    double diameters[60];
+    size_t len, i, j;
+    int c;
+    jam_system *sys;
+    for (i = 0; i < 60; ++i) diameters[i] = 1.0 + (double)(i % 7);
+    o.n = 60, o.dim = d, o.packing_fraction = pow(2.0, 2 - d) * 0.3, o.box = 3.0;
+    assert_int_equal(jam_create(&o, NULL, 0, diameters, 60, &sys), JAM_OK);
+    jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &len);
+    for (i = 0; i < 60; ++i)
+      for (j = 0; j < i; ++j) {
+        double r2 = 0.0;
+        for (c = 0; c < d; ++c) {
+          double dx = x[i * d + c] - x[j * d + c];
+          dx -= 3.0 * nearbyint(dx / 3.0);
+          r2 += dx * dx;
+        }
+        assert_true(sqrt(r2) >= 0.5 * (s[i] + s[j]));
+      }
+    jam_destroy(sys);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bad_options),        cmocka_unit_test(older_caller),       cmocka_unit_test(too_dense_ends),
+      cmocka_unit_test(bad_arrays),         cmocka_unit_test(overlap_is_named_or_shrunk), cmocka_unit_test(outside_is_wrapped),
+      cmocka_unit_test(same_seed_same_bits), cmocka_unit_test(setters_and_copies), cmocka_unit_test(null_handles),
+      cmocka_unit_test(starts_are_valid)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -137,6 +137,7 @@ class System:
     def __init__(self, handle: Any, mk_zeta: float | None = None) -> None:
         self._handle: Any = handle
         self._mk_zeta = mk_zeta
+        self._first_info: Info | None = None
         self._carried: tuple | None = None  # report and contacts that came with a pickle
         #: Progress records of this system's calls, at most one every 0.05 s
         self.trace: list[Progress] = []
@@ -244,12 +245,19 @@ class System:
         raw.jam_info_get(self.handle, made)
         return _calls.freeze(made, "jam_info")
 
-    n = property(lambda self: self.info.n, doc="Number of spheres.")
-    dim = property(lambda self: self.info.dim, doc="Dimension d.")
-    box = property(lambda self: self.info.box, doc="Side of the cube.")
-    seed = property(lambda self: self.info.seed, doc="Seed recorded at creation.")
+    n = property(lambda self: self._constant("n"), doc="Number of spheres.")
+    dim = property(lambda self: self._constant("dim"), doc="Dimension d.")
+    box = property(lambda self: self._constant("box"), doc="Side of the cube.")
+    seed = property(lambda self: self._constant("seed"), doc="Seed recorded at creation.")
     packing_fraction = property(lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the box.")
     pressure = property(lambda self: self.info.pressure, doc="Reduced pressure last measured by MD, nan before.")
+
+    def _constant(self, name: str) -> Any:
+        """What cannot change in the life of a handle: info sums over all spheres each time."""
+        self.handle
+        if self._first_info is None:
+            self._first_info = self.info
+        return getattr(self._first_info, name)
 
     def _show(self, function: Callable, flat: bool = False) -> np.ndarray:
         handle = self.handle

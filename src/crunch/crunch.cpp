@@ -109,7 +109,7 @@ class Chain {
 
   bool acceptable(const LpSolution &x, LpCheck &check) const {
     check = check_lp(lp_, x);
-    const double tight = early_ > 0 ? 1e-3 : 1e-6;
+    const double tight = x.g > 1e-9 ? 1e-3 : 1e-5;  // what is left at the end polish takes out
     return x.solved && check.infeasibility < 1e-9 && check.gamma < 1e-6 && check.balance < tight && std::isfinite(x.g);
   }
 

@@ -1,0 +1,112 @@
+// The packing LP: our interior point against Clp, both against the LP's own residuals.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+extern "C" {
+#include <cmocka.h>
+}
+#include <cmath>
+#include <limits>
+
+#include "core/create.hpp"
+#include "lp/interior_point.hpp"
+
+using namespace jam;
+
+namespace {
+
+Packing start(int n, int dim, double phi, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
+  return make_packing(o, nullptr, 0, nullptr, 0);
+}
+
+LpSolution interior(const PackingLp &lp) {
+  NewtonSystem system;
+  system.set_graph(lp.dim, lp.n, *lp.pairs, 1);
+  InteriorPoint ipm(system);
+  return ipm.solve(lp, IpmControl());
+}
+
+void agree(const PackingLp &lp) {
+  const LpSolution a = interior(lp), b = solve_lp_clp(lp, 1e-10, std::numeric_limits<double>::infinity());
+  assert_true(a.solved && b.solved);
+  const LpCheck check = check_lp(lp, a);
+  assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-3 && std::fabs(check.gap) < 1e-9);
+  if (!(std::fabs(a.g - b.g) < 1e-9)) fail_msg("interior point %.15g, Clp %.15g", a.g, b.g);
+}
+
+void random_instances(void **) {
+  for (int dim = 2; dim <= 4; ++dim)
+    for (int seed = 1; seed <= 3; ++seed) {
+      const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), seed);
+      const double unit = diameter_mean(p);
+      const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
+      PackingLp lp = make_lp(p, pairs, unit);
+      for (const double bound : {0.2, 0.02}) {
+        lp.bound = bound;
+        agree(lp);
+      }
+    }
+}
+
+// A square lattice in contact: many optimal multipliers, the optimum still one number; and one pair alone.
+void degenerate_instances(void **) {
+  Packing p;
+  p.dim = 2;
+  for (int k = 0; k < 36; ++k) p.position.push_back((k % 6) / 6.0), p.position.push_back((k / 6) / 6.0);
+  p.diameter.assign(36, 1.0 / 6.0);
+  p.velocity.assign(72, 0.0);
+  const double unit = 1.0 / 6.0;
+  const PairList pairs = find_pairs(p, 0.2 * unit, 1.0);
+  assert_int_equal(pairs.size(), 72);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 0.1;
+  agree(lp);
+  p.position = {0.2, 0.5, 0.6, 0.5};
+  p.diameter.assign(2, 0.3);
+  const PairList one = find_pairs(p, 0.2, 1.0);
+  PackingLp small = make_lp(p, one, 0.3);
+  small.bound = 0.25;
+  agree(small);
+}
+
+// Rows that cannot hold at the start (an overlap): g must come out negative, not fail.
+void overlapping_instance(void **) {
+  Packing p = start(40, 3, 0.2, 7);
+  for (double &s : p.diameter) s *= 1.1;
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 1e-3;
+  agree(lp);
+  assert_true(interior(lp).g < 0.0);
+}
+
+// check_lp must see a wrong answer.
+void check_sees_errors(void **) {
+  const Packing p = start(40, 3, 0.2, 7);
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 0.1;
+  const LpSolution good = interior(lp);
+  LpSolution bad = good;
+  bad.g += 1e-6;
+  assert_true(check_lp(lp, bad).infeasibility > 0.9e-6);
+  bad = good;
+  for (double &y : bad.y) y *= 1.01;
+  assert_true(check_lp(lp, bad).gamma > 0.009);
+  bad = good;
+  bad.s[0] = 0.11;
+  assert_true(check_lp(lp, bad).infeasibility > 0.009);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(degenerate_instances),
+                              cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

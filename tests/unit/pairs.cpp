@@ -1,0 +1,83 @@
+// Pair lists: cells against brute force over all images, small boxes, wrapping.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+extern "C" {
+#include <cmocka.h>
+}
+#include <cmath>
+
+#include "core/create.hpp"
+#include "core/pairs.hpp"
+
+using namespace jam;
+
+namespace {
+
+void cells_equal_brute_force(void **) {
+  for (int dim = 2; dim <= 5; ++dim) {
+    jam_create_options o = default_create_options();
+    o.n = dim < 4 ? 700 : 1500, o.dim = dim, o.packing_fraction = dim < 4 ? 0.2 : 0.02, o.box = 2.0;
+    std::vector<double> sizes(o.n);
+    for (size_t k = 0; k < sizes.size(); ++k) sizes[k] = 1.0 + static_cast<double>(k % 5) * 0.2;
+    const Packing p = make_packing(o, nullptr, 0, sizes.data(), sizes.size());
+    for (const double slope : {1.0, 1.3}) {
+      const double reach = 0.2 * diameter_mean(p);
+      const PairList a = find_pairs(p, reach, slope), b = find_pairs_brute(p, reach, slope);
+      assert_true(a.size() > 0);
+      assert_true(a.i == b.i && a.j == b.j && a.offset == b.offset);
+    }
+  }
+}
+
+// One sphere a box of side 1: reach 1.01 sees one of each +- pair of nearest images, reach 1.5 the diagonals too.
+void own_images(void **) {
+  Packing p;
+  p.dim = 3;
+  p.position = {0.3, 0.4, 0.5};
+  p.diameter = {0.1};
+  assert_int_equal(find_pairs(p, 1.01, 0.0).size(), 3);
+  assert_int_equal(find_pairs(p, 1.5, 0.0).size(), 9);
+  p.position = {0.25, 0.25, 0.25, 0.75, 0.75, 0.75};  // two spheres of a bcc crystal: eight images of the pair
+  p.diameter = {0.1, 0.1};
+  const PairList pairs = find_pairs(p, 0.87, 0.0);
+  assert_int_equal(pairs.size(), 8);
+  double r[3];
+  for (size_t k = 0; k < 8; ++k) assert_true(std::fabs(pair_vector(p, pairs, k, r) - 0.75) < 1e-15);
+}
+
+void wrapping_keeps_vectors(void **) {
+  jam_create_options o = default_create_options();
+  o.n = 200, o.packing_fraction = 0.3;
+  Packing p = make_packing(o, nullptr, 0, nullptr, 0);
+  PairList pairs = find_pairs(p, 0.05, 1.0);
+  for (size_t k = 0; k < p.position.size(); ++k) p.position[k] += (k % 7) * 0.4 - 1.2;
+  Packing q = p;
+  PairList moved = pairs;
+  wrap_positions(q, moved);
+  double a[3], b[3];
+  for (double x : q.position) assert_true(x >= 0.0 && x < 1.0);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    pair_vector(p, pairs, k, a);
+    pair_vector(q, moved, k, b);
+    for (int c = 0; c < 3; ++c) assert_true(std::fabs(a[c] - b[c]) < 1e-14);
+  }
+}
+
+void closest(void **) {
+  Packing p;
+  p.dim = 2;
+  p.position = {0.1, 0.1, 0.95, 0.1, 0.5, 0.6};
+  p.diameter = {0.1, 0.1, 0.2};
+  const ClosestPair c = closest_pair(p);
+  assert_true(c.i == 0 && c.j == 1 && std::fabs(c.gap - 0.5) < 1e-14);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force), cmocka_unit_test(own_images),
+                              cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(closest)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

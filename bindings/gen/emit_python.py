@@ -16,7 +16,7 @@ def camel(name):
 
 def _doc(text, indent="    "):
     lines = text.replace("\\", "\\\\").replace('"""', "'''").splitlines() or [""]
-    return f'{indent}"""' + ("\n" + indent).join(lines).rstrip() + '"""'
+    return f'{indent}"""' + "\n".join([lines[0]] + [(indent + line).rstrip() for line in lines[1:]]).rstrip() + '"""'
 
 
 def _enum_of(member, enums):

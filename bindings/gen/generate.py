@@ -9,6 +9,7 @@ from pathlib import Path
 import emit_c
 import emit_fortran
 import emit_julia
+import emit_methods
 import emit_python
 import emit_swig
 from model import HeaderError, read_header
@@ -19,6 +20,7 @@ FILES = {
     "bindings/fortran/jam.f90": emit_fortran.emit,
     "bindings/python/jam_gen.i": emit_swig.emit,
     "bindings/python/jam/_generated.py": emit_python.emit,
+    "bindings/python/jam/_methods.py": emit_methods.emit,
     "tests/bindings/layout.c": emit_c.emit,
 }
 

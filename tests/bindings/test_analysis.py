@@ -51,7 +51,7 @@ class Network(unittest.TestCase):
         floppy = s.floppy_modes()
         self.assertEqual(len(floppy.s_plus), r.contacts)
         self.assertEqual(s.floppy_mode(3).shape, (r.stable, 2))
-        g = s.pair_correlation(a=-1, b=-1, r_max=2.0, bins=30)
+        g = s.pair_correlation(None, a=-1, b=-1, r_max=2.0, bins=30)
         self.assertEqual(len(g), 30)
         kinds = np.arange(s.n) % 2
         self.assertTrue((s.pair_correlation(kinds, 0, 1, 2.0, 30) != g).any())
@@ -78,8 +78,12 @@ class Network(unittest.TestCase):
     def test_wrong_calls(self):
         with self.assertRaisesRegex(TypeError, "h_max"):
             self.s.gaps()
+        with self.assertRaisesRegex(TypeError, "h_max"):
+            self.s.call("gaps", stable_only=1)
         with self.assertRaisesRegex(TypeError, "stifness"):
             self.s.curvature(np.zeros(3), stifness="hard")
+        with self.assertRaisesRegex(TypeError, "stifness"):
+            self.s.call("curvature", np.zeros(3), stifness="hard")
         with self.assertRaises(jam.errors.ArgumentError):
             self.s.curvature(np.zeros(3))
         with self.assertRaises(jam.errors.ArgumentError):

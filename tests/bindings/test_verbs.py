@@ -1,10 +1,13 @@
 """Long calls from Python: results, progress, exceptions, Ctrl-C, threads, cancel."""
+import io
 import os
 import signal
+import sys
 import threading
 import time
 import traceback
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -65,6 +68,14 @@ class Crunch(unittest.TestCase):
         np.testing.assert_array_equal(t["force"], c.forces)
         np.testing.assert_array_equal(t["vector"], c.vectors)
         self.assertLess(overlap(s), 1e-10)
+
+    @unittest.skipUnless(os.path.exists(SHARED), "the shared packing is not there")
+    def test_shared_packing(self):
+        s = jam.System.read(SHARED)
+        r = s.crunch()
+        self.assertEqual((r.jammed, r.excess_contacts), (1, 0))
+        self.assertTrue(0.64397 < r.packing_fraction < 0.64398)
+        self.assertLess(r.force_residual, 1e-8)
 
     def test_options_reach_the_library(self):
         s = jam.System.random(n=60, dim=2, seed=3)
@@ -164,6 +175,19 @@ class Callbacks(unittest.TestCase):
                 s.crunch(progress=progress)
             self.assertLess(time.time() - began, 20)
             self.check_valid(s)
+
+    def test_progress_line_on_a_terminal(self):
+        class Terminal(io.StringIO):
+            def isatty(self):
+                return True
+        before, sys.stderr = sys.stderr, Terminal()
+        try:
+            with unittest.mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}):
+                jam.System.random(n=60, dim=2, seed=3).crunch(progress=True)
+            text = sys.stderr.getvalue()
+        finally:
+            sys.stderr = before
+        self.assertRegex(text, r"^\rcrunch .*phi 0\.\d+.*\n$")
 
     def test_progress_true_is_silent_without_a_terminal(self):
         jam.System.random(n=60, dim=2, seed=3).crunch(progress=True)

@@ -1,12 +1,11 @@
 """Calls any C function of the header by its conventions: options by keyword, arrays as numpy, count then fill."""
 from __future__ import annotations
 
-from collections import namedtuple
 from typing import Any, Callable
 
 import numpy as np
 
-from . import _generated, errors, raw
+from . import _generated, _methods, errors, raw
 from ._generated import CALLS, OPTIONS, REPORTS, ROWS, StatusCode
 
 raw.set_error_factory(errors.make)
@@ -102,6 +101,8 @@ def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str,
     given = dict(zip(plain, args))
     members: dict[str, dict] = {s: {} for s in structs}
     for key, value in named.items():
+        if value is None and key not in plain:
+            continue
         owners = [s for s, kind in structs.items() if key in OPTIONS[kind]]
         if key in plain:
             given[key] = value
@@ -156,9 +157,10 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
     results = {a: freeze(*o) if isinstance(o, tuple) else o for a, o in outputs.items()}
     results.update({a: v for a, v in zip(asked, scalars) if a != "needed"})
     if len(results) > 1:
-        return StatusCode(status), namedtuple(camel(name), results)(**results)
+        made = getattr(_methods, camel(name) + "Result", None)
+        return StatusCode(status), made(*results.values()) if made else tuple(results.values())
     return StatusCode(status), next(iter(results.values()), None)
 
 
 def camel(name: str) -> str:
-    return "".join(w.capitalize() for w in name.split("_"))
+    return "".join(w.capitalize() for w in name.removesuffix("_get").split("_"))

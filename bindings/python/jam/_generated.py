@@ -125,7 +125,7 @@ class ContactClass(IntEnum):
 @dataclass(frozen=True, repr=False)
 class Info:
     """What the system is now. @since 0.1
-    
+
     dim: d
     n: number of spheres
     seed: as recorded at creation
@@ -149,7 +149,7 @@ class Info:
 @dataclass(frozen=True, repr=False)
 class Progress:
     """Given to the progress callback; valid during the call only. @since 0.1
-    
+
     phase: jam_phase
     packing_fraction: now
     pressure: MD: reduced pressure of the last window, NaN before
@@ -175,7 +175,7 @@ class Progress:
 @dataclass(frozen=True, repr=False)
 class MdReport:
     """What MD did. @since 0.1
-    
+
     stop_reason: jam_stop_reason
     collisions: in this call
     events: collisions, list updates, stale events
@@ -203,7 +203,7 @@ class MdReport:
 @dataclass(frozen=True, repr=False)
 class Report:
     """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
-    
+
     jammed: 1: converged to a rigid network that carries balanced forces
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
@@ -267,7 +267,7 @@ class Report:
 @dataclass(frozen=True, repr=False)
 class GeometryReport:
     """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
-    
+
     self_contacts: spheres touching their own image; left out of the network
     tolerance: used
     gap_below: largest |h| within it, rattlers included
@@ -305,7 +305,7 @@ class GeometryReport:
 @dataclass(frozen=True, repr=False)
 class Moduli:
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
-    
+
     reserved: 0
     bulk: K
     bulk_affine: K without the non-affine part
@@ -325,9 +325,9 @@ class Moduli:
 @dataclass(frozen=True, repr=False)
 class Comparison:
     """What jam_compare found; contacts only when both have a network. @since 0.1
-    
+
     reserved: 0
-    contacts_a: 
+    contacts_a:
     contacts_b: of sys and of other
     common_contacts: pairs in both
     stable_in_both: spheres that are rattlers in neither

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _calls, errors, raw
 from ._generated import CALLS, Info, MdReport, ModesWhich, Progress, Report, StatusCode
+from ._methods import Methods, StressStatesResult
 from ._progress import reporter
 
 TRACE_LENGTH = 200_000  # progress records kept by a system
@@ -125,7 +126,7 @@ class Modes:
         return f"Modes({len(self)} modes of {len(self.spheres)} spheres" + (f", omega {w[0]:.4g}..{w[-1]:.4g})" if len(w) else ")")
 
 
-class System:
+class System(Methods):
     """N spheres in a periodic cube.
 
     Made by System.random, System.from_arrays or System.read; then run, compress and crunch move it, and report,
@@ -459,7 +460,7 @@ class System:
             self._carried = None
         return result
 
-    def stress_states(self, *, progress: Any = None) -> tuple[np.ndarray, np.ndarray, float]:
+    def stress_states(self, *, progress: Any = None) -> StressStatesResult:
         """States of self-stress from positions alone: force (contacts,), basis (m, contacts), residual."""
         handle, contacts = self.handle, self.report.contacts
         with self._dispatch.to(self._recorder(reporter(progress))):
@@ -467,7 +468,7 @@ class System:
             force, basis = np.empty(contacts if m else 0), np.empty((m, contacts))
             status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
         self.status = StatusCode(status)
-        return force, basis, residual
+        return StressStatesResult(force, basis, residual)
 
 
 def _restore(positions: Any, diameters: Any, velocities: Any, options: dict, results: Any, trace: list) -> System:
@@ -479,29 +480,8 @@ def _restore(positions: Any, diameters: Any, velocities: Any, options: dict, res
 
 
 _MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry"}
-_HIDDEN = {"destroy", "set_progress", "set_log", "copy", "positions_view", "velocities_view", "diameters_view", "set_positions",
-           "set_velocities", "info_get", "report_get"}
 
 
-def _add_methods() -> None:
-    """A method for every call of the header that has none yet: new functions appear by themselves."""
-    for name, (doc, _, table) in CALLS.items():
-        short = name.removeprefix("jam_")
-        method_name = short.removesuffix("_get")
-        if hasattr(System, method_name) or short in _HIDDEN or {"callback", "new_handle", "view"} & {a[1] for a in table}:
-            continue
-
-        def method(self: System, *args: Any, _name: str = short, **named: Any) -> Any:
-            return self.call(_name, *args, **named)
-
-        inputs = [a[0] for a in table if a[1] in _calls.INPUTS and a[1] != "struct_in"]
-        members = [k for a in table if a[1] == "struct_in" for k in _calls.OPTIONS[a[2]]]
-        method.__name__, method.__qualname__ = method_name, f"System.{method_name}"
-        method.__doc__ = f"{method_name}({', '.join(inputs + [m + '=' for m in members])})\n\n{doc}"
-        setattr(System, method_name, method)
-
-
-_add_methods()
 for _verb, _struct in (("run", "run"), ("compress", "compress"), ("crunch", "crunch")):
     getattr(System, _verb).__doc__ += (
         "\n\n        progress: True for a bar, or a callable(Progress) whose true answer stops the call.\n        Options:\n    "

@@ -505,8 +505,8 @@ typedef struct jam_geometry_report {
   int64_t pairs_within;     /* pairs with |h| <= tolerance, rattlers included */
   int64_t contacts;         /* of stable spheres */
   int64_t excess_contacts;  /* contacts - (d (N'-1) + 1) */
-  int64_t self_stresses;    /* dimension of the null space of S^T */
-  int64_t zero_modes;       /* of S^T S, translations among them; counted up to 256 */
+  int64_t self_stresses;    /* dimension of the null space of S^T; a lower bound when zero_modes is cut off */
+  int64_t zero_modes;       /* of S^T S, translations among them; no more than 256 others are counted */
   double force_residual;    /* largest |sum_j f_ij n_ij| over mean force */
   double min_force;         /* over the mean */
 } jam_geometry_report;

@@ -79,7 +79,7 @@ void PinnedSolver::solve(double *x, int count) const {
   for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
   std::vector<double> b(x, x + n * count), r(n * count), y(n);
   factor_.solve_many(x, count);
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
   for (int pass = 0; pass < 20; ++pass) {
     double residual = 0.0;
     for (int k = 0; k < count; ++k) {
@@ -98,7 +98,10 @@ void PinnedSolver::solve(double *x, int count) const {
       change = std::max(change, std::fabs(r[q]));
       size = std::max(size, std::fabs(x[q] += r[q]));
     }
-    if (change < 1e-12 * size) break;
+    // Changes fall by a constant ratio: the next one would be change * ratio.
+    const double ratio = change / (pass == 0 ? size : last_change);
+    last_change = change;
+    if (!(change * ratio > 1e-14 * size)) break;
   }
   for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
 }
@@ -136,7 +139,7 @@ int64_t NullSpace::zero_modes() const {
   const ContactWeights w = unit_weights(g_);
   std::vector<std::vector<double>> kernel;
   Rng rng(2, Stream::analysis_start);
-  for (bool more = true; more && kernel.size() < 256 && kernel.size() < n;) {
+  for (bool more = true; more && kernel.size() < most_zero_modes && kernel.size() < n;) {
     const int block = static_cast<int>(std::min<size_t>(n - kernel.size(), std::max<size_t>(2, kernel.size())));
     std::vector<double> x(n * block);
     for (double &v : x) v = rng.normal();
@@ -243,6 +246,8 @@ StressStates find_stress(const StableGraph &g, bool with_basis, int refinements)
   if (out.dimension != 1) {
     out.zero_modes = space.zero_modes();
     out.dimension = space.dimension();
+    // Counting stopped: there are more zero modes, so more states than this.
+    if (out.zero_modes >= NullSpace::most_zero_modes) out.dimension = std::max<int64_t>(out.dimension, 2);
   }
   if (out.dimension <= 0) {
     out.dimension = 0;

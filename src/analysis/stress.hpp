@@ -33,13 +33,14 @@ class PinnedSolver {
 // Projections on the null space of S^T.
 class NullSpace {
  public:
+  static constexpr int64_t most_zero_modes = 256;  // counted beyond the translations, no more
   explicit NullSpace(const StableGraph &g);
   // f := f - S (S^T S)^+ S^T f by iterative refinement; refinements < 0: until the residual stops falling.
   // Returns the number of solves.
   int project(std::vector<double> &f, int refinements = -1) const;
   // Dimension of the null space of S^T, from that of S^T S (random probes of its kernel).
   int64_t dimension() const;
-  int64_t zero_modes() const;  // of S^T S, translations among them; counted up to 256 beyond the translations
+  int64_t zero_modes() const;  // of S^T S, translations among them
   const PinnedSolver &solver() const { return solver_; }
 
  private:

@@ -387,9 +387,9 @@ module jam
     integer(c_int64_t) :: contacts = 0
     ! contacts - (d (N'-1) + 1)
     integer(c_int64_t) :: excess_contacts = 0
-    ! dimension of the null space of S^T
+    ! dimension of the null space of S^T; a lower bound when zero_modes is cut off
     integer(c_int64_t) :: self_stresses = 0
-    ! of S^T S, translations among them; counted up to 256
+    ! of S^T S, translations among them; no more than 256 others are counted
     integer(c_int64_t) :: zero_modes = 0
     ! largest |sum_j f_ij n_ij| over mean force
     real(c_double) :: force_residual = 0

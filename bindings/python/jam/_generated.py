@@ -280,8 +280,8 @@ class GeometryReport:
     pairs_within: pairs with |h| <= tolerance, rattlers included
     contacts: of stable spheres
     excess_contacts: contacts - (d (N'-1) + 1)
-    self_stresses: dimension of the null space of S^T
-    zero_modes: of S^T S, translations among them; counted up to 256
+    self_stresses: dimension of the null space of S^T; a lower bound when zero_modes is cut off
+    zero_modes: of S^T S, translations among them; no more than 256 others are counted
     force_residual: largest |sum_j f_ij n_ij| over mean force
     min_force: over the mean"""
     self_contacts: int

@@ -303,8 +303,8 @@ mutable struct jam_geometry_report
     pairs_within::Int64  # pairs with |h| <= tolerance, rattlers included
     contacts::Int64  # of stable spheres
     excess_contacts::Int64  # contacts - (d (N'-1) + 1)
-    self_stresses::Int64  # dimension of the null space of S^T
-    zero_modes::Int64  # of S^T S, translations among them; counted up to 256
+    self_stresses::Int64  # dimension of the null space of S^T; a lower bound when zero_modes is cut off
+    zero_modes::Int64  # of S^T S, translations among them; no more than 256 others are counted
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over mean force
     min_force::Cdouble  # over the mean
     jam_geometry_report() = new(128, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)

@@ -69,14 +69,8 @@ class Chain {
   }
 
  private:
-  // Displacements that about 2 d neighbours' worth of free room asks for: from the mean neighbour distance
-  // phi^(-1/d) at low density down to a tenth of a diameter near jamming.
-  double first_bound() const {
-    if (o_.step_bound > 0.0) return o_.step_bound;
-    const double spacing = std::pow(packing_fraction(out_.packing), -1.0 / out_.packing.dim);
-    const double jammed = std::pow(out_.packing.dim == 2 ? 0.84 : out_.packing.dim == 3 ? 0.64 : std::pow(2.0, 3.0 - out_.packing.dim) * 0.9, -1.0 / out_.packing.dim);
-    return std::max(0.1, 0.6 * (spacing - jammed) + 0.1);
-  }
+  // The free spacing of a dilute start, down to a tenth of a diameter near jamming.
+  double first_bound() const { return o_.step_bound > 0.0 ? o_.step_bound : 0.1 + 0.6 * free_spacing(out_.packing); }
 
   // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
   void follow_path() {
@@ -223,6 +217,11 @@ class Chain {
 };
 
 }  // namespace
+
+double free_spacing(const Packing &p) {
+  const double jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
+  return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed, -1.0 / p.dim));
+}
 
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
   check_options(start, o);

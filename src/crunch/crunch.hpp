@@ -25,6 +25,10 @@ struct CrunchResult {
 // Never throws for what happens after the first LP: the result carries the status. Throws for bad options.
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor);
 
+// By how much the mean spacing of spheres, phi^(-1/d) diameters, exceeds that of a random jammed packing (0.84 in d = 2, about
+// 0.64 * 0.7^(d-3) above): how far a sphere may have to travel. 0 when denser.
+double free_spacing(const Packing &p);
+
 // ---- parts, one file each
 
 // step.cpp: moves p by alpha (s, g) with the largest alpha <= 1 for which no pair outside the list overlaps.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "crunch/crunch.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {
@@ -17,6 +18,8 @@ constexpr double keep = 0.95;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 constexpr int correctors = 3;
+constexpr int probes = 3;
+constexpr double widest_room = 1e-3;
 // Short steps or forces far from balance say that the barrier sank faster than the network could follow: warm it up by
 // this factor instead. That is what keeps the path from wandering along a buckling network. Not while dilute.
 constexpr double reheat = 1.5, short_step = 0.1, unbalanced_forces = 0.2, warm_below = 0.02;
@@ -32,8 +35,7 @@ class Path {
   RelineariseResult run() {
     RelineariseResult out;
     const int before = system_.factorisations;
-    open_gaps();
-    list_pairs(false);
+    open_enough(before);
     int idle = 0;
     double best = std::numeric_limits<double>::infinity(), reference = unit_now();
     while (measure()) {
@@ -59,25 +61,36 @@ class Path {
     double g = 0.0;
   };
 
-  // Slacks must be strictly positive: shrink until the closest pair is open by a tenth of the median gap of the d n
-  // nearest pairs.
-  void open_gaps() {
+  // Slacks must be strictly positive, and wide enough for the force balance to be reached before they shut: a barrier
+  // that starts too low creeps for hundreds of steps. Open the closest pair by a tenth of the median gap of the d n
+  // nearest pairs, probe with a few Newton steps, and open ten times wider while these are short.
+  void open_enough(int before) {
+    const Packing start = p_;
     unit_ = diameter_mean(p_);
     reach_ = unit_ * first_reach();
     std::vector<double> gaps = make_lp(p_, find_pairs(p_, reach_, 1.0), unit_).c;
-    if (gaps.empty()) return;
+    if (gaps.empty()) return list_pairs(false);
     const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
     std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
-    const double room = 0.1 * std::max(gaps[half], 1e-12), smallest = *std::min_element(gaps.begin(), gaps.end());
-    if (smallest < room)
-      for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + room));
+    const double smallest = *std::min_element(gaps.begin(), gaps.end());
+    for (double room = 0.1 * std::max(gaps[half], 1e-12); ; room *= 10.0) {
+      if (smallest < room)
+        for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + room));
+      mu_ = recent_ = 0.0;
+      list_pairs(false);
+      double longest = 0.0;
+      for (int k = 0; k < probes && measure(); ++k) {
+        if (system_.factorisations - before >= control_.max_factorisations || report(system_.factorisations - before) || !newton()) break;
+        longest = std::max(longest, std::min(alpha_p_, alpha_d_));
+      }
+      if (longest >= short_step || room > widest_room || monitor_.cancelled()) return;
+      p_ = start;
+      unit_ = diameter_mean(p_);
+      reach_ = unit_ * first_reach();
+    }
   }
 
-  // Mean spacing at this density against that at jamming, with a shell for the neighbours: phi^(-1/d) scales both.
-  double first_reach() const {
-    const double jammed = p_.dim == 2 ? 0.84 : 0.9 * std::pow(2.0, 3.0 - p_.dim);
-    return std::max(0.3, 1.5 * (std::pow(packing_fraction(p_), -1.0 / p_.dim) - std::pow(jammed, -1.0 / p_.dim)) + 0.25);
-  }
+  double first_reach() const { return 0.15 + 1.5 * free_spacing(p_); }
 
   double unit_now() const { return p_.diameter.front(); }  // diameters grow in a common factor
 
@@ -201,7 +214,7 @@ class Path {
     for (size_t k = 0; k < rows; ++k) after += (y_[k] + ad * main_.y[k]) * (lp_.c[k] + ap * main_.w[k]);
     centring_ = std::min(std::max(std::pow(after / gap_, 3), 1e-6), 0.9);
     balanced_once_ = balanced_once_ || balance_ < unbalanced_forces;
-    if (balanced_once_ && gap_ < warm_below && (std::min(alpha_p_, alpha_d_) < short_step || balance_ > unbalanced_forces)) centring_ = reheat;
+    if (alpha_p_ > 0.0 && gap_ < warm_below && (std::min(alpha_p_, alpha_d_) < short_step || (balanced_once_ && balance_ > unbalanced_forces))) centring_ = reheat;
     for (size_t k = 0; k < rows; ++k) target_[k] = centring_ * mu - y_[k] * lp_.c[k] - ap * ad * main_.w[k] * main_.y[k];
     solve(true, main_);
     centre(centring_ * mu);

@@ -21,7 +21,9 @@ import numpy as np  # noqa: E402
 import jam  # noqa: E402
 
 LOCALISED = 1  # flag JAM_CONTACT_LOCALISED
-RANGES = {"extended forces": (1e-3, 0.2), "localised forces": (1e-3, 0.2), "gaps": (1e-5, 1e-2), "frequencies": (1e-3, 0.2)}
+# Power laws hold for small values only: the fitted exponents still drift with the upper ends below (extended forces, N = 1024,
+# 20 packings: 0.31, 0.38, 0.42 for 0.4, 0.2, 0.1). Gaps below 1e-4 are depleted by the finite size.
+RANGES = {"extended forces": (1e-4, 0.1), "localised forces": (1e-4, 0.05), "gaps": (1e-4, 1e-2), "frequencies": (1e-3, 0.05)}
 EXPECTED = {"extended forces": 0.42311, "localised forces": 0.17462, "gaps": -0.41269, "frequencies": 0.0}
 
 

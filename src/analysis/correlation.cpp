@@ -16,6 +16,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   if (kind_len != 0 && kind_len != p.n()) fail(JAM_E_ARGUMENT, "kind_len is %zu, it must be 0 or n = %zu", kind_len, p.n());
   if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.box)) fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
+  check_pair_count(p, r_max * unit);
   auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
   double na = 0.0, nb = 0.0;
   for (size_t i = 0; i < p.n(); ++i) {
@@ -46,7 +47,7 @@ StructureFactor structure_factor(const Packing &p, double q_max) {
   if (!(q_max > 0.0 && std::isfinite(q_max))) fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
   const double reach = q_max / unit / step;
   const double vectors = 0.5 * unit_sphere_volume(d) * std::pow(2.0 * reach, d);
-  if (vectors * static_cast<double>(p.n()) > 1e11)
+  if (vectors * static_cast<double>(p.n()) > 2e10)
     fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
   const int m = static_cast<int>(std::floor(reach));
   const size_t n = p.n(), width = 2 * static_cast<size_t>(m) + 1;

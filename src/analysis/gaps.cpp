@@ -24,7 +24,14 @@ bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNe
 
 }  // namespace
 
+void check_pair_count(const Packing &p, double reach) {
+  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.box, p.dim), n = static_cast<double>(p.n());
+  const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + 48.0);
+  if (bytes > 8e9) fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than 8e9", pairs, reach, bytes);
+}
+
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
+  check_pair_count(p, (1.0 + h_max) * diameter_mean(p));
   const PairList all = find_pairs(p, 0.0, 1.0 + h_max);
   PairList out;
   size_t at = 0;

@@ -10,6 +10,9 @@ namespace jam {
 // leaves out pairs with a rattler of the network.
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
+// JAM_E_MEMORY with the estimate when a list of all pairs within `reach` would be unreasonably long.
+void check_pair_count(const Packing &p, double reach);
+
 struct Gaps {
   std::vector<double> gap;     // ascending
   std::vector<int32_t> pair;   // (gaps, 2)

@@ -180,6 +180,7 @@ static void arguments(void **state) {
   assert_int_equal(jam_modes(s, NULL, &o, x, 100, NULL, 0, NULL, 0, &m), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "bytes"));
   assert_int_equal(jam_gaps(s, -1.0, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_gaps(t, 1000.0, 0, NULL, 0, NULL, 0, &m), JAM_E_MEMORY);
   assert_int_equal(jam_pair_correlation(s, i, 3, 0, 0, 2.0, 10, x, 10, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_pair_correlation(s, NULL, 0, 0, 0, 1e9, 10, x, 10, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_pair_correlation(s, NULL, 0, 0, 0, 2.0, 0, x, 10, &m), JAM_E_ARGUMENT);

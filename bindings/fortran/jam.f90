@@ -950,7 +950,7 @@ module jam
 
     ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
     ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-    ! JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+    ! JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1
     function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed) &
         bind(c, name="jam_gaps") result(status)
       import
@@ -1007,7 +1007,7 @@ module jam
     end function jam_contact_dots
 
     ! g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
-    ! diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    ! diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1
     function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) &
         bind(c, name="jam_pair_correlation") result(status)
       import

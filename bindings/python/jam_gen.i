@@ -265,14 +265,14 @@ Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least nor
 of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
+JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
 %feature("docstring") jam_contact_classes "Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_sphere_structure "c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
 *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
 pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
-diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_structure_factor "S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
 No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
 %feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]

@@ -52,7 +52,7 @@ class Methods:
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
         """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
         stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-        JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+        JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"""
         return self.call('gaps', h_max, stable_only)
 
     def contact_classes(self) -> np.ndarray:
@@ -71,7 +71,7 @@ class Methods:
 
     def pair_correlation(self, kind: Any, a: int, b: int, r_max: float, bins: int) -> np.ndarray:
         """g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
-        diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"""
         return self.call('pair_correlation', kind, a, b, r_max, bins)
 
     def structure_factor(self, q_max: float) -> StructureFactorResult:

@@ -13,7 +13,6 @@ constexpr double never = std::numeric_limits<double>::infinity();
 struct Event {
   double time = never;
   int32_t partner = -1;  // sphere to collide with, or -1: leaves its safe sphere
-  int32_t entry = 0;     // of the neighbour list (several images of one partner)
   uint32_t partner_count = 0, count = 0;  // collisions of the partner when this was predicted; own collisions
   int32_t next = -1, prev = -1, where = nowhere;  // bucket >= 0, or nowhere, or heap_base - place in the heap
   static constexpr int32_t nowhere = -1, heap_base = -2;

@@ -160,7 +160,7 @@ class Engine final : public EngineBase {
 
   // shell and bucket tuning
   int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0, rebase_at_ = 0;
-  double time_before_ = 0.0, bucket_width_ = 0.0, collision_time_ = 0.0;
+  double search_cost_ = 0.0, widest_shell_ = 1.5, tuned_time_ = 0.0, time_before_ = 0.0, bucket_width_ = 0.0, collision_time_ = 0.0;
 };
 
 }  // namespace jam

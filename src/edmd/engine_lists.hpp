@@ -10,6 +10,7 @@ namespace jam {
 template <int D, bool Shift>
 void Engine<D, Shift>::choose_cells() {
   cells_ = 0;
+  search_cost_ = static_cast<double>(n_) * (Shift ? 4.0 : 1.0);
   if (Shift) return;
   const double reach = 2.0 * rho_max_ * unit;
   double best = static_cast<double>(n_);  // spheres looked at for one list
@@ -21,6 +22,7 @@ void Engine<D, Shift>::choose_cells() {
     if (side * reach > range) continue;
     if (cost < best) best = cost, cells_ = side, cell_range_ = range;
   }
+  search_cost_ = best;
 }
 
 template <int D, bool Shift>
@@ -48,7 +50,8 @@ void Engine<D, Shift>::build_lists() {
     lists_end_ = margin_ * 0.999 / rate_;
   }
   const double room = (Shift ? 1.4 : 0.4999) / sigma - 1.0 - margin_;
-  shell_ = std::max(smallest_shell, std::min(shell_, 0.49 * room));
+  widest_shell_ = std::max(smallest_shell, std::min(1.5, 0.49 * room));
+  shell_ = std::min(std::max(shell_, smallest_shell), widest_shell_);
   rho_max_ = 0.0;
   for (int32_t i = 0; i < n_; ++i) {
     Body &b = body_[i];

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/mk.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
 
@@ -138,6 +139,36 @@ void place_at_random(Packing &p) {
   }
 }
 
+void plant(Packing &p) {
+  const int32_t n = static_cast<int32_t>(p.n()), d = p.dim;
+  const int32_t most = 2000;
+  p.position.resize(p.n() * static_cast<size_t>(d));
+  Rng rng(p.seed, Stream::rsa_positions);
+  for (double &x : p.position) x = wrap(p.box * rng.uniform(), p.box);
+  p.mk_redrawn.clear();
+  const MkShifts quenched(p);
+  double shift[JAM_MAX_DIM];
+  for (int32_t i = 0; i < n; ++i)
+    for (int32_t j = i + 1; j < n; ++j) {
+      const double touch = 0.5 * (p.diameter[i] + p.diameter[j]) / p.box;
+      int32_t attempt = 0;
+      for (;; ++attempt) {
+        if (attempt == most)
+          fail(JAM_E_UNPLACEABLE, "planting found no shift for spheres %d and %d: %g of the box, packing fraction %g, mk_zeta %g", i, j, touch,
+               packing_fraction(p), p.mk_zeta);
+        quenched.draw(i, j, attempt, 1.0, shift);
+        double r2 = 0.0;
+        for (int c = 0; c < d; ++c) {
+          double x = (p.position[static_cast<size_t>(i) * d + c] - p.position[static_cast<size_t>(j) * d + c]) / p.box + shift[c];
+          x -= std::nearbyint(x);
+          r2 += x * x;
+        }
+        if (r2 >= touch * touch) break;
+      }
+      if (attempt > 0) p.mk_redrawn.push_back({i, j, attempt});
+    }
+}
+
 void settle_overlaps(Packing &p, int32_t policy) {
   const ClosestPair worst = closest_pair(p);
   if (worst.gap >= -overlap_tolerance) return;
@@ -171,7 +202,8 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
     const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
-    place_at_random(p);
+    if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0) plant(p);
+    else place_at_random(p);
   }
   p.velocity.assign(n * o.dim, 0.0);
   return p;

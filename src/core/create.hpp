@@ -16,5 +16,8 @@ void settle_overlaps(Packing &p, int32_t policy);
 // Random sequential addition, largest spheres first, at the diameters that p holds. JAM_E_UNPLACEABLE with
 // the fraction reached when one sphere finds no place in many tries.
 void place_at_random(Packing &p);
+// Mari-Kurchan start at equilibrium at any density (Krzakala and Zdeborova, J. Chem. Phys. 134, 034513 (2011)): positions
+// anywhere, then the shift of each pair again and again until it does not overlap.
+void plant(Packing &p);
 
 }  // namespace jam

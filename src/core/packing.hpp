@@ -9,12 +9,18 @@
 
 namespace jam {
 
+// A pair of the Mari-Kurchan model whose shift was drawn again; i < j.
+struct MkRedrawn {
+  int32_t i, j, attempt;
+};
+
 struct Packing {
   int dim = 3;
   double box = 1.0;
   int64_t seed = 1;
   int32_t model = JAM_MODEL_EUCLID;
   double mk_zeta = std::numeric_limits<double>::infinity();
+  std::vector<MkRedrawn> mk_redrawn;  // sorted; all other pairs have attempt 0 (core/mk.hpp)
   std::vector<double> position;  // (n, dim), in [0, box)
   std::vector<double> diameter;  // n
   std::vector<double> velocity;  // (n, dim), kT/m = 1; all zero until MD draws them

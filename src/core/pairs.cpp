@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/mk.hpp"
 
 namespace jam {
 namespace {
@@ -33,10 +34,16 @@ void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &f
 class ImageScan {
  public:
   ImageScan(const Packing &p, double cutoff_max)
-      : p_(p), reach_(static_cast<int>(std::floor(cutoff_max / p.box + 0.5))) {}
+      : p_(p), reach_(static_cast<int>(std::floor(cutoff_max / p.box + 0.5))), quenched_(p) {}
 
   void scan(int32_t i, int32_t j, double cutoff, std::vector<Candidate> &found) {
     i_ = i, j_ = j, cutoff2_ = cutoff * cutoff, found_ = &found;
+    if (p_.model == JAM_MODEL_MK && i != j) {
+      quenched_.get(i, j, shift_.data());
+      for (double &x : shift_) x *= p_.box;
+    } else {
+      shift_.fill(0.0);
+    }
     descend(0, 0.0, 0);
   }
 
@@ -50,19 +57,21 @@ class ImageScan {
       found_->push_back(now_);
       return;
     }
-    const double dx = p_.position[static_cast<size_t>(i_) * d + c] - p_.position[static_cast<size_t>(j_) * d + c];
+    const double dx = p_.position[static_cast<size_t>(i_) * d + c] - p_.position[static_cast<size_t>(j_) * d + c] + shift_[c];
     const double nearest = -std::nearbyint(dx / p_.box);
     for (int m = -reach_; m <= reach_; ++m) {
       const double shift = (nearest + m) * p_.box;
       const double x = dx + shift;
       if (r2 + x * x >= cutoff2_) continue;
-      now_.offset[c] = shift;
+      now_.offset[c] = shift_[c] + shift;
       descend(c + 1, r2 + x * x, sign != 0 || i_ != j_ ? sign : m);
     }
   }
 
   const Packing &p_;
   const int reach_;
+  const MkShifts quenched_;
+  std::array<double, JAM_MAX_DIM> shift_{};
   int32_t i_ = 0, j_ = 0;
   double cutoff2_ = 0.0;
   Candidate now_{};

@@ -269,7 +269,6 @@ void check_compress_options(const jam_compress_options &o) {
 }
 
 jam_status run_stage(Packing &p, const MdStage &stage, Monitor &monitor, jam_md_report &report) {
-  if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "molecular dynamics of the Mari-Kurchan model is not there yet");
   return Stage(p, stage, monitor, report).run();
 }
 

@@ -18,6 +18,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/mk.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "edmd/calendar.hpp"
@@ -57,7 +58,8 @@ struct EngineOptions {
   double target_fraction = never;     // stop exactly there
 };
 
-// Shift: list entries carry their own image shift. Needed when a pair can meet through several images.
+// Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
+// Mari-Kurchan model.
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o);
 
 template <int D, bool Shift>
@@ -131,6 +133,7 @@ class Engine final : public EngineBase {
     else return (void)i, (void)entry, nullptr;
   }
 
+  std::unique_ptr<MkShifts> quenched_;  // Mari-Kurchan model
   int32_t n_;
   EngineOptions options_;
   double box_;

@@ -118,12 +118,20 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, F &&f) co
   std::array<int64_t, D> distance{};
   std::array<int, D> step{};
   std::array<double, D + 1> r2{};
+  if (quenched_) {
+    double shift_in_boxes[D];
+    quenched_->get(user_[i], user_[k], shift_in_boxes);
+    for (int c = 0; c < D; ++c) shift[c] = std::llrint(shift_in_boxes[c] * scale);
+  }
+  double nearest2 = 0.0;
   for (int c = 0; c < D; ++c) {
     distance[c] = static_cast<int64_t>(centre_[i][c] - centre_[k][c]) + shift[c];
     const int64_t nearest = (distance[c] + (distance[c] >= 0 ? box / 2 : -(box / 2))) / box * box;
     distance[c] -= nearest;
     shift[c] -= nearest;
+    nearest2 += static_cast<double>(distance[c]) * static_cast<double>(distance[c]);
   }
+  if (nearest2 >= cutoff * cutoff) return;
   // Depth first over -1, 0, 1 boxes in each direction, cut off as soon as the distance is too long.
   int c = 0;
   step[0] = -2;

@@ -1,0 +1,49 @@
+// Quenched shifts of the Mari-Kurchan model (J. Chem. Phys. 135, 124504 (2011)), from a counter-based generator: nothing is
+// stored but the few pairs whose shift was drawn again when the start was planted.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/packing.hpp"
+#include "core/rng.hpp"
+
+namespace jam {
+
+class MkShifts {
+ public:
+  explicit MkShifts(const Packing &p)
+      : dim_(p.dim), zeta_(p.mk_zeta), key_(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::mk_shift))), redrawn_(p.mk_redrawn) {}
+
+  // Shift of the pair in box sides, each component in [-1/2, 1/2]: r_ij = r_i - r_j + box * shift, antisymmetric.
+  void get(int32_t i, int32_t j, double *shift) const {
+    const int32_t a = std::min(i, j), b = std::max(i, j);
+    draw(a, b, attempt(a, b), i < j ? 1.0 : -1.0, shift);
+  }
+  void draw(int32_t a, int32_t b, int32_t attempt, double sign, double *shift) const {
+    const uint64_t pair = mix64(key_ ^ mix64(static_cast<uint64_t>(a) << 32 | static_cast<uint64_t>(b)));
+    for (int c = 0; c < dim_; ++c) {
+      const uint64_t bits = mix64(pair + static_cast<uint64_t>(attempt) * 16 + static_cast<uint64_t>(c));
+      double x = static_cast<double>(bits >> 11) * 0x1.0p-53 - 0.5;
+      if (std::isfinite(zeta_)) {
+        x *= zeta_;
+        x -= std::nearbyint(x);
+      }
+      shift[c] = sign * x;
+    }
+  }
+
+ private:
+  int32_t attempt(int32_t a, int32_t b) const {
+    const auto at = std::lower_bound(redrawn_.begin(), redrawn_.end(), MkRedrawn{a, b, 0}, [](const MkRedrawn &x, const MkRedrawn &y) {
+      return x.i != y.i ? x.i < y.i : x.j < y.j;
+    });
+    return at != redrawn_.end() && at->i == a && at->j == b ? at->attempt : 0;
+  }
+  int dim_;
+  double zeta_;
+  uint64_t key_;
+  std::vector<MkRedrawn> redrawn_;
+};
+
+}  // namespace jam

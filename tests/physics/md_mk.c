@@ -1,0 +1,122 @@
+/* The Mari-Kurchan model: exact equation of state, planting, and the chain down to jamming. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta, int64_t seed) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n;
+  o.dim = dim;
+  o.seed = seed;
+  o.packing_fraction = fraction;
+  o.model = JAM_MODEL_MK;
+  o.mk_zeta = zeta;
+  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0) print_error("%s\n", jam_last_error());
+  assert_non_null(sys);
+  return sys;
+}
+
+/* p = 1 + 2^d phi / 2 for zeta infinite. Planted starts are in equilibrium, so it holds at once and also beyond the dynamical
+ * transition (1.776 in d = 3). With N spheres each shift is uniform over what a pair leaves free, the box less 2^d phi / N of
+ * it, so that exactly p = 1 + 2^(d-1) phi / (1 - 2^d phi / N). A shift strength of a whole number of boxes is as good as infinite. */
+static void equation_of_state(void **state) {
+  const struct {
+    int32_t dim;
+    double fraction, zeta;
+  } cases[] = {{3, 0.5, INFINITY}, {3, 1.5, INFINITY}, {3, 2.2, INFINITY}, {2, 1.0, INFINITY}, {4, 0.5, INFINITY}, {3, 1.0, 3.0}};
+  size_t k;
+  (void)state;
+  for (k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    /* One quenched sample fluctuates: the mean over some. */
+    const double excluded = pow(2.0, cases[k].dim) * cases[k].fraction;
+    const double exact = 1.0 + 0.5 * excluded / (1.0 - excluded / 256.0);
+    double sum = 0.0, square = 0.0, error;
+    const int samples = 4;
+    int64_t seed;
+    for (seed = 1; seed <= samples; ++seed) {
+      jam_system *sys = planted(256, cases[k].dim, cases[k].fraction, cases[k].zeta, seed);
+      jam_run_options r;
+      jam_md_report report;
+      report.struct_size = sizeof report;
+      jam_run_options_init(&r, sizeof r);
+      r.collisions_per_particle = 100.0;
+      assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+      assert_true(report.max_overlap < 1e-13 && report.energy_drift < 1e-12);
+      sum += report.pressure / samples;
+      square += report.pressure * report.pressure / samples;
+      jam_destroy(sys);
+    }
+    error = sqrt(fmax(0.0, square - sum * sum) / (samples - 1));
+    print_message("d %d, phi %.2f, zeta %g: p %.4f(%.4f), exact %.4f\n", cases[k].dim, cases[k].fraction, cases[k].zeta, sum, error, exact);
+    assert_true(fabs(sum / exact - 1.0) < 0.01 + 2.0 * error / exact && error < 0.03 * exact);
+  }
+}
+
+static void chain_to_jamming(void **state) {
+  jam_system *sys = planted(200, 3, 1.5, INFINITY, 1);
+  jam_compress_options c;
+  jam_md_report report;
+  jam_report q;
+  (void)state;
+  report.struct_size = sizeof report;
+  jam_compress_options_init(&c, sizeof c);
+  c.pressure = 1e6;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  assert_true(report.max_overlap < 1e-13);
+  q.struct_size = sizeof q;
+  assert_int_equal(jam_crunch(sys, NULL, &q), JAM_OK);
+  assert_int_equal(q.jammed, 1);
+  assert_true(q.packing_fraction > report.packing_fraction && q.packing_fraction < report.packing_fraction * 1.001);
+  assert_int_equal(q.excess_contacts, 0);
+  assert_true(q.max_overlap < 1e-12 && q.force_residual < 1e-8);
+  jam_destroy(sys);
+}
+
+/* zeta = 0 is the Euclidean model, bit for bit as far as the start goes. */
+static void no_shift_is_euclidean(void **state) {
+  jam_system *a = planted(60, 3, 0.2, 0.0, 4), *b = NULL;
+  jam_create_options o;
+  const double *x, *y;
+  jam_md_report ra, rb;
+  size_t len;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 60;
+  o.seed = 4;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &b), JAM_OK);
+  jam_positions_view(a, &x, &len);
+  jam_positions_view(b, &y, &len);
+  assert_memory_equal(x, y, len * sizeof(double));
+  ra.struct_size = rb.struct_size = sizeof ra;
+  assert_int_equal(jam_run(a, NULL, &ra), JAM_OK);
+  assert_int_equal(jam_run(b, NULL, &rb), JAM_OK);
+  assert_true(fabs(ra.pressure - rb.pressure) < 0.2);
+  jam_destroy(a);
+  jam_destroy(b);
+}
+
+static void too_dense_to_plant(void **state) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 3;
+  o.packing_fraction = 2.5; /* three spheres wider than the box */
+  o.model = JAM_MODEL_MK;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_E_UNPLACEABLE);
+  assert_null(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(equation_of_state), cmocka_unit_test(chain_to_jamming), cmocka_unit_test(no_shift_is_euclidean),
+                                     cmocka_unit_test(too_dense_to_plant)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -88,6 +88,34 @@ void prestressed_full(void **) {
   assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4, 0.03)) < 1e-10);
 }
 
+void unstable_lowest(void **) {
+  // Enough pre-stress makes the crystal buckle: negative eigenvalues, found by a shift that is large enough.
+  const double t = 0.3;
+  const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 6), JAM_MODES_LOWEST, 12, 0.0, t);
+  std::vector<double> all = bloch_spectrum(fcc_basis(), fcc_bonds(), 6, t);
+  for (int k = 0; k < 3; ++k)  // the translations are left out
+    all.erase(std::min_element(all.begin(), all.end(), [](double x, double y) { return std::fabs(x) < std::fabs(y); }));
+  assert_true(all[0] < -0.01);
+  assert_true(worst(s.modes.lambda, {all.begin(), all.begin() + 12}) < 1e-9);
+}
+
+void hard_sphere_weights(void **) {
+  // k = f^2: with all forces twice as large in one direction of bonds the Bloch matrix has that bond four times.
+  Case c = lattice(triangular_basis(), triangular_bonds(), 6);
+  for (size_t k = 0; k < c.network.size(); ++k) c.network.force[k] = k % 3 == 0 ? 2.0 : 1.0;  // bonds are laid in turn
+  jam_hessian_options h = default_hessian_options();
+  h.stiffness = JAM_STIFFNESS_HARD;
+  const StableGraph g = make_graph(c.packing, c.network);
+  const ContactWeights w = contact_weights(g, 1.0, h);
+  jam_modes_options o = default_modes_options();
+  o.which = JAM_MODES_ALL;
+  Monitor monitor;
+  Modes modes;
+  assert_int_equal(find_modes(g, w, o, monitor, modes), JAM_OK);
+  const std::vector<std::vector<int>> bonds = {{1, 0}, {1, 0}, {1, 0}, {1, 0}, {0, 1}, {-1, 1}};
+  assert_true(worst(modes.lambda, bloch_spectrum(triangular_basis(), bonds, 6)) < 1e-10);
+}
+
 void square_has_floppy_lines(void **) {
   // The square lattice shears row by row: every row and every column slides at no cost, 2 L zero modes.
   const Solved s = solve(lattice(square_basis(), square_bonds(), 7), JAM_MODES_ALL, 1);
@@ -260,6 +288,7 @@ int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(triangular_full),      cmocka_unit_test(fcc_full),
       cmocka_unit_test(prestressed_full),     cmocka_unit_test(square_has_floppy_lines),
+      cmocka_unit_test(unstable_lowest),      cmocka_unit_test(hard_sphere_weights),
       cmocka_unit_test(triangular_few),       cmocka_unit_test(fcc_few),
       cmocka_unit_test(finite_differences),   cmocka_unit_test(curvature_is_quadratic_form),
       cmocka_unit_test(spectra_of_both_products), cmocka_unit_test(two_images_and_self_contact),

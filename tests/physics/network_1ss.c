@@ -23,12 +23,13 @@ struct network {
   int32_t *node;            /* sphere -> row, -1 */
 };
 
-static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
+static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
   jam_create_options o;
   jam_system *s = NULL;
   double *d = malloc((size_t)n * sizeof *d);
   int64_t k;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.model = model;
   o.dim = dim;
   o.n = n;
   o.packing_fraction = phi;
@@ -38,6 +39,10 @@ static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_
   report->struct_size = sizeof *report;
   assert_int_equal(jam_crunch(s, NULL, report), JAM_OK);
   return s;
+}
+
+static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
+  return crunched_model(JAM_MODEL_EUCLID, dim, n, phi, bidisperse, report);
 }
 
 static struct network open_network(jam_system *s) {
@@ -217,6 +222,18 @@ static void small_packings(void **state) {
   }
 }
 
+/* The same with quenched random shifts of every pair: networks without geometry in space. */
+static void mari_kurchan(void **state) {
+  jam_report report;
+  struct network w = open_network(crunched_model(JAM_MODEL_MK, 3, 100, 0.5, 0, &report));
+  (void)state;
+  assert_int_equal(report.excess_contacts, 0);
+  forces_from_positions(&w);
+  floppy_keeps_contacts(&w);
+  spectrum_identities(&w);
+  close_network(&w);
+}
+
 static void compares(void **state) {
   jam_report report;
   jam_system *a = crunched(3, 60, 0.2, 0, &report), *b = NULL;
@@ -257,6 +274,6 @@ static void shared_packing(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(compares), cmocka_unit_test(shared_packing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(mari_kurchan), cmocka_unit_test(compares), cmocka_unit_test(shared_packing)};
   return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
 }

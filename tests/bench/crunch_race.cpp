@@ -68,12 +68,13 @@ void row(const char *method, const Packing &p, jam_crunch_options o, int runs, d
   first = false;
 }
 
-// The first LP of the chain, solved to full accuracy by both solvers.
-void first_lp(const Packing &p, int runs) {
+// One LP of the chain, solved to full accuracy by both solvers: with libjam's first reach and bound, and with those of
+// CALiPPSO's first stage (pairs nearer than 4 R, |s_ik| < (2 R - 1.5 R) / sqrt(d)).
+void first_lp(const Packing &p, int runs, const char *name, double reach, double bound) {
   const double unit = diameter_mean(p);
-  const PairList pairs = find_pairs(p, 0.22 * unit, 1.0);
+  const PairList pairs = find_pairs(p, reach * unit, 1.0);
   PackingLp lp = make_lp(p, pairs, unit);
-  lp.bound = 0.1;
+  lp.bound = bound;
   std::vector<double> ours;
   LpSolution a;
   for (int k = 0; k < runs; ++k) {
@@ -87,9 +88,9 @@ void first_lp(const Packing &p, int runs) {
   const LpSolution b = solve_lp_clp(lp, 1e-9, 900.0);
   const double clp = now_seconds() - t1;
   const LpCheck ca = check_lp(lp, a), cb = check_lp(lp, b);
-  std::printf(",\n  \"first_lp\": {\"rows\": %zu, \"ipm_seconds\": %.6g, \"clp_seconds\": %.6g, \"ratio\": %.4g, \"ipm_iterations\": %d, \"g_difference\": %.3g, "
+  std::printf(",\n  \"first_lp_%s\": {\"rows\": %zu, \"ipm_seconds\": %.6g, \"clp_seconds\": %.6g, \"ratio\": %.4g, \"ipm_iterations\": %d, \"g_difference\": %.3g, "
               "\"ipm_gap\": %.3g, \"clp_gap\": %.3g, \"ipm_balance\": %.3g, \"clp_balance\": %.3g}",
-              lp.rows(), median(ours), clp, clp / median(ours), a.iterations, std::fabs(a.g - b.g), ca.gap, cb.gap, ca.balance, cb.balance);
+              name, lp.rows(), median(ours), clp, clp / median(ours), a.iterations, std::fabs(a.g - b.g), ca.gap, cb.gap, ca.balance, cb.balance);
 }
 
 }  // namespace
@@ -119,6 +120,9 @@ int main(int argc, char **argv) {
     row("relinearise, last LPs by Clp", p, o, 1, reference);
   }
   std::printf("\n  ]");
-  if (argc > 3 && !std::strcmp(argv[3], "clp")) first_lp(p, runs);
+  if (argc > 3 && !std::strcmp(argv[3], "clp")) {
+    first_lp(p, runs, "libjam", 0.22, 0.1);
+    first_lp(p, runs, "calippso", 1.0, 0.25 / std::sqrt(static_cast<double>(p.dim)));
+  }
   std::printf("\n}\n");
 }

@@ -73,6 +73,14 @@ module jam
   integer(c_int32_t), parameter :: JAM_FORMAT_PLAIN = 1
   integer(c_int32_t), parameter :: JAM_FORMAT_XYZ = 2
 
+  ! jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
+  integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
+  integer(c_int32_t), parameter :: JAM_EOS_PY_VIRIAL = 1
+  integer(c_int32_t), parameter :: JAM_EOS_PY_COMPRESSIBILITY = 2
+  integer(c_int32_t), parameter :: JAM_EOS_VIRIAL = 3
+  integer(c_int32_t), parameter :: JAM_EOS_MK = 4
+  integer(c_int32_t), parameter :: JAM_EOS_FREE_VOLUME = 5
+
   ! jam_lp_solver: How the LPs are solved. @since 0.1
   integer(c_int32_t), parameter :: JAM_LP_IPM = 0
   integer(c_int32_t), parameter :: JAM_LP_CLP = 1
@@ -226,6 +234,24 @@ module jam
     ! wall time
     real(c_double) :: seconds = 0
   end type jam_md_report
+
+  ! A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
+  type, bind(c) :: jam_glass
+    ! set by the caller: sizeof(jam_glass)
+    integer(c_int32_t) :: struct_size = 48
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! phi_J
+    real(c_double) :: jammed_fraction = 0
+    ! its standard error
+    real(c_double) :: jammed_error = 0
+    ! d', free; near d for a good glass
+    real(c_double) :: dimension = 0
+    ! its standard error
+    real(c_double) :: dimension_error = 0
+    ! of the straight line 1/p against phi
+    real(c_double) :: r_squared = 0
+  end type jam_glass
 
   ! Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1
   type, bind(c) :: jam_crunch_options
@@ -748,6 +774,53 @@ module jam
       type(jam_md_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_compress
+
+    ! Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
+    ! a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+    function jam_checkpoint_write(sys, path) &
+        bind(c, name="jam_checkpoint_write") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function jam_checkpoint_write
+
+    ! Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
+    ! JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+    function jam_checkpoint_read(path, out) &
+        bind(c, name="jam_checkpoint_read") result(status)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function jam_checkpoint_read
+
+    ! pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1
+    function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure) &
+        bind(c, name="jam_eos") result(status)
+      import
+      integer(c_int32_t), value :: form
+      integer(c_int32_t), value :: dim
+      real(c_double), value :: packing_fraction
+      real(c_double), value :: jammed_fraction
+      real(c_double), intent(out), optional :: pressure
+      integer(c_int32_t) :: status
+    end function jam_eos
+
+    ! Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+    ! JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1
+    function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit) &
+        bind(c, name="jam_glass_fit") result(status)
+      import
+      real(c_double), intent(in), optional :: fraction(*)
+      integer(c_size_t), value :: fraction_len
+      real(c_double), intent(in), optional :: pressure(*)
+      integer(c_size_t), value :: pressure_len
+      type(jam_glass), intent(inout), optional :: fit
+      integer(c_int32_t) :: status
+    end function jam_glass_fit
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_crunch_options_init(o, size) &

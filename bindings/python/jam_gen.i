@@ -3,6 +3,9 @@
 %apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
 %apply (const double **VIEW, size_t *VIEW_LEN) {(const double **view, size_t *view_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *velocities, size_t velocities_len)};
+%apply double *RESULT {double *pressure};
+%apply (const double *IN, size_t IN_LEN) {(const double *fraction, size_t fraction_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *pressure, size_t pressure_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
 %apply size_t *RESULT {size_t *needed};
 %apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
@@ -86,6 +89,15 @@
   ~jam_md_report() { free($self); }
 }
 %feature("docstring") jam_md_report "What MD did. @since 0.1"
+%extend jam_glass {
+  jam_glass() {
+    jam_glass *made = (jam_glass *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_glass() { free($self); }
+}
+%feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1"
 %extend jam_crunch_options {
   jam_crunch_options() {
     jam_crunch_options *made = (jam_crunch_options *)calloc(1, sizeof *made);
@@ -227,6 +239,15 @@ that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a 
 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
 JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1"
+%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
+a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
+JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_eos "pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"
+%feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"
 %feature("docstring") jam_crunch_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
 106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.

@@ -330,6 +330,42 @@ JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_rep
  * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
+/* Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
+ * a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+ * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
+JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
+/* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
+ * JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
+JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
+
+/* Equations of state p(phi) in closed form. @since 0.1 */
+typedef enum jam_eos_form {
+  JAM_EOS_CARNAHAN_STARLING = 0,  /* d = 3, as the next three */
+  JAM_EOS_PY_VIRIAL = 1,          /* Percus-Yevick, virial route */
+  JAM_EOS_PY_COMPRESSIBILITY = 2, /* Percus-Yevick, compressibility route */
+  JAM_EOS_VIRIAL = 3,             /* series to the seventh coefficient */
+  JAM_EOS_MK = 4,                 /* 1 + 2^d phi / 2, exact for zeta infinite */
+  JAM_EOS_FREE_VOLUME = 5         /* glass: d / (1 - phi / jammed_fraction) */
+} jam_eos_form;
+/* *pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1 */
+JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction, double *pressure);
+
+/* A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1 */
+typedef struct jam_glass {
+  uint32_t struct_size;   /* set by the caller: sizeof(jam_glass) */
+  int32_t reserved;       /* 0 */
+  double jammed_fraction; /* phi_J */
+  double jammed_error;    /* its standard error */
+  double dimension;       /* d', free; near d for a good glass */
+  double dimension_error; /* its standard error */
+  double r_squared;       /* of the straight line 1/p against phi */
+} jam_glass;
+/* Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+ * JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1 */
+JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure, size_t pressure_len,
+                                 jam_glass *fit);
+
 /* ------------------------------------------------------------------ crunch to the jamming point */
 
 /* How the LPs are solved. @since 0.1 */

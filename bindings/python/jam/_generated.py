@@ -88,6 +88,16 @@ class Format(IntEnum):
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 
 
+class EosForm(IntEnum):
+    """Equations of state p(phi) in closed form. @since 0.1"""
+    CARNAHAN_STARLING = 0  # d = 3, as the next three
+    PY_VIRIAL = 1  # Percus-Yevick, virial route
+    PY_COMPRESSIBILITY = 2  # Percus-Yevick, compressibility route
+    VIRIAL = 3  # series to the seventh coefficient
+    MK = 4  # 1 + 2^d phi / 2, exact for zeta infinite
+    FREE_VOLUME = 5  # glass: d / (1 - phi / jammed_fraction)
+
+
 class LpSolver(IntEnum):
     """How the LPs are solved. @since 0.1"""
     IPM = 0  # libjam's interior point on the particle graph; Clp if it fails
@@ -198,6 +208,24 @@ class MdReport:
     energy_drift: float
     max_overlap: float
     seconds: float
+
+
+@dataclass(frozen=True, repr=False)
+class Glass:
+    """A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
+
+    reserved: 0
+    jammed_fraction: phi_J
+    jammed_error: its standard error
+    dimension: d', free; near d for a good glass
+    dimension_error: its standard error
+    r_squared: of the straight line 1/p against phi"""
+    reserved: int
+    jammed_fraction: float
+    jammed_error: float
+    dimension: float
+    dimension_error: float
+    r_squared: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -411,6 +439,7 @@ REPORTS = {
     "jam_info": Info,
     "jam_progress": Progress,
     "jam_md_report": MdReport,
+    "jam_glass": Glass,
     "jam_report": Report,
     "jam_geometry_report": GeometryReport,
     "jam_moduli": Moduli,
@@ -438,6 +467,7 @@ CALLS = {
     "jam_write": ('Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading\ngives the same bits; links are followed, pipes and devices written in place.\nErrors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1', False, (("path", "string", "char"), ("format", "scalar", "int32_t"))),
     "jam_run": ('Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are\ndrawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL.\nStatus: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,\nJAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,\nJAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1', True, (("o", "struct_in", "jam_run_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_compress": ('Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol\nthat avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about\n1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.\nStatus: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,\nJAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1', True, (("o", "struct_in", "jam_compress_options"), ("report", "struct_out", "jam_md_report"))),
+    "jam_checkpoint_write": ('Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to\na binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.\nErrors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1', False, (("path", "string", "char"),)),
     "jam_crunch": ('Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E\n106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.\nStatus: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last\nvalid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,\nJAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),\nJAM_E_BUSY. Threads: alone. @since 0.1', True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_report"))),
     "jam_report_get": ('The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1', False, (("report", "struct_out", "jam_report"),)),
     "jam_contacts": ('Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.\nErrors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1', False, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

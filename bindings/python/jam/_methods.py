@@ -16,6 +16,12 @@ class Methods:
     def call(self, name: str, *args: Any, progress: Progressing = None, **named: Any) -> Any:
         raise NotImplementedError
 
+    def checkpoint_write(self, path: str) -> None:
+        """Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
+        a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+        Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
+        return self.call('checkpoint_write', path)
+
     def contact_vectors(self) -> np.ndarray:
         """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_vectors')

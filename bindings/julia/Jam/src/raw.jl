@@ -76,6 +76,14 @@ const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz and .extxyz are XYZ, all else 
 const JAM_FORMAT_PLAIN = Int32(1)  # line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more column; then a position a line, 17 digits; box side after line 3's value when it is not 1: `<diameter> box <L>`
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 
+# jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
+const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
+const JAM_EOS_PY_VIRIAL = Int32(1)  # Percus-Yevick, virial route
+const JAM_EOS_PY_COMPRESSIBILITY = Int32(2)  # Percus-Yevick, compressibility route
+const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
+const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
+const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
+
 # jam_lp_solver: How the LPs are solved. @since 0.1
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
 const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
@@ -193,6 +201,20 @@ mutable struct jam_md_report
     max_overlap::Cdouble  # largest -h seen at the end and at list updates, >= 0
     seconds::Cdouble  # wall time
     jam_md_report() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
+"""
+mutable struct jam_glass
+    struct_size::UInt32  # set by the caller: sizeof(jam_glass)
+    reserved::Int32  # 0
+    jammed_fraction::Cdouble  # phi_J
+    jammed_error::Cdouble  # its standard error
+    dimension::Cdouble  # d', free; near d for a good glass
+    dimension_error::Cdouble  # its standard error
+    r_squared::Cdouble  # of the straight line 1/p against phi
+    jam_glass() = new(48, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -562,6 +584,39 @@ JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Thread
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
+end
+
+"""
+Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
+a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+"""
+function jam_checkpoint_write(sys, path)
+    return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
+end
+
+"""
+Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
+JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+"""
+function jam_checkpoint_read(path, out)
+    return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)
+end
+
+"""
+pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1
+"""
+function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
+    return ccall((:jam_eos, libjam), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
+end
+
+"""
+Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1
+"""
+function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
+    return ccall((:jam_glass_fit, libjam), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
 end
 
 """

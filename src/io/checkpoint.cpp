@@ -1,0 +1,116 @@
+// Checkpoint: magic, header, arrays, checksum; little endian, as every machine that libjam is built for.
+#include "io/checkpoint.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "io/output_file.hpp"
+
+namespace jam {
+namespace {
+
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '1'};
+
+struct Header {
+  char magic[8];
+  int64_t n, seed, redrawn;
+  int32_t dim, model, has_velocity, reserved;
+  double box, mk_zeta, pressure;
+};
+
+uint64_t checksum(const char *data, size_t size) {
+  uint64_t sum = 0x6a616d;
+  for (size_t k = 0; k < size; k += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, data + k, size - k < 8 ? size - k : 8);
+    sum = mix64(sum ^ word);
+  }
+  return sum;
+}
+
+template <class T>
+void put(std::string &text, const std::vector<T> &v) {
+  if (!v.empty()) text.append(reinterpret_cast<const char *>(v.data()), v.size() * sizeof(T));
+}
+template <class T>
+void take(const char *&at, std::vector<T> &v, size_t count) {
+  v.resize(count);
+  if (count) std::memcpy(static_cast<void *>(v.data()), at, count * sizeof(T));
+  at += count * sizeof(T);
+}
+
+std::string slurp(const char *path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path, "rb"), std::fclose);
+  if (!file) fail(JAM_E_IO, "cannot open %s: %s", path, std::strerror(errno));
+  std::string all;
+  char part[65536];
+  for (size_t got; (got = std::fread(part, 1, sizeof part, file.get())) > 0;) all.append(part, got);
+  if (std::ferror(file.get())) fail(JAM_E_IO, "cannot read %s: %s", path, std::strerror(errno));
+  return all;
+}
+
+}  // namespace
+
+void write_checkpoint(const Packing &p, const char *path) {
+  OutputFile file(path);
+  Header h{};
+  std::memcpy(h.magic, magic, sizeof magic);
+  h.n = static_cast<int64_t>(p.n());
+  h.seed = p.seed;
+  h.redrawn = static_cast<int64_t>(p.mk_redrawn.size());
+  h.dim = p.dim;
+  h.model = p.model;
+  h.has_velocity = p.has_velocity;
+  h.box = p.box;
+  h.mk_zeta = p.mk_zeta;
+  h.pressure = p.pressure;
+  std::string &text = file.text();
+  text.assign(reinterpret_cast<const char *>(&h), sizeof h);
+  put(text, p.position);
+  put(text, p.diameter);
+  put(text, p.velocity);
+  put(text, p.mk_redrawn);
+  const uint64_t sum = checksum(text.data(), text.size());
+  text.append(reinterpret_cast<const char *>(&sum), sizeof sum);
+  file.commit();
+}
+
+Packing read_checkpoint(const char *path) {
+  const std::string all = slurp(path);
+  Header h{};
+  if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0) fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
+  std::memcpy(&h, all.data(), sizeof h);
+  uint64_t sum = 0;
+  std::memcpy(&sum, all.data() + all.size() - 8, 8);
+  if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);
+  const size_t room = all.size() - sizeof h - 8;
+  if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 || static_cast<size_t>(h.redrawn) > room ||
+      room != static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) + static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
+    fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(), static_cast<long long>(h.n));
+  Packing p;
+  p.dim = h.dim;
+  p.box = h.box;
+  p.seed = h.seed;
+  p.model = h.model;
+  p.mk_zeta = h.mk_zeta;
+  p.pressure = h.pressure;
+  p.has_velocity = h.has_velocity != 0;
+  const char *at = all.data() + sizeof h;
+  const size_t n = static_cast<size_t>(h.n), d = static_cast<size_t>(h.dim);
+  take(at, p.position, n * d);
+  take(at, p.diameter, n);
+  take(at, p.velocity, n * d);
+  take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
+  bool good = h.box > 0.0 && std::isfinite(h.box) && (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) && !(h.mk_zeta < 0.0);
+  for (double x : p.position) good = good && x >= 0.0 && x < h.box;
+  for (double s : p.diameter) good = good && s > 0.0 && s <= h.box;
+  for (double v : p.velocity) good = good && std::isfinite(v);
+  if (!good) fail(JAM_E_FORMAT, "%s holds values that no packing has", path);
+  return p;
+}
+
+}  // namespace jam

@@ -1,0 +1,156 @@
+/* Checkpoints, equations of state, the fit of the glass branch. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char *path = "md_state_checkpoint.bin";
+
+static jam_system *make(int32_t model) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 120;
+  o.model = model;
+  o.packing_fraction = model == JAM_MODEL_MK ? 1.5 : 0.3;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static void same(const jam_system *a, const jam_system *b) {
+  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view, jam_velocities_view};
+  int k;
+  for (k = 0; k < 3; ++k) {
+    const double *x, *y;
+    size_t n, m;
+    views[k](a, &x, &n);
+    views[k](b, &y, &m);
+    assert_int_equal(n, m);
+    assert_memory_equal(x, y, n * sizeof(double));
+  }
+}
+
+static void resumes_to_the_same_bits(void **state) {
+  int32_t model;
+  (void)state;
+  for (model = JAM_MODEL_EUCLID; model <= JAM_MODEL_MK; ++model) {
+    jam_system *a = make(model), *b = NULL;
+    jam_compress_options c;
+    jam_compress_options_init(&c, sizeof c);
+    assert_int_equal(jam_run(a, NULL, NULL), JAM_OK);
+    assert_int_equal(jam_checkpoint_write(a, path), JAM_OK);
+    assert_int_equal(jam_checkpoint_read(path, &b), JAM_OK);
+    same(a, b);
+    assert_int_equal(jam_run(a, NULL, NULL), JAM_OK);
+    assert_int_equal(jam_run(b, NULL, NULL), JAM_OK);
+    same(a, b);
+    assert_int_equal(jam_compress(a, &c, NULL), JAM_OK);
+    assert_int_equal(jam_compress(b, &c, NULL), JAM_OK);
+    same(a, b);
+    jam_destroy(a);
+    jam_destroy(b);
+  }
+  remove(path);
+}
+
+static void refuses_what_is_no_checkpoint(void **state) {
+  jam_system *sys = make(JAM_MODEL_MK), *out = NULL;
+  unsigned char data[200000];
+  size_t size, cut;
+  FILE *f;
+  (void)state;
+  assert_int_equal(jam_checkpoint_write(NULL, path), JAM_E_NULL);
+  assert_int_equal(jam_checkpoint_write(sys, NULL), JAM_E_NULL);
+  assert_int_equal(jam_checkpoint_read(NULL, &out), JAM_E_NULL);
+  assert_int_equal(jam_checkpoint_read("no such file", &out), JAM_E_IO);
+  assert_int_equal(jam_checkpoint_write(sys, "no such folder/x"), JAM_E_IO);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  f = fopen(path, "rb");
+  size = fread(data, 1, sizeof data, f);
+  fclose(f);
+  for (cut = 0; cut < size; cut += size / 17) { /* truncated anywhere */
+    f = fopen(path, "wb");
+    fwrite(data, 1, cut, f);
+    fclose(f);
+    assert_int_equal(jam_checkpoint_read(path, &out), JAM_E_FORMAT);
+  }
+  for (cut = 0; cut < size; cut += size / 23) { /* a bit changed anywhere */
+    f = fopen(path, "wb");
+    data[cut] ^= 4;
+    fwrite(data, 1, size, f);
+    data[cut] ^= 4;
+    fclose(f);
+    assert_int_equal(jam_checkpoint_read(path, &out), JAM_E_FORMAT);
+  }
+  assert_null(out);
+  remove(path);
+  jam_destroy(sys);
+}
+
+static double eos(int32_t form, int32_t dim, double f) {
+  double p = -1.0;
+  assert_int_equal(jam_eos(form, dim, f, 0.64, &p), JAM_OK);
+  return p;
+}
+
+static void equations_of_state(void **state) {
+  double p = -1.0;
+  int32_t form;
+  (void)state;
+  for (form = JAM_EOS_CARNAHAN_STARLING; form <= JAM_EOS_VIRIAL; ++form) {
+    assert_true(eos(form, 3, 0.0) == 1.0);
+    /* Second and third virial coefficients 4 and 10. */
+    assert_true(fabs((eos(form, 3, 1e-4) - 1.0) / 1e-4 - 4.0 - 10.0e-4) < 1e-6);
+    assert_int_equal(jam_eos(form, 2, 0.3, 0, &p), JAM_E_UNSUPPORTED);
+  }
+  assert_true(fabs(eos(JAM_EOS_CARNAHAN_STARLING, 3, 0.5) - 13.0) < 1e-12);
+  assert_true(fabs(eos(JAM_EOS_VIRIAL, 3, 0.1) - eos(JAM_EOS_CARNAHAN_STARLING, 3, 0.1)) < 1e-3);
+  assert_true(eos(JAM_EOS_MK, 3, 0.5) == 3.0 && eos(JAM_EOS_MK, 4, 0.5) == 5.0);
+  assert_true(fabs(eos(JAM_EOS_FREE_VOLUME, 3, 0.32) - 6.0) < 1e-12);
+  p = -7.0;
+  assert_int_equal(jam_eos(JAM_EOS_FREE_VOLUME, 3, 0.7, 0.64, &p), JAM_E_ARGUMENT);
+  assert_int_equal(jam_eos(99, 3, 0.3, 0, &p), JAM_E_ARGUMENT);
+  assert_int_equal(jam_eos(0, 1, 0.3, 0, &p), JAM_E_DIMENSION);
+  assert_int_equal(jam_eos(0, 3, NAN, 0, &p), JAM_E_ARGUMENT);
+  assert_int_equal(jam_eos(0, 3, 0.3, 0, NULL), JAM_E_NULL);
+  assert_true(p == -7.0);
+}
+
+static void glass_fit(void **state) {
+  double f[40], p[40];
+  jam_glass g;
+  int k;
+  (void)state;
+  g.struct_size = sizeof g;
+  for (k = 0; k < 40; ++k) {
+    p[k] = pow(10.0, 5.0 + 0.1 * k);
+    f[k] = 0.643 * (1.0 - 3.1 / p[k]);
+  }
+  assert_int_equal(jam_glass_fit(f, 40, p, 40, &g), JAM_OK);
+  assert_true(fabs(g.jammed_fraction - 0.643) < 1e-12);
+  assert_true(fabs(g.dimension - 3.1) < 1e-6 && g.r_squared > 0.999999);
+  assert_true(g.jammed_error < 1e-12 && g.dimension_error < 1e-6);
+  for (k = 0; k < 40; ++k) p[k] *= 1.0 + 0.05 * sin(7.0 * k);
+  assert_int_equal(jam_glass_fit(f, 40, p, 40, &g), JAM_OK);
+  assert_true(fabs(g.dimension - 3.1) < 4.0 * g.dimension_error && g.dimension_error > 1e-4);
+  assert_true(fabs(g.jammed_fraction - 0.643) < 4.0 * g.jammed_error);
+  assert_int_equal(jam_glass_fit(f, 39, p, 40, &g), JAM_E_ARGUMENT);
+  assert_int_equal(jam_glass_fit(f, 2, p, 2, &g), JAM_E_TOO_FEW);
+  p[3] = -1.0;
+  assert_int_equal(jam_glass_fit(f, 40, p, 40, &g), JAM_E_ARGUMENT);
+  g.struct_size = 1;
+  assert_int_equal(jam_glass_fit(f, 40, p, 40, &g), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_glass_fit(NULL, 0, p, 40, &g), JAM_E_NULL);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(resumes_to_the_same_bits), cmocka_unit_test(refuses_what_is_no_checkpoint),
+                                     cmocka_unit_test(equations_of_state), cmocka_unit_test(glass_fit)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Charts of molecular dynamics.
+
+    md_charts.py speed MD_SPEED.json OUT.png     collisions a second against N, one line a packing fraction
+    md_charts.py accuracy LIBJAM.so OUT.png [SECONDS]
+        phi_J by crunch against processor time for growth rates and target pressures, N = 256, one seed a point; and the
+        deviation from the slowest run. Prints the table as JSON.
+"""
+import ctypes
+import json
+import sys
+import time
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+
+def speed(source, target):
+    rows = json.load(open(source))["nve"]
+    for fraction in sorted({r["packing_fraction"] for r in rows}):
+        line = [r for r in rows if r["packing_fraction"] == fraction]
+        n, rate = [r["n"] for r in line], [r["collisions_per_second"] / 1e6 for r in line]
+        low = [r["collisions_per_second"] / 1e6 - r["spread"][0] / 1e6 for r in line]
+        high = [r["spread"][1] / 1e6 - r["collisions_per_second"] / 1e6 for r in line]
+        plt.errorbar(n, rate, yerr=[low, high], marker="o", capsize=3, label=f"packing fraction {fraction}")
+    plt.xscale("log")
+    plt.ylim(bottom=0)
+    plt.xlabel("spheres")
+    plt.ylabel("million collisions a second (processor time)")
+    plt.legend()
+    plt.tight_layout()
+    plt.savefig(target, dpi=120)
+
+
+class CreateOptions(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("dim", ctypes.c_int32), ("n", ctypes.c_int64), ("seed", ctypes.c_int64), ("box", ctypes.c_double),
+                ("packing_fraction", ctypes.c_double), ("overlap", ctypes.c_int32), ("model", ctypes.c_int32), ("mk_zeta", ctypes.c_double)]
+
+
+class CompressOptions(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_int32), ("growth_rate", ctypes.c_double), ("pressure", ctypes.c_double),
+                ("packing_fraction", ctypes.c_double), ("collisions_per_particle", ctypes.c_double), ("wall_time", ctypes.c_double)]
+
+
+class Info(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("dim", ctypes.c_int32), ("n", ctypes.c_int64), ("seed", ctypes.c_int64), ("box", ctypes.c_double),
+                ("packing_fraction", ctypes.c_double), ("diameter_mean", ctypes.c_double), ("pressure", ctypes.c_double),
+                ("model", ctypes.c_int32), ("monodisperse", ctypes.c_int32)]
+
+
+def accuracy(library, target, budget=60.0):
+    jam = ctypes.CDLL(library)
+    jam.jam_last_error.restype = ctypes.c_char_p
+    begin, rows = time.process_time(), []
+    for growth in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4):
+        system, o, c = ctypes.c_void_p(), CreateOptions(), CompressOptions()
+        jam.jam_create_options_init(ctypes.byref(o), ctypes.c_size_t(ctypes.sizeof(o)))
+        o.n = 256
+        jam.jam_create(ctypes.byref(o), None, ctypes.c_size_t(0), None, ctypes.c_size_t(0), ctypes.byref(system))
+        jam.jam_compress_options_init(ctypes.byref(c), ctypes.c_size_t(ctypes.sizeof(c)))
+        start = time.process_time()
+        jam.jam_compress(system, ctypes.byref(c), None)
+        c.growth_rate = growth
+        spent = time.process_time() - start
+        for pressure in (1e3, 1e5, 1e7, 1e9, 1e11):
+            if time.process_time() - begin > budget:
+                break
+            c.pressure = pressure
+            start = time.process_time()
+            jam.jam_compress(system, ctypes.byref(c), None)
+            spent += time.process_time() - start
+            copy, info = ctypes.c_void_p(), Info()
+            jam.jam_copy(system, ctypes.byref(copy))
+            start = time.process_time()
+            status = jam.jam_crunch(copy, None, None)
+            crunch = time.process_time() - start
+            info.struct_size = ctypes.sizeof(info)
+            jam.jam_info_get(copy, ctypes.byref(info))
+            jam.jam_destroy(copy)
+            rows.append({"growth_rate": growth, "pressure": pressure, "seconds_md": round(spent, 3), "seconds_crunch": round(crunch, 3),
+                         "status": status, "packing_fraction": info.packing_fraction})
+        jam.jam_destroy(system)
+    print(json.dumps(rows, indent=1))
+    slowest = rows[-1]["packing_fraction"]
+    figure, (top, bottom) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 7))
+    for growth in sorted({r["growth_rate"] for r in rows}, reverse=True):
+        line = [r for r in rows if r["growth_rate"] == growth]
+        seconds = [r["seconds_md"] + r["seconds_crunch"] for r in line]
+        top.plot(seconds, [r["packing_fraction"] for r in line], "o-", label=f"G = {growth:g}")
+        bottom.plot(seconds, [abs(r["packing_fraction"] - slowest) + 1e-17 for r in line], "o-")
+    top.set_ylabel("phi_J after crunch")
+    top.legend(fontsize=8)
+    bottom.set_yscale("log")
+    bottom.set_ylabel("deviation from the slowest run")
+    bottom.set_xscale("log")
+    bottom.set_xlabel("processor seconds, crunch included (points: p = 1e3 ... 1e11)")
+    figure.tight_layout()
+    figure.savefig(target, dpi=120)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 4 or sys.argv[1] not in ("speed", "accuracy"):
+        sys.exit(__doc__)
+    if sys.argv[1] == "speed":
+        speed(sys.argv[2], sys.argv[3])
+    else:
+        accuracy(sys.argv[2], sys.argv[3], *map(float, sys.argv[4:5]))

@@ -89,7 +89,8 @@ def accuracy(library, target, budget=60.0):
         line = [r for r in rows if r["growth_rate"] == growth]
         seconds = [r["seconds_md"] + r["seconds_crunch"] for r in line]
         top.plot(seconds, [r["packing_fraction"] for r in line], "o-", label=f"G = {growth:g}")
-        bottom.plot(seconds, [abs(r["packing_fraction"] - slowest) + 1e-17 for r in line], "o-")
+        other = [(t, abs(r["packing_fraction"] - slowest) + 1e-16) for t, r in zip(seconds, line) if r is not rows[-1]]
+        bottom.plot([t for t, _ in other], [x for _, x in other], "o-")
     top.set_ylabel("phi_J after crunch")
     top.legend(fontsize=8)
     bottom.set_yscale("log")

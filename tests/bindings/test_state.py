@@ -148,6 +148,12 @@ class Copies(unittest.TestCase):
         a.velocities = np.random.default_rng(0).normal(size=(20, 3))
         self.check_same(a, pickle.loads(pickle.dumps(a)))
 
+    def test_mari_kurchan_is_copied_but_not_pickled(self):
+        a = jam.System.random(n=20, model="mk")
+        self.check_same(a, copy.deepcopy(a))
+        with self.assertRaisesRegex(pickle.PicklingError, "Mari-Kurchan"):
+            pickle.dumps(a)
+
     def test_pickle_carries_results_until_the_next_change(self):
         a = jam.System.random(n=40, dim=2, seed=2)
         a.crunch()

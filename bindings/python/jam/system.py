@@ -5,12 +5,13 @@ import os
 import threading
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
+from pickle import PicklingError
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
 from . import _calls, errors, raw
-from ._generated import CALLS, Info, MdReport, ModesWhich, Progress, Report, StatusCode
+from ._generated import CALLS, Info, MdReport, Model, ModesWhich, Progress, Report, StatusCode
 from ._methods import Methods, StressStatesResult
 from ._progress import reporter
 
@@ -218,6 +219,8 @@ class System(Methods):
 
     def __reduce__(self) -> tuple:
         info = self.info
+        if info.model == Model.MK:  # re-drawn pairs of a planted start are known to the handle alone
+            raise PicklingError("a Mari-Kurchan system cannot be pickled: its shifts are not part of the arrays; use copy()")
         options = {"box": info.box, "seed": info.seed, "model": int(info.model), "mk_zeta": self._mk_zeta}
         velocities = self.velocities.copy()
         return _restore, (self.positions.copy(), self.diameters.copy(), velocities if velocities.any() else None, options,

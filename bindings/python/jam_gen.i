@@ -225,7 +225,8 @@ last line must end with a newline (a file cut inside a number is told by that); 
 Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
 and those of jam_create. Threads: any. @since 0.1"
 %feature("docstring") jam_write "Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-gives the same bits; links are followed, pipes and devices written in place.
+gives the same bits; links are followed, pipes and devices written in place. The shifts of JAM_MODEL_MK
+are not written: read with the same seed and mk_zeta; those of a planted start cannot be had again.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"

@@ -14,7 +14,7 @@ namespace {
 
 // Spheres that cannot fit wherever they are: one wider than the box, or more volume than the box has. The search for
 // the worst pair would list all their images (a diameter of 1e9 boxes: no end), so they are refused, or shrunk to
-// the largest that could fit, before it.
+// the largest that could fit, before it. (In the Mari-Kurchan model spheres share room: only their width counts.)
 void limit_diameters(const jam_create_options &o, FileContent &file) {
   double widest = 0.0, volume = 0.0;
   const double copies = file.diameter.size() == 1 ? static_cast<double>(o.n) : 1.0;
@@ -22,7 +22,7 @@ void limit_diameters(const jam_create_options &o, FileContent &file) {
     widest = std::max(widest, s / o.box);
     volume += copies * unit_sphere_volume(o.dim) * std::pow(s / o.box, o.dim);
   }
-  const double scale = std::max(widest, std::pow(volume, 1.0 / o.dim));
+  const double scale = o.model == JAM_MODEL_MK ? widest : std::max(widest, std::pow(volume, 1.0 / o.dim));
   if (scale <= 1.0 + overlap_tolerance) return;
   if (o.overlap != JAM_OVERLAP_SHRINK)
     fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", o.box, widest * o.box,

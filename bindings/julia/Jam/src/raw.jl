@@ -543,7 +543,8 @@ end
 
 """
 Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-gives the same bits; links are followed, pipes and devices written in place.
+gives the same bits; links are followed, pipes and devices written in place. The shifts of JAM_MODEL_MK
+are not written: read with the same seed and mk_zeta; those of a planted start cannot be had again.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
 """
 function jam_write(sys, path, format)

@@ -144,7 +144,7 @@ class Path {
   }
 
   // Direction for changes target_ of the products y c; `full`: also takes the force balance and sum y = 1 up.
-  void solve(bool full, Direction &out) {
+  void solve(bool full, int refine, Direction &out) {
     double h = full ? rest_ : 0.0;
     for (size_t k = 0; k < y_.size(); ++k) {
       row_[k] = target_[k] / lp_.c[k];
@@ -153,7 +153,7 @@ class Path {
     system_.transpose_times(lp_.a.data(), row_.data(), rhs_.data());
     const std::vector<double> &force = full ? unbalanced_ : none_;
     for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += force[k];
-    system_.solve(rhs_.data(), h, out.s.data(), &out.g);
+    system_.solve(rhs_.data(), h, out.s.data(), &out.g, refine);
     system_.rows_times(lp_.a.data(), out.s.data(), out.w.data());
     for (size_t k = 0; k < y_.size(); ++k) {
       out.w[k] -= out.g;
@@ -207,7 +207,7 @@ class Path {
     std::fill(diagonal_.begin(), diagonal_.end(), gap_ / static_cast<double>(p_.n()));
     if (!system_.factorise(lp_.a.data(), weight_.data(), diagonal_.data())) return false;
     for (size_t k = 0; k < rows; ++k) target_[k] = -y_[k] * lp_.c[k];
-    solve(true, main_);
+    solve(true, 0, main_);
     curvature(main_);
     const double ap = longest_primal(main_, 1.0), ad = longest_dual(main_, 1.0);
     double after = 0.0;
@@ -216,7 +216,7 @@ class Path {
     balanced_once_ = balanced_once_ || balance_ < unbalanced_forces;
     if (alpha_p_ > 0.0 && gap_ < warm_below && (std::min(alpha_p_, alpha_d_) < short_step || (balanced_once_ && balance_ > unbalanced_forces))) centring_ = reheat;
     for (size_t k = 0; k < rows; ++k) target_[k] = centring_ * mu - y_[k] * lp_.c[k] - ap * ad * main_.w[k] * main_.y[k];
-    solve(true, main_);
+    solve(true, 1, main_);
     centre(centring_ * mu);
     curvature(main_);
     if (!std::isfinite(longest_move(main_)) || !std::isfinite(main_.g)) return false;
@@ -235,7 +235,7 @@ class Path {
         const double product = (lp_.c[k] + tp * main_.w[k] + tp * tp * curve_[k]) * (y_[k] + td * main_.y[k]);
         target_[k] = std::max(std::min(std::max(product, 0.1 * mu), 10.0 * mu) - product, -10.0 * mu);
       }
-      solve(false, extra_);
+      solve(false, 0, extra_);
       trial_ = main_;
       for (size_t k = 0; k < trial_.s.size(); ++k) trial_.s[k] += extra_.s[k];
       for (size_t k = 0; k < y_.size(); ++k) trial_.w[k] += extra_.w[k], trial_.y[k] += extra_.y[k];

@@ -96,7 +96,7 @@ void InteriorPoint::weights() {
 }
 
 void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv,
-                              bool full, Direction &out) {
+                              bool full, int refine, Direction &out) {
   double h = full ? rg_ : 0.0;
   for (size_t k = 0; k < rows_; ++k) {
     row_[k] = rc[k] / w_[k] - (full ? weight_[k] * rp_[k] : 0.0);
@@ -107,7 +107,7 @@ void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<d
     if (full) rhs_[k] += rd_[k];
     if (box_) rhs_[k] += rcv[k] / v_[k] - rcu[k] / u_[k];
   }
-  system_.solve(rhs_.data(), h, out.s.data(), &out.g);
+  system_.solve(rhs_.data(), h, out.s.data(), &out.g, refine);
   system_.rows_times(lp_->a.data(), out.s.data(), out.w.data());
   for (size_t k = 0; k < rows_; ++k) {
     out.w[k] += (full ? rp_[k] : 0.0) - out.g;
@@ -152,7 +152,7 @@ void InteriorPoint::predictor_corrector(Direction &d) {
   for (size_t k = 0; k < rows_; ++k) targets_[k] = -y_[k] * w_[k];
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k) targets_u_[k] = -u_[k] * zu_[k], targets_v_[k] = -v_[k] * zv_[k];
-  direction(targets_, targets_u_, targets_v_, true, d);
+  direction(targets_, targets_u_, targets_v_, true, 0, d);
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
   const double target = std::max(ratio * ratio * ratio, 1e-8) * mu;
@@ -162,7 +162,7 @@ void InteriorPoint::predictor_corrector(Direction &d) {
       targets_u_[k] = target - u_[k] * zu_[k] + d.s[k] * d.zu[k];
       targets_v_[k] = target - v_[k] * zv_[k] - d.s[k] * d.zv[k];
     }
-  direction(targets_, targets_u_, targets_v_, true, d);
+  direction(targets_, targets_u_, targets_v_, true, 1, d);
   centrality_correctors(d, target);
 }
 
@@ -183,7 +183,7 @@ void InteriorPoint::centrality_correctors(Direction &d, double mu) {
         targets_u_[k] = pull((u_[k] - aim.primal * d.s[k]) * (zu_[k] + aim.dual * d.zu[k]));
         targets_v_[k] = pull((v_[k] + aim.primal * d.s[k]) * (zv_[k] + aim.dual * d.zv[k]));
       }
-    direction(targets_, targets_u_, targets_v_, false, extra_);
+    direction(targets_, targets_u_, targets_v_, false, 0, extra_);
     trial_ = d;
     trial_.add(extra_);
     const Steps better = longest(trial_);

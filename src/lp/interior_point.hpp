@@ -40,8 +40,10 @@ class InteriorPoint {
   double complementarity() const;
   bool converged() const;
   void weights();
-  // Solves for targets rc (rows) and rcu, rcv (bounds); `full`: with the primal and dual residuals.
-  void direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv, bool full, Direction &out);
+  // Solves for targets rc (rows) and rcu, rcv (bounds); `full`: with the primal and dual residuals; only the
+  // direction that is followed in the end is worth a step of refinement.
+  void direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv, bool full, int refine,
+                 Direction &out);
   Steps longest(const Direction &d) const;
   double mu_after(const Direction &d, const Steps &a) const;
   void predictor_corrector(Direction &d);

@@ -123,7 +123,7 @@ module jam
     integer(c_int32_t) :: overlap = 0
     ! jam_model, default EUCLID
     integer(c_int32_t) :: model = 0
-    ! MK shift strength, >= 0; default infinity: shifts uniform in the box
+    ! MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted
     real(c_double) :: mk_zeta = 0
   end type jam_create_options
 

@@ -137,7 +137,7 @@ typedef struct jam_create_options {
   double packing_fraction; /* of a random start, > 0, default 0.2 */
   int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
   int32_t model;           /* jam_model, default EUCLID */
-  double mk_zeta;          /* MK shift strength, >= 0; default infinity: shifts uniform in the box */
+  double mk_zeta;          /* MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted */
 } jam_create_options;
 
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.

@@ -88,7 +88,7 @@ jam_status jam_diameters_view(const jam_system *sys, const double **v, size_t *l
 jam_status jam_velocities_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::velocity, v, len); }
 
 jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_set(sys, [&]() -> jam_status {
     Packing p = sys->packing;
     need(positions, "positions");
     if (positions_len != p.position.size()) fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
@@ -102,7 +102,7 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
 }
 
 jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_set(sys, [&]() -> jam_status {
     std::vector<double> &v = sys->packing.velocity;
     need(velocities, "velocities");
     if (velocities_len != v.size()) fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
@@ -114,7 +114,7 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
 }
 
 jam_status jam_scale_diameters(jam_system *sys, double factor) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_set(sys, [&]() -> jam_status {
     if (!(factor > 0.0) || !std::isfinite(factor)) fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
@@ -126,7 +126,7 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
 }
 
 jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_set(sys, [&]() -> jam_status {
     sys->monitor.progress = callback;
     sys->monitor.progress_user = user;
     return JAM_OK;
@@ -134,7 +134,7 @@ jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *use
 }
 
 jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_set(sys, [&]() -> jam_status {
     if (level < JAM_LOG_NONE || level > JAM_LOG_DEBUG) fail(JAM_E_ARGUMENT, "level is %d, not a jam_log_level", level);
     sys->monitor.log_fn = callback;
     sys->monitor.log_level = level;

@@ -40,16 +40,39 @@ jam_status guard_const(const jam_system *sys, F &&f) noexcept {
   });
 }
 
-// A verb on a handle: takes the busy flag for its length and resets the cancel flag at its end.
+// Holds a handle's busy flag.
+class Busy {
+ public:
+  explicit Busy(jam_system *sys) : sys_(sys) {
+    if (!sys) fail(JAM_E_NULL, "sys is NULL");
+    if (sys->busy.exchange(true)) fail(JAM_E_BUSY, "another call is running on this handle");
+  }
+  ~Busy() { sys_->busy.store(false); }
+  Busy(const Busy &) = delete;
+  Busy &operator=(const Busy &) = delete;
+
+ private:
+  jam_system *sys_;
+};
+
+// A short call that changes the handle: alone on it, and a cancel that waits for the next verb goes on waiting.
+template <class F>
+jam_status guard_set(jam_system *sys, F &&f) noexcept {
+  return guard([&] {
+    const Busy busy(sys);
+    return f();
+  });
+}
+
+// A verb on a handle: can be cancelled, also by a cancel that came before it, and takes that cancel with it when it ends.
 template <class F>
 jam_status guard_verb(jam_system *sys, F &&f) noexcept {
   return guard([&] {
-    if (!sys) fail(JAM_E_NULL, "sys is NULL");
-    if (sys->busy.exchange(true)) fail(JAM_E_BUSY, "another call is running on this handle");
+    const Busy busy(sys);
     struct Release {
-      jam_system *s;
-      ~Release() { s->monitor.end(); s->busy.store(false); }
-    } release{sys};
+      Monitor &monitor;
+      ~Release() { monitor.end(); }
+    } release{sys->monitor};
     sys->monitor.begin();
     return f();
   });

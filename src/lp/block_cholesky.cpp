@@ -123,7 +123,7 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   assemble(s, diag, off);
   const bool keep = !kept_[index].empty();
   double *update = keep ? kept_[index].data() : stack.memory.data() + stack.top;
-  std::memset(update, 0, m * m * sizeof(double));
+  if (m) std::memset(update, 0, m * m * sizeof(double));
   size_t freed = 0;
   for (const int32_t c : s.children) {
     extend_add(c, update);

@@ -251,6 +251,18 @@ static void cancel_and_resume(void **state) {
   }
 }
 
+/* A cancel with nothing running waits for the next verb, whatever is set in between, and is spent by it. */
+static void cancel_waits(void **state) {
+  jam_system *sys = random_start(60, 3, 0.3, NULL, 0, 5);
+  (void)state;
+  assert_int_equal(jam_cancel(sys), JAM_OK);
+  assert_int_equal(jam_set_progress(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
+  crunch(sys, NULL, JAM_CANCELLED);
+  crunch(sys, NULL, JAM_OK);
+  jam_destroy(sys);
+}
+
 static void limits_and_options(void **state) {
   jam_system *sys = random_start(100, 3, 0.3, NULL, 0, 5);
   jam_crunch_options o;
@@ -331,7 +343,7 @@ static void box_does_not_matter(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(shared_file),       cmocka_unit_test(random_starts),           cmocka_unit_test(crystals),
-      cmocka_unit_test(few_spheres),       cmocka_unit_test(cancel_and_resume),       cmocka_unit_test(limits_and_options),
+      cmocka_unit_test(few_spheres),       cmocka_unit_test(cancel_and_resume), cmocka_unit_test(cancel_waits),       cmocka_unit_test(limits_and_options),
       cmocka_unit_test(threads_and_determinism), cmocka_unit_test(box_does_not_matter)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -384,7 +384,7 @@ OPTIONS = {
         "packing_fraction": ("float", 'of a random start, > 0, default 0.2'),
         "overlap": ("OverlapPolicy", 'jam_overlap_policy for given positions, default REFUSE'),
         "model": ("Model", 'jam_model, default EUCLID'),
-        "mk_zeta": ("float", 'MK shift strength, >= 0; default infinity: shifts uniform in the box'),
+        "mk_zeta": ("float", 'MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted'),
     },
     "jam_run_options": {
         "collisions_per_particle": ("float", 'to make, > 0, default 100'),

@@ -120,7 +120,7 @@ mutable struct jam_create_options
     packing_fraction::Cdouble  # of a random start, > 0, default 0.2
     overlap::Int32  # jam_overlap_policy for given positions, default REFUSE
     model::Int32  # jam_model, default EUCLID
-    mk_zeta::Cdouble  # MK shift strength, >= 0; default infinity: shifts uniform in the box
+    mk_zeta::Cdouble  # MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted
     jam_create_options() = new(56, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 

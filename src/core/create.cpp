@@ -170,6 +170,14 @@ void plant(Packing &p) {
 }
 
 void settle_overlaps(Packing &p, int32_t policy) {
+  // A sphere wider than the box overlaps its own images, and the list of images would have no end.
+  const auto widest = std::max_element(p.diameter.begin(), p.diameter.end());
+  if (p.model == JAM_MODEL_EUCLID && *widest > p.box * (1.0 + overlap_tolerance)) {
+    if (policy == JAM_OVERLAP_REFUSE)
+      fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g", widest - p.diameter.begin(), *widest, p.box);
+    const double factor = p.box / *widest;
+    for (double &s : p.diameter) s *= factor;
+  }
   const ClosestPair worst = closest_pair(p);
   if (worst.gap >= -overlap_tolerance) return;
   if (policy == JAM_OVERLAP_REFUSE)

@@ -107,15 +107,19 @@ class Chain {
     return x.solved && check.infeasibility < 1e-9 && check.gamma < 1e-6 && check.balance < tight && std::isfinite(x.g);
   }
 
+  bool interrupted() const { return monitor_.cancelled() || monitor_.seconds() > o_.wall_time; }
+
   // The chosen solver first; then a cold interior point with small steps, then Clp.
   void solve() {
     LpCheck check;
+    kept_ = false;
     if (o_.lp_solver == JAM_LP_IPM) {
       IpmControl control;
       control.tolerance = o_.lp_tolerance;
       control.early_fraction = early_;
+      control.wall_time = o_.wall_time;
       answer_ = ipm_.solve(lp_, control, &monitor_);
-      if (monitor_.cancelled()) return;
+      if (interrupted()) return;
       used_ = JAM_LP_IPM;
       if (acceptable(answer_, check)) return keep(check);
       monitor_.log(JAM_LOG_WARNING, "interior point: infeasibility %.1e balance %.1e sum_y %.1e; trying again", check.infeasibility, check.balance, check.gamma);
@@ -123,12 +127,14 @@ class Chain {
       control.early_fraction = 0;
       control.max_iterations = 200;
       answer_ = ipm_.solve(lp_, control, &monitor_);
+      if (interrupted()) return;
       if (acceptable(answer_, check)) return keep(check);
       monitor_.log(JAM_LOG_WARNING, "interior point failed: infeasibility %.1e balance %.1e; Clp takes over", check.infeasibility, check.balance);
     }
     answer_ = solve_lp_clp(lp_, 1e-9, o_.wall_time - monitor_.seconds());
     used_ = JAM_LP_CLP;
     if (acceptable(answer_, check)) return keep(check);
+    if (interrupted()) return;
     fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out (infeasibility %.1e, balance %.1e, |sum y - 1| %.1e)", check.infeasibility, check.balance, check.gamma);
   }
 
@@ -137,13 +143,16 @@ class Chain {
     out_.report.gamma_residual = check.gamma;
     out_.report.duality_gap = std::fabs(check.gap);
     ++out_.report.lp_solves;
+    kept_ = true;
   }
 
   void one_lp() {
+    network_ = Network();  // belongs to the list that build_lp replaces: an interrupted LP leaves no contacts
     build_lp();
     early_ = last_gain_ > 1e-7 && o_.lp_solver == JAM_LP_IPM ? 0.02 : 0.0;
     solve();
     if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    if (!kept_) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
     const double alpha = take_step(out_.packing, pairs_, reach_, answer_, unit_);
     network_ = find_network(lp_, answer_);
     const double gain = std::sqrt(1.0 + std::max(answer_.g, 0.0)) - 1.0, step = largest_step(answer_, network_, lp_.dim);
@@ -214,6 +223,7 @@ class Chain {
   double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
   double last_gain_ = 1.0, last_step_ = std::numeric_limits<double>::infinity();
   int idle_ = 0;
+  bool kept_ = false;  // the last LP gave an answer that passed the checks
 };
 
 }  // namespace

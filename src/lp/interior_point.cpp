@@ -228,6 +228,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
     idle = merit < 0.7 * best_merit ? 0 : idle + 1;
     best_merit = std::min(best_merit, merit);
+    if (monitor && monitor->seconds() > control.wall_time) break;
     if (idle >= 6 || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
       break;

@@ -16,6 +16,7 @@ struct IpmControl {
   double balance = 1e-5;      // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
   int max_iterations = 80;
   int correctors = 3;
+  double wall_time = 1e300;  // of the monitor's clock: past it the iteration ends unsolved
 };
 
 class InteriorPoint {

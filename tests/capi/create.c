@@ -117,6 +117,21 @@ static void overlap_is_named_or_shrunk(void **state) {
   jam_destroy(sys);
 }
 
+static void wider_than_the_box(void **state) {
+  jam_create_options o = options();
+  const double x[3] = {0.5, 0.5, 0.5}, s = 1e9;
+  const double *view;
+  size_t len;
+  jam_system *sys = NULL;
+  (void)state;
+  refused(&o, x, 3, &s, 1, JAM_E_OVERLAP, "sphere 0 of diameter 1e+09 overlaps its own image");
+  o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_create(&o, x, 3, &s, 1, &sys), JAM_OK);
+  jam_diameters_view(sys, &view, &len);
+  assert_true(view[0] == 1.0);
+  jam_destroy(sys);
+}
+
 static void outside_is_wrapped(void **state) {
   const double x[6] = {-0.25, 1.5, -1e-20, 3.0, 2.25, 0.5}, s = 0.1;
   const double expected[6] = {0.75, 0.5, 0.0, 0.0, 0.25, 0.5};
@@ -224,7 +239,7 @@ static void starts_are_valid(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bad_options),        cmocka_unit_test(older_caller),       cmocka_unit_test(too_dense_ends),
-      cmocka_unit_test(bad_arrays),         cmocka_unit_test(overlap_is_named_or_shrunk), cmocka_unit_test(outside_is_wrapped),
+      cmocka_unit_test(bad_arrays),         cmocka_unit_test(overlap_is_named_or_shrunk), cmocka_unit_test(wider_than_the_box), cmocka_unit_test(outside_is_wrapped),
       cmocka_unit_test(same_seed_same_bits), cmocka_unit_test(setters_and_copies), cmocka_unit_test(null_handles),
       cmocka_unit_test(starts_are_valid)};
   return cmocka_run_group_tests(tests, NULL, NULL);

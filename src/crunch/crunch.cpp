@@ -181,11 +181,10 @@ class Chain {
     if (alpha == 0.0) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
     if (out_.report.lp_solves >= o_.max_lps) return stop(JAM_STOP_LP_LIMIT, JAM_LIMIT);
     if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
-    // Rounding floor: the gain is below tolerance and steps no longer fall.
-    idle_ = gain <= o_.gain_tolerance && step > 0.5 * last_step_ ? idle_ + 1 : 0;
-    if (idle_ >= 10) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+    // Rounding floor: the gain is below tolerance and the steps do not get there.
+    if (gain <= o_.gain_tolerance) ++idle_;
+    if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
     last_gain_ = gain;
-    last_step_ = step;
     if (o_.step_bound == 0.0) bound_ = std::min(std::max(5.0 * step, 1e-6), alpha < 1.0 ? 0.7 * bound_ : 0.5);
   }
 
@@ -221,7 +220,7 @@ class Chain {
   Network network_;
   int32_t used_ = JAM_LP_IPM;
   double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
-  double last_gain_ = 1.0, last_step_ = std::numeric_limits<double>::infinity();
+  double last_gain_ = 1.0;
   int idle_ = 0;
   bool kept_ = false;  // the last LP gave an answer that passed the checks
 };
@@ -235,7 +234,18 @@ double free_spacing(const Packing &p) {
 
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
   check_options(start, o);
-  return Chain(start, o, monitor).run();
+  CrunchResult result = Chain(start, o, monitor).run();
+  const bool gave_up = result.status == JAM_NOT_CONVERGED || result.status == JAM_NOT_JAMMED;
+  if (!gave_up || o.method != JAM_CRUNCH_RELINEARISE || monitor.cancelled() || monitor.seconds() > o.wall_time) return result;
+  // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain takes
+  // another way from the same start; its answer counts if it is a jammed packing.
+  monitor.log(JAM_LOG_WARNING, "the barrier path ended at an undecided contact; the chain of LPs starts again");
+  jam_crunch_options chain = o;
+  chain.method = JAM_CRUNCH_CHAIN;
+  CrunchResult second = Chain(start, chain, monitor).run();
+  second.report.lp_solves += result.report.lp_solves;
+  second.report.factorisations += result.report.factorisations;
+  return second.report.jammed ? std::move(second) : std::move(result);
 }
 
 }  // namespace jam

@@ -11,7 +11,7 @@ namespace jam {
 
 struct RelineariseControl {
   double target = 1e-9;      // stop when the duality gap, in units of Gamma, is below this
-  int max_factorisations = 3000;
+  int max_factorisations = 800;
   int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock
 };

@@ -140,8 +140,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 700:
-        problem(root / "include/jam/jam.h", header, "more than 700 lines")
+    if header > 900:
+        problem(root / "include/jam/jam.h", header, "more than 900 lines")
     for path in files("examples/c/*.c", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"):
         count = len(path.read_text().splitlines())
         if count > 80:

@@ -70,6 +70,9 @@ class JamPack(unittest.TestCase):
             (["--no-md", "--growth", "1e-2"], "--no-md contradicts --growth"), (["--no-md", "--nve", "5"], "contradicts --nve"),
             (["--no-crunch", "--contacts", "c.csv"], "--contacts needs the crunch"),
             (["--output", "a", "--report", "a"], "must be different"), (["--input", "a", "--report", "a"], "overwrite the input"),
+            (["--gaps", "a", "--structure", "a"], "--gaps and --structure must be different"), (["--modes", "-1"], "--modes is '-1'"),
+            (["--input", "a", "--spectrum", "a"], "--spectrum would overwrite"), (["--modes", "5"], "--spectrum writes, which is missing"),
+            (["--no-crunch", "--gaps", "a"], "--gaps needs the crunch"), (["--no-crunch", "--spectrum", "a"], "--spectrum needs"),
         ]:
             self.refuse(2, text, *args)
 
@@ -88,7 +91,7 @@ class JamPack(unittest.TestCase):
     def test_outputs_are_checked_before_the_work(self):
         began = time.monotonic()
         large = ["--n", 200000]
-        for option in ("--output", "--contacts", "--report"):
+        for option in ("--output", "--contacts", "--report", "--spectrum", "--gaps", "--structure"):
             self.refuse(4, "cannot write", *large, option, self.dir / "no" / "such" / "folder")
             self.refuse(4, "Is a directory", *large, option, self.dir)
         self.assertLess(time.monotonic() - began, 5.0)
@@ -150,6 +153,57 @@ class JamPack(unittest.TestCase):
         self.assertIsNone(again["pressure"])
         self.assertTrue(again["jammed"])
         self.assertAlmostEqual(again["packing_fraction"], report["packing_fraction"], 10)
+
+    def table(self, path):
+        head, *lines = path.read_text().splitlines()
+        return [dict(zip(head.split(","), line.split(","))) for line in lines]
+
+    def test_tables_of_the_network(self):
+        xyz, gaps, spheres, low, full = (self.dir / name for name in ("p.xyz", "g.csv", "s.csv", "low.csv", "all.csv"))
+        contacts = self.dir / "c.csv"
+        report = self.report("--n", 100, "--dim", 2, "--diameters-ratio", 1.4, "--output", xyz, "--contacts", contacts, "--gaps", gaps,
+                             "--structure", spheres, "--spectrum", low, "--modes", 7)
+        rows, rattlers, network = positions(xyz), report["rattlers"], self.table(contacts)
+        sums = [[0.0, 0.0] for _ in rows]
+        for line in network:
+            for end, sign in ((int(line["i"]), 1), (int(line["j"]), -1)):
+                for c in range(2):
+                    sums[end][c] += sign * float(line[f"n{c + 1}"])
+        lines = self.table(spheres)
+        self.assertEqual([int(line["z"]) for line in lines], [int(row[-1]) for row in rows])
+        self.assertEqual([line["class"] for line in lines].count("rattler"), rattlers)
+        self.assertEqual([line["class"] for line in lines].count("buckler"), report["bucklers"])
+        for line, total in zip(lines, sums):
+            self.assertAlmostEqual(float(line["c1"]), total[0], 10)
+            self.assertAlmostEqual(float(line["c2"]), total[1], 10)
+            self.assertAlmostEqual(float(line["s"]), 0.5 * (total[0] ** 2 + total[1] ** 2 - int(line["z"])), 10)
+            self.assertEqual(line["phi"], "")  # Voronoi cells are there in d = 3 only
+        values = self.table(gaps)
+        self.assertEqual([float(v["gap"]) for v in values], sorted(float(v["gap"]) for v in values))
+        stable = [float(v["gap"]) for v in values if v["stable"] == "1"]
+        self.assertAlmostEqual(stable[0], report["min_gap"], 12)
+        self.assertEqual(len(stable) == len(values), rattlers == 0)
+        self.assertLessEqual(float(values[-1]["gap"]), 1.0)
+        for v in values[:20]:
+            (i, j) = (rows[int(v["i"])], rows[int(v["j"])])
+            off = [(i[1 + c] - j[1 + c] + 0.5) % 1.0 - 0.5 for c in range(2)]
+            self.assertAlmostEqual((off[0] ** 2 + off[1] ** 2) ** 0.5 / (i[-2] + j[-2]) - 1.0, float(v["gap"]), 10)
+        self.report("--input", xyz, "--spectrum", full, "--modes=0")
+        few, every = ([float(v["lambda"]) for v in self.table(path)] for path in (low, full))
+        self.assertEqual((len(few), len(every)), (7, 2 * (100 - rattlers)))
+        self.assertAlmostEqual(sum(every), 2.0 * report["contacts"], 8)  # each contact adds 1 to each of its spheres
+        for x, y in zip(few, every[2:]):  # two translations first
+            self.assertAlmostEqual(x, y, 10)
+        for v in self.table(low):
+            self.assertAlmostEqual(float(v["omega"]) ** 2, float(v["lambda"]), 12)
+            self.assertTrue(1.0 / (100 - rattlers) <= float(v["participation"]) <= 1.0)
+
+    def test_local_fractions_in_three_dimensions(self):
+        spheres = self.dir / "s.csv"
+        self.report("--n", 80, "--diameters-ratio", 1.2, "--structure", spheres)
+        filled = [line["phi"] for line in self.table(spheres)]
+        if any(filled):  # built with voro++
+            self.assertTrue(all(0.3 < float(x) < 1.0 for x in filled))
 
     def test_two_dimensions_two_sizes(self):
         report, _ = self.job("--n", 128, "--dim", 2, "--diameters-ratio", 1.4, "--growth", "1e-2:500", "--growth", "3e-3", "--pressure", "1e6")

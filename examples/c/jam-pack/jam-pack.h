@@ -1,6 +1,7 @@
 /* jam-pack: the parts of the program. Everything it does goes through the public header. */
 #ifndef JAM_PACK_H
 #define JAM_PACK_H
+#include <stdio.h>
 #include "jam/jam.h"
 
 /* Exit codes, documented in --help. */
@@ -21,6 +22,8 @@ typedef struct options {
   int stage_count;
   int no_md, no_crunch, quiet, shrink;
   const char *input, *output, *contacts, *report;
+  int64_t modes; /* how many --spectrum writes, 0: all; -1: not given */
+  const char *spectrum, *gaps, *structure;
 } options;
 
 /* What the program has done, for the report and the summary. */
@@ -43,5 +46,17 @@ int write_report(const outcome *result, const char *path);
 int write_contacts(const jam_system *sys, const char *path);
 void print_summary(const outcome *result);
 void complain(const char *format, ...);
+
+/* A file that appears whole or not at all. */
+typedef struct output {
+  const char *path;
+  char *beside; /* NULL when written in place: standard output, pipes, devices */
+  FILE *file;
+} output;
+int open_output(output *out, const char *path);
+int close_output(output *out);
+
+/* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or -1 after a message on stderr. */
+int write_network(jam_system *sys, const options *o, const jam_info *info);
 
 #endif

@@ -143,7 +143,7 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 #undef LEFT
 }
 
-static int write_all(const jam_system *sys, const options *o, outcome *result) {
+static int write_all(jam_system *sys, const options *o, outcome *result) {
   int bad = 0;
   result->info.struct_size = sizeof result->info;
   jam_info_get(sys, &result->info);
@@ -152,6 +152,9 @@ static int write_all(const jam_system *sys, const options *o, outcome *result) {
     bad = 1;
   }
   if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts) != 0;
+  running = sys; /* a large spectrum takes long */
+  if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;
+  running = NULL;
   if (o->report) bad |= write_report(result, o->report) != 0;
   if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(result);
   return bad || fflush(stdout);
@@ -166,7 +169,9 @@ int main(int argc, char **argv) {
   int bad;
   const int parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
-  if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report)) return EXIT_OUTPUT;
+  if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report) || check_writable(o.spectrum) ||
+      check_writable(o.gaps) || check_writable(o.structure))
+    return EXIT_OUTPUT;
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);

@@ -38,6 +38,12 @@ static const char help[] =
     "Output\n"
     "  --output FILE          the packing; extended XYZ if the name ends in .xyz, else plain\n"
     "  --contacts FILE.csv    the contact network: i,j,unit vector,gap,force (mean 1)\n"
+    "  --spectrum FILE.csv    lowest modes of the harmonic Hessian: omega^2, omega, participation\n"
+    "  --modes K              how many --spectrum writes (100); 0: all, which needs\n"
+    "                         24 (d N)^2 bytes, at most 2e9\n"
+    "  --gaps FILE.csv        gaps h < 1 of pairs that are no contacts, sorted\n"
+    "  --structure FILE.csv   a line a sphere: coordination, class, sums of contact vectors and\n"
+    "                         forces, Q6, local packing fraction\n"
     "  --report FILE|-        figures and certificate as JSON; - is standard output\n"
     "  --quiet                no progress line, no summary\n"
     "Other\n"
@@ -117,6 +123,10 @@ static int take_value(const char *name, const char *value, options *o) {
   else if (!strcmp(name, "--output")) o->output = value;
   else if (!strcmp(name, "--contacts")) o->contacts = value;
   else if (!strcmp(name, "--report")) o->report = value;
+  else if (!strcmp(name, "--modes")) status = take_integer(name, value, 0, INT32_MAX, &o->modes);
+  else if (!strcmp(name, "--spectrum")) o->spectrum = value;
+  else if (!strcmp(name, "--gaps")) o->gaps = value;
+  else if (!strcmp(name, "--structure")) o->structure = value;
   else {
     complain("unknown option '%s'", name);
     status = -1;
@@ -136,23 +146,40 @@ static int take_switch(const char *arg, options *o) {
 
 static int same(const char *a, const char *b) { return a && b && strcmp(a, "-") && !strcmp(a, b); }
 
+/* Every output to its own file, and none over the input. */
+static int settle_files(const options *o) {
+  const char *const name[] = {"--output", "--contacts", "--report", "--spectrum", "--gaps", "--structure"};
+  const char *const file[] = {o->output, o->contacts, o->report, o->spectrum, o->gaps, o->structure};
+  const int count = (int)(sizeof file / sizeof *file);
+  int j, k;
+  for (k = 0; k < count; ++k) {
+    for (j = 0; j < k; ++j)
+      if (same(file[j], file[k])) {
+        complain("%s and %s must be different files", name[j], name[k]);
+        return -1;
+      }
+    if (k > 0 && same(o->input, file[k])) {
+      complain("%s would overwrite the input", name[k]);
+      return -1;
+    }
+    if (o->no_crunch && file[k] && k != 0 && k != 2) {
+      complain("%s needs the crunch that --no-crunch leaves out", name[k]);
+      return -1;
+    }
+  }
+  if (o->modes >= 0 && !o->spectrum) {
+    complain("--modes says how many modes --spectrum writes, which is missing");
+    return -1;
+  }
+  return 0;
+}
+
 /* What contradicts itself, and what follows from the rest. */
 static int settle(options *o) {
   int k;
-  if (o->contacts && o->no_crunch) {
-    complain("--contacts needs the crunch that --no-crunch leaves out");
-    return -1;
-  }
+  if (settle_files(o)) return -1;
   if (o->no_md && (o->stage_count || o->nve > 0)) {
     complain("--no-md contradicts %s", o->stage_count ? "--growth" : "--nve");
-    return -1;
-  }
-  if (same(o->output, o->contacts) || same(o->output, o->report) || same(o->contacts, o->report)) {
-    complain("--output, --contacts and --report must be different files");
-    return -1;
-  }
-  if (same(o->input, o->contacts) || same(o->input, o->report)) {
-    complain("--contacts or --report would overwrite the input");
     return -1;
   }
   if (!o->phi0) o->phi0 = 0.2 * pow(0.5, o->dim > 3 ? o->dim - 3 : 0);
@@ -173,6 +200,7 @@ int parse_options(int argc, char **argv, options *o) {
   o->dim = 3;
   o->seed = o->threads = 1;
   o->ratio = o->box = 1;
+  o->modes = -1;
   o->pressure = 1e7;
   o->wall_time = INFINITY;
   for (k = 1; k < argc; ++k) {

@@ -40,13 +40,7 @@ int check_writable(const char *path) {
   return access(folder, W_OK | X_OK) ? cannot(path) : 0;
 }
 
-typedef struct output {
-  const char *path;
-  char *beside; /* NULL when written in place: standard output, pipes, devices */
-  FILE *file;
-} output;
-
-static int open_output(output *out, const char *path) {
+int open_output(output *out, const char *path) {
   struct stat there;
   char *resolved = NULL;
   out->path = path;
@@ -72,7 +66,7 @@ static int open_output(output *out, const char *path) {
   return cannot(path);
 }
 
-static int close_output(output *out) {
+int close_output(output *out) {
   char *end;
   int bad = ferror(out->file) | fflush(out->file);
   if (out->file != stdout) bad |= fclose(out->file);

@@ -1,0 +1,113 @@
+/* What --spectrum, --gaps and --structure write: tables of the jammed network, one header line, 17 digits. */
+#define _XOPEN_SOURCE 700
+#include <math.h>
+#include <stdlib.h>
+#include "jam-pack.h"
+
+static int refused(const char *path) {
+  complain("cannot write %s: %s", path, jam_last_error());
+  return -1;
+}
+static int no_memory(const char *path) {
+  complain("cannot write %s: out of memory", path);
+  return -1;
+}
+
+static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
+  jam_modes_options o;
+  size_t m = 0, k;
+  double *lambda;
+  output out;
+  int bad;
+  jam_modes_options_init(&o, sizeof o);
+  if (count == 0) o.which = JAM_MODES_ALL;
+  o.count = count < 0 ? 100 : count;
+  if (jam_modes(sys, NULL, &o, NULL, 0, NULL, 0, NULL, 0, &m) < 0) return refused(path);
+  lambda = malloc((2 * m + 1) * sizeof *lambda);
+  if (!lambda) return no_memory(path);
+  bad = jam_modes(sys, NULL, &o, lambda, m, NULL, 0, lambda + m, m, NULL);
+  if (bad < 0 || bad == JAM_CANCELLED) {
+    if (bad < 0) refused(path);
+    else complain("cannot write %s: interrupted", path);
+    bad = -1;
+  } else if ((bad = open_output(&out, path)) == 0) {
+    fputs("mode,lambda,omega,participation\n", out.file);
+    for (k = 0; k < m && isfinite(lambda[k]); ++k)
+      fprintf(out.file, "%zu,%.17g,%.17g,%.17g\n", k, lambda[k], sqrt(fmax(lambda[k], 0)), lambda[m + k]);
+    bad = close_output(&out);
+  }
+  free(lambda);
+  return bad;
+}
+
+static int write_gaps(const jam_system *sys, const int32_t *z, const char *path) {
+  size_t m = 0, k;
+  double *gap;
+  int32_t *pair;
+  output out;
+  int bad;
+  if (jam_gaps(sys, 1.0, 0, NULL, 0, NULL, 0, &m) < 0) return refused(path);
+  gap = malloc((m + 1) * sizeof *gap);
+  pair = malloc((2 * m + 1) * sizeof *pair);
+  if (!gap || !pair) bad = no_memory(path);
+  else if (jam_gaps(sys, 1.0, 0, gap, m, pair, 2 * m, NULL) < 0) bad = refused(path);
+  else if ((bad = open_output(&out, path)) == 0) {
+    fputs("i,j,gap,stable\n", out.file);
+    for (k = 0; k < m; ++k) {
+      const int i = (int)pair[2 * k], j = (int)pair[2 * k + 1];
+      fprintf(out.file, "%d,%d,%.17g,%d\n", i, j, gap[k], z[i] > 0 && z[j] > 0);
+    }
+    bad = close_output(&out);
+  }
+  free(gap);
+  free(pair);
+  return bad;
+}
+
+/* Columns: sphere,z,class,c1..cd,s,fs,q6,phi; phi is left empty where there is no Voronoi cell to take it from. */
+static int write_structure(const jam_system *sys, const jam_info *info, const int32_t *z, const char *path) {
+  const size_t n = (size_t)info->n, d = (size_t)info->dim;
+  double *const c = malloc((d + 4) * n * sizeof *c);
+  double *const s = c + d * n, *const fs = s + n, *const q = fs + n, *const phi = q + n;
+  size_t i, x;
+  output out;
+  int bad, has_phi;
+  if (!c) return no_memory(path);
+  has_phi = jam_local_fraction(sys, phi, n, NULL) >= 0;
+  if (jam_sphere_structure(sys, 0, c, d * n, s, n, NULL) < 0 || jam_sphere_structure(sys, 1, NULL, 0, fs, n, NULL) < 0 ||
+      jam_bond_order(sys, 6, 1.2, q, n, NULL) < 0)
+    bad = refused(path);
+  else if ((bad = open_output(&out, path)) == 0) {
+    fputs("sphere,z,class", out.file);
+    for (x = 0; x < d; ++x) fprintf(out.file, ",c%zu", x + 1);
+    fputs(",s,fs,q6,phi\n", out.file);
+    for (i = 0; i < n; ++i) {
+      fprintf(out.file, "%zu,%d,%s", i, (int)z[i], z[i] == 0 ? "rattler" : z[i] == info->dim + 1 ? "buckler" : "stable");
+      for (x = 0; x < d; ++x) fprintf(out.file, ",%.17g", c[d * i + x]);
+      fprintf(out.file, ",%.17g,%.17g,%.17g,", s[i], fs[i], q[i]);
+      if (has_phi) fprintf(out.file, "%.17g", phi[i]);
+      fputc('\n', out.file);
+    }
+    bad = close_output(&out);
+  }
+  free(c);
+  return bad;
+}
+
+int write_network(jam_system *sys, const options *o, const jam_info *info) {
+  int32_t *z;
+  int bad = 0;
+  if (!o->spectrum && !o->gaps && !o->structure) return 0;
+  z = malloc((size_t)info->n * sizeof *z);
+  if (!z) return no_memory(o->gaps ? o->gaps : o->spectrum ? o->spectrum : o->structure);
+  if (jam_coordination(sys, z, (size_t)info->n, NULL) < 0) {
+    complain("%s", jam_last_error());
+    bad = -1;
+  } else {
+    if (o->gaps) bad |= write_gaps(sys, z, o->gaps);
+    if (o->structure) bad |= write_structure(sys, info, z, o->structure);
+    if (o->spectrum) bad |= write_spectrum(sys, o->modes, o->spectrum);
+  }
+  free(z);
+  return bad ? -1 : 0;
+}

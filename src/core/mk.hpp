@@ -13,7 +13,7 @@ namespace jam {
 class MkShifts {
  public:
   explicit MkShifts(const Packing &p)
-      : dim_(p.dim), zeta_(p.mk_zeta), key_(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::mk_shift))), redrawn_(p.mk_redrawn) {}
+      : dim_(p.dim), zeta_(p.mk_zeta), uniform_(!std::isfinite(p.mk_zeta)), key_(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::mk_shift))), redrawn_(p.mk_redrawn) {}
 
   // Shift of the pair in box sides, each component in [-1/2, 1/2]: r_ij = r_i - r_j + box * shift, antisymmetric.
   void get(int32_t i, int32_t j, double *shift) const {
@@ -21,17 +21,18 @@ class MkShifts {
     draw(a, b, attempt(a, b), i < j ? 1.0 : -1.0, shift);
   }
   void draw(int32_t a, int32_t b, int32_t attempt, double sign, double *shift) const {
-    const uint64_t pair = mix64(key_ ^ mix64(static_cast<uint64_t>(a) << 32 | static_cast<uint64_t>(b)));
-    for (int c = 0; c < dim_; ++c) {
-      const uint64_t bits = mix64(pair + static_cast<uint64_t>(attempt) * 16 + static_cast<uint64_t>(c));
-      double x = static_cast<double>(bits >> 11) * 0x1.0p-53 - 0.5;
-      if (std::isfinite(zeta_)) {
-        x *= zeta_;
-        x -= std::nearbyint(x);
-      }
-      shift[c] = sign * x;
-    }
+    const uint64_t pair = pair_key(a, b);
+    for (int c = 0; c < dim_; ++c) shift[c] = sign * component(pair, attempt, c);
   }
+  // The parts of draw, for loops that give up after the first component; a < b.
+  uint64_t pair_key(int32_t a, int32_t b) const { return mix64(key_ ^ mix64(static_cast<uint64_t>(a) << 32 | static_cast<uint64_t>(b))); }
+  double component(uint64_t pair, int32_t attempt, int c) const {
+    const uint64_t bits = mix64(pair + static_cast<uint64_t>(attempt) * 16 + static_cast<uint64_t>(c));
+    const double x = static_cast<double>(static_cast<int64_t>(bits >> 11)) * 0x1.0p-53 - 0.5;
+    if (uniform_) return x;
+    return x * zeta_ - std::nearbyint(x * zeta_);
+  }
+  const std::vector<MkRedrawn> &redrawn() const { return redrawn_; }
 
  private:
   int32_t attempt(int32_t a, int32_t b) const {
@@ -42,6 +43,7 @@ class MkShifts {
   }
   int dim_;
   double zeta_;
+  bool uniform_;
   uint64_t key_;
   std::vector<MkRedrawn> redrawn_;
 };

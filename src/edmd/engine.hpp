@@ -11,6 +11,8 @@
 //
 // Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes this
 // list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) + shell.
+// They are found through cells, or in the Mari-Kurchan model, where partners are anywhere, through wider outer lists of the
+// same kind, whose own making looks at all spheres (engine_quenched.hpp).
 // Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
 #pragma once
 #include <array>
@@ -124,10 +126,23 @@ class Engine final : public EngineBase {
   void recentre(int32_t i);
   template <class F> void candidates(int32_t i, F &&f) const;
   template <class F> void each_in_cells(int32_t i, F &&f) const;
-  template <class F> void each_image(int32_t i, int32_t k, double cutoff, F &&f) const;
+  template <class F> void each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const;
   void append(int32_t i, int32_t k, const int64_t *offset);
   void forget(int32_t i, int32_t k);
   void widen_lists();
+
+  // -- Mari-Kurchan model: outer lists, engine_quenched.hpp
+  struct Outer {
+    int32_t k, attempt;  // of the shift of this pair
+  };
+  void take_redrawn();
+  template <class F> void each_outer_partner(int32_t i, F &&f) const;
+  void build_outer();
+  void check_outer();
+  void renew_outer(int32_t i);
+  bool left_outer(int32_t i) const;
+  std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
+
   const int64_t *offset_of(int32_t i, int32_t entry) const {
     if constexpr (Shift) return &offset_[(static_cast<size_t>(i) * capacity_ + entry) * D];
     else return (void)i, (void)entry, nullptr;
@@ -160,6 +175,15 @@ class Engine final : public EngineBase {
   int64_t cells_ = 0;                   // per side; 0: brute force
   int cell_range_ = 1;
   std::vector<int32_t> cell_first_, cell_next_;
+
+  // outer lists of the Mari-Kurchan model
+  std::vector<std::vector<Outer>> outer_;
+  std::vector<Place> outer_centre_;
+  std::vector<double> outer_reach_;     // rho up to which they hold
+  double outer_safe_ = 0.0;
+  std::vector<int32_t> internal_;       // inverse of user_
+  std::vector<Outer> redrawn_;          // partners (user's numbers) of each sphere with a shift drawn again
+  std::vector<size_t> redrawn_first_;
 
   // shell and bucket tuning
   int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0, rebase_at_ = 0;

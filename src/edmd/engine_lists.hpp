@@ -11,6 +11,11 @@ template <int D, bool Shift>
 void Engine<D, Shift>::choose_cells() {
   cells_ = 0;
   search_cost_ = static_cast<double>(n_) * (Shift ? 4.0 : 1.0);
+  if (quenched_) {
+    size_t length = 0;
+    for (const auto &list : outer_) length += list.size();
+    search_cost_ = 2.0 * static_cast<double>(length) / n_;
+  }
   if (Shift) return;
   const double reach = 2.0 * rho_max_ * unit;
   double best = static_cast<double>(n_);  // spheres looked at for one list
@@ -66,6 +71,7 @@ void Engine<D, Shift>::build_lists() {
     rho_[i] = (radius * (1.0 + margin_) + safe_[i]) * (1.0 + 1e-12);
     rho_max_ = std::max(rho_max_, rho_[i]);
   }
+  if (quenched_) check_outer();
   choose_cells();
   if (cells_ > 0) {
     size_t total = 1;
@@ -112,17 +118,12 @@ void Engine<D, Shift>::each_in_cells(int32_t i, F &&f) const {
 // f(offset) for every image of k within the cutoff of i, between centres; offset makes x_i - x_k + offset that image.
 template <int D, bool Shift>
 template <class F>
-void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, F &&f) const {
+void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const {
   constexpr int64_t box = int64_t{1} << 61;
-  std::array<int64_t, D> shift{}, offset{};
+  std::array<int64_t, D> offset{};
   std::array<int64_t, D> distance{};
   std::array<int, D> step{};
   std::array<double, D + 1> r2{};
-  if (quenched_) {
-    double shift_in_boxes[D];
-    quenched_->get(user_[i], user_[k], shift_in_boxes);
-    for (int c = 0; c < D; ++c) shift[c] = std::llrint(shift_in_boxes[c] * scale);
-  }
   double nearest2 = 0.0;
   for (int c = 0; c < D; ++c) {
     distance[c] = static_cast<int64_t>(centre_[i][c] - centre_[k][c]) + shift[c];
@@ -130,8 +131,8 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, F &&f) co
     distance[c] -= nearest;
     shift[c] -= nearest;
     nearest2 += static_cast<double>(distance[c]) * static_cast<double>(distance[c]);
+    if (nearest2 >= cutoff * cutoff) return;
   }
-  if (nearest2 >= cutoff * cutoff) return;
   // Depth first over -1, 0, 1 boxes in each direction, cut off as soon as the distance is too long.
   int c = 0;
   step[0] = -2;
@@ -153,11 +154,17 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, F &&f) co
 template <int D, bool Shift>
 template <class F>
 void Engine<D, Shift>::candidates(int32_t i, F &&f) const {
+  if constexpr (Shift)
+    if (quenched_) {
+      for (const Outer &partner : outer_[i])
+        each_image(i, partner.k, rho_[i] + rho_[partner.k], shift_of(i, partner), [&](const int64_t *offset) { f(partner.k, offset); });
+      return;
+    }
   const auto check = [&](int32_t k) {
     if (k == i) return;
     const double cutoff = rho_[i] + rho_[k];
     if constexpr (Shift) {
-      each_image(i, k, cutoff, [&](const int64_t *offset) { f(k, offset); });
+      each_image(i, k, cutoff, {}, [&](const int64_t *offset) { f(k, offset); });
     } else {
       double r2 = 0.0;
       for (int c = 0; c < D; ++c) {
@@ -234,6 +241,7 @@ void Engine<D, Shift>::recentre(int32_t i) {
     }
   }
   centre_[i] = place;
+  if (quenched_ && left_outer(i)) renew_outer(i);
   candidates(i, [&](int32_t k, const int64_t *offset) { append(i, k, offset); });
 }
 

@@ -16,7 +16,10 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o)
     : n_(static_cast<int32_t>(p.n())), options_(o), box_(p.box), body_(p.n()), calendar_(p.n()), user_(curve_order(p)),
       left_over_(p.n(), 0.0), centre_(p.n()), rho_(p.n()), safe_(p.n()), neighbours_(p.n(), 0) {
   const bool mk = Shift && p.model == JAM_MODEL_MK;
-  if (mk) quenched_ = std::make_unique<MkShifts>(p);
+  if (mk) {
+    quenched_ = std::make_unique<MkShifts>(p);
+    take_redrawn();
+  }
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
     Body &b = body_[i];
@@ -28,7 +31,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o)
     b.radius = std::llrint(0.5 * p.diameter[u] / p.box * scale);
   }
   const double fraction = packing_fraction();
-  shell_ = mk ? 0.5 : std::min(0.3, std::max(0.06, 0.4 - 0.6 * fraction));  // MK searches look at all spheres
+  shell_ = mk ? 0.2 : std::min(0.3, std::max(0.06, 0.4 - 0.6 * fraction));
   if (o.growth > 0.0) {
     rate_ = o.growth * scale / (2.0 * mean_radius());
     double largest = 0.0;

@@ -1,6 +1,7 @@
 // Engines for d = 5..8.
 #include "edmd/engine_events.hpp"
 #include "edmd/engine_lists.hpp"
+#include "edmd/engine_quenched.hpp"
 #include "edmd/engine_time.hpp"
 
 namespace jam {

@@ -89,6 +89,32 @@ module jam
   integer(c_int32_t), parameter :: JAM_CRUNCH_RELINEARISE = 0
   integer(c_int32_t), parameter :: JAM_CRUNCH_CHAIN = 1
 
+  ! jam_step_phase: What kind of step a row of the history is. @since 0.1
+  integer(c_int32_t), parameter :: JAM_STEP_PATH = 1
+  integer(c_int32_t), parameter :: JAM_STEP_LP = 2
+  integer(c_int32_t), parameter :: JAM_STEP_POLISH = 3
+
+  ! jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean
+  ! diameters after the step. NaN where a column has no meaning. @since 0.1
+  integer(c_int32_t), parameter :: JAM_HISTORY_PHASE = 0
+  integer(c_int32_t), parameter :: JAM_HISTORY_GAIN = 1
+  integer(c_int32_t), parameter :: JAM_HISTORY_PHI = 2
+  integer(c_int32_t), parameter :: JAM_HISTORY_STEP_MAX = 3
+  integer(c_int32_t), parameter :: JAM_HISTORY_STEP_MSD = 4
+  integer(c_int32_t), parameter :: JAM_HISTORY_TOTAL_MAX = 5
+  integer(c_int32_t), parameter :: JAM_HISTORY_TOTAL_MSD = 6
+  integer(c_int32_t), parameter :: JAM_HISTORY_CONTACTS = 7
+  integer(c_int32_t), parameter :: JAM_HISTORY_EXCESS = 8
+  integer(c_int32_t), parameter :: JAM_HISTORY_RATTLERS = 9
+  integer(c_int32_t), parameter :: JAM_HISTORY_SECONDS = 10
+  integer(c_int32_t), parameter :: JAM_HISTORY_ITERATIONS = 11
+  integer(c_int32_t), parameter :: JAM_HISTORY_FACTORISATIONS = 12
+  integer(c_int32_t), parameter :: JAM_HISTORY_DUALITY_GAP = 13
+  integer(c_int32_t), parameter :: JAM_HISTORY_PAIRS = 14
+  integer(c_int32_t), parameter :: JAM_HISTORY_HELD = 15
+  integer(c_int32_t), parameter :: JAM_HISTORY_PART = 16
+  integer(c_int32_t), parameter :: JAM_HISTORY_BOUND = 17
+
   ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
   integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
@@ -279,6 +305,10 @@ module jam
     real(c_double) :: step_bound = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
+    ! 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default
+    integer(c_int32_t) :: steps = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
@@ -855,6 +885,67 @@ module jam
       type(jam_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_report_get
+
+    ! One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
+    ! same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+    function jam_crunch_history(sys, column, out, out_len, needed) &
+        bind(c, name="jam_crunch_history") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: column
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_crunch_history
+
+    ! The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
+    ! only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
+    ! from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+    function jam_crunch_step_displacements(sys, out, out_len, needed) &
+        bind(c, name="jam_crunch_step_displacements") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_crunch_step_displacements
+
+    ! Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
+    ! no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
+    function jam_crunch_step_contacts(sys, iout, iout_len, needed) &
+        bind(c, name="jam_crunch_step_contacts") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), intent(inout), optional :: iout(*)
+      integer(c_size_t), value :: iout_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_crunch_step_contacts
+
+    ! r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1
+    function jam_crunch_step_vectors(sys, out, out_len, needed) &
+        bind(c, name="jam_crunch_step_vectors") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_crunch_step_vectors
+
+    ! Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
+    ! sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1
+    function jam_crunch_step_duals(sys, out, out_len, needed) &
+        bind(c, name="jam_crunch_step_duals") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_crunch_step_duals
 
     ! Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
     ! Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1

@@ -6,9 +6,9 @@
 %apply double *RESULT {double *pressure};
 %apply (const double *IN, size_t IN_LEN) {(const double *fraction, size_t fraction_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *pressure, size_t pressure_len)};
-%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
-%apply size_t *RESULT {size_t *needed};
 %apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
+%apply size_t *RESULT {size_t *needed};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *value, size_t value_len)};
@@ -257,6 +257,16 @@ valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_
 JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
+%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
+same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
+%feature("docstring") jam_crunch_step_displacements "The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
+only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
+from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
+%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
+no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"
+%feature("docstring") jam_crunch_step_vectors "r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1"
+%feature("docstring") jam_crunch_step_duals "Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
+sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1"
 %feature("docstring") jam_contacts "Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 %feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1"

@@ -396,6 +396,9 @@ typedef struct jam_crunch_options {
   double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0) */
   double step_bound;       /* bound on each |s_i| component; 0, the default: adapts (sbound) */
   double wall_time;        /* limit in seconds, > 0, default infinity */
+  int32_t steps;           /* 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in
+                            * full. 0, the default */
+  int32_t reserved;        /* 0 */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
@@ -443,6 +446,52 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report);
 /* The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1 */
 JAM_API jam_status jam_report_get(const jam_system *sys, jam_report *report);
+
+/* What kind of step a row of the history is. @since 0.1 */
+typedef enum jam_step_phase {
+  JAM_STEP_PATH = 1,  /* a Newton step of the re-linearising path (the first row: all of its opening) */
+  JAM_STEP_LP = 2,    /* an LP and the move to its answer */
+  JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
+} jam_step_phase;
+
+/* Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean
+ * diameters after the step. NaN where a column has no meaning. @since 0.1 */
+typedef enum jam_history_column {
+  JAM_HISTORY_PHASE = 0,          /* a jam_step_phase */
+  JAM_HISTORY_GAIN = 1,           /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
+  JAM_HISTORY_PHI = 2,            /* packing fraction after the step */
+  JAM_HISTORY_STEP_MAX = 3,       /* largest displacement in this step */
+  JAM_HISTORY_STEP_MSD = 4,       /* mean-square displacement in this step */
+  JAM_HISTORY_TOTAL_MAX = 5,      /* largest displacement since the start of the crunch */
+  JAM_HISTORY_TOTAL_MSD = 6,      /* mean-square displacement since then */
+  JAM_HISTORY_CONTACTS = 7,       /* LP: pairs of stable spheres that carry force in it */
+  JAM_HISTORY_EXCESS = 8,         /* LP: contacts - (d (N' - 1) + 1) */
+  JAM_HISTORY_RATTLERS = 9,       /* LP: spheres left out of that */
+  JAM_HISTORY_SECONDS = 10,       /* wall time of the step */
+  JAM_HISTORY_ITERATIONS = 11,    /* of the LP solver; Newton steps elsewhere */
+  JAM_HISTORY_FACTORISATIONS = 12, /* in this step */
+  JAM_HISTORY_DUALITY_GAP = 13,   /* after the step, in Gamma */
+  JAM_HISTORY_PAIRS = 14,         /* rows of the LP */
+  JAM_HISTORY_HELD = 15,          /* LP: displacement components at the step bound: these spheres are out of balance */
+  JAM_HISTORY_PART = 16,          /* LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list */
+  JAM_HISTORY_BOUND = 17          /* LP: step bound */
+} jam_history_column;
+
+/* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
+ * same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed);
+/* The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
+ * only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
+ * from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
+ * no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1 */
+JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+/* r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1 */
+JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
+ * sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1 */
+JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
 

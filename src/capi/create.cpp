@@ -54,6 +54,8 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->contacts = src->contacts;
     sys->report = src->report;
     sys->has_report = src->has_report;
+    sys->history = src->history;
+    sys->has_history = src->has_history;
     *out = sys.release();
     return JAM_OK;
   });

@@ -12,6 +12,14 @@ jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
     return f(sys->contacts);
   });
 }
+
+template <class F>
+jam_status with_step(const jam_system *sys, F &&f) noexcept {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!sys->step || !sys->step->shown) fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
+    return f(*sys->step);
+  });
+}
 }  // namespace
 
 extern "C" {
@@ -23,12 +31,20 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *
     check_out_struct(report, "report");
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
-    CrunchResult result = crunch(sys->packing, full, sys->monitor);
+    History history;
+    struct Show {  // callbacks see the step while crunch runs
+      const CrunchStep *&step;
+      ~Show() { step = nullptr; }
+    } show{sys->step};
+    sys->step = &history.step();
+    CrunchResult result = crunch(sys->packing, full, sys->monitor, &history);
     // Also after a failure: the state reached is valid and nothing is lost.
     sys->commit(result.packing);
     sys->contacts = std::move(result.contacts);
     sys->report = result.report;
     sys->has_report = true;
+    sys->history = std::move(history).rows();
+    sys->has_history = true;
     give_struct(sys->report, report);
     if (result.status < 0) fail(result.status, "%s", result.text.c_str());
     return result.status;
@@ -42,6 +58,29 @@ jam_status jam_report_get(const jam_system *sys, jam_report *report) {
     give_struct(sys->report, report);
     return JAM_OK;
   });
+}
+
+jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!sys->has_history) fail(JAM_E_STATE, "there is no history: call jam_crunch first");
+    if (column < 0 || column >= static_cast<int32_t>(history_columns)) fail(JAM_E_ARGUMENT, "column is %d, not a jam_history_column", column);
+    std::vector<double> values;
+    values.reserve(sys->history.size());
+    for (const HistoryRow &row : sys->history) values.push_back(row[column]);
+    return give_array(values.data(), values.size(), out, out_len, needed);
+  });
+}
+jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.displacement.data(), s.displacement.size(), out, out_len, needed); });
+}
+jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.pair.data(), s.pair.size(), iout, iout_len, needed); });
+}
+jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.vector.data(), s.vector.size(), out, out_len, needed); });
+}
+jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.multiplier.data(), s.multiplier.size(), out, out_len, needed); });
 }
 
 jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {

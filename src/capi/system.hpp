@@ -4,6 +4,7 @@
 #include "core/contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
+#include "crunch/history.hpp"
 #include "jam/jam.h"
 
 struct jam_system {
@@ -11,10 +12,13 @@ struct jam_system {
   jam::ContactNetwork contacts;  // valid when has_report
   jam_report report{};
   bool has_report = false;
+  std::vector<jam::HistoryRow> history;  // valid when has_history
+  bool has_history = false;
+  const jam::CrunchStep *step = nullptr;  // of the crunch that runs
   jam::Monitor monitor;
   std::atomic<bool> busy{false};
 
   // Moves a verb's result into the view buffers without changing their addresses. Never throws.
   void commit(const jam::Packing &result) noexcept;
-  void drop_results() noexcept { has_report = false; }
+  void drop_results() noexcept { has_report = has_history = false; }
 };

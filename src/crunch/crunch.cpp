@@ -11,47 +11,15 @@
 
 namespace jam {
 
-jam_crunch_options default_crunch_options() {
-  jam_crunch_options o{};
-  o.struct_size = sizeof o;
-  o.lp_solver = JAM_LP_IPM;
-  o.method = JAM_CRUNCH_RELINEARISE;
-  o.polish = 1;
-  o.max_lps = 1000;
-  o.threads = 1;
-  o.gain_tolerance = 1e-12;
-  o.step_tolerance = 1e-9;
-  o.lp_tolerance = 1e-15;
-  o.wall_time = std::numeric_limits<double>::infinity();
-  return o;
-}
-
 namespace {
-
-void check_options(const Packing &p, const jam_crunch_options &o) {
-  if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP) fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
-  if (o.method != JAM_CRUNCH_RELINEARISE && o.method != JAM_CRUNCH_CHAIN) fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
-  if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
-  if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
-  const auto positive = [](double v, const char *name) {
-    if (!(v > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, v);
-  };
-  positive(o.gain_tolerance, "gain_tolerance");
-  positive(o.step_tolerance, "step_tolerance");
-  positive(o.lp_tolerance, "lp_tolerance");
-  positive(o.wall_time, "wall_time");
-  if (!(o.neighbour_radius >= 0.0)) fail(JAM_E_ARGUMENT, "neighbour_radius is %g, it must be >= 0", o.neighbour_radius);
-  if (!(o.step_bound >= 0.0)) fail(JAM_E_ARGUMENT, "step_bound is %g, it must be >= 0", o.step_bound);
-  if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
-  const ClosestPair worst = closest_pair(p);
-  if (worst.gap < -1e-9) fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
-}
 
 class Chain {
  public:
-  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor) : o_(o), monitor_(monitor), ipm_(system_) {
+  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history)
+      : o_(o), monitor_(monitor), history_(history), ipm_(system_) {
     out_.packing = start;
     out_.report.struct_size = sizeof out_.report;
+    history_.begin(start, o.steps != 0);
   }
 
   CrunchResult run() {
@@ -77,7 +45,9 @@ class Chain {
     RelineariseControl control;
     control.threads = o_.threads;
     control.wall_time = o_.wall_time;
+    control.on_step = [this](double gap, size_t pairs) { path_step(gap, pairs); };
     const RelineariseResult path = relinearise(out_.packing, control, system_, monitor_);
+    if (history_.behind(out_.packing)) path_step(path.gap, 0);
     if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
     if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
     monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
@@ -85,6 +55,29 @@ class Chain {
     bound_ = first_bound();
     if (path.reached && o_.step_bound == 0.0) bound_ = 1e-3;
     if (path.reached) last_gain_ = path.gap;
+  }
+
+  void path_step(double gap, size_t pairs) {
+    HistoryRow &row = history_.moved(out_.packing, JAM_STEP_PATH, monitor_.seconds(), system_.factorisations);
+    row[JAM_HISTORY_DUALITY_GAP] = gap;
+    row[JAM_HISTORY_PAIRS] = static_cast<double>(pairs);
+    if (history_.details()) show(JAM_PHASE_CRUNCH, gap, row[JAM_HISTORY_STEP_MAX]);
+  }
+
+  // Tells the callback at once, with the step just finished to look at or without. True: stop.
+  bool show(jam_phase phase, double gain, double step, bool finished = true) {
+    jam_progress progress{};
+    progress.phase = phase;
+    progress.packing_fraction = packing_fraction(out_.packing);
+    progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
+    progress.gain = gain;
+    progress.max_step = step;
+    progress.steps = out_.report.lp_solves;
+    progress.factorisations = system_.factorisations;
+    history_.step().shown = finished && history_.details();
+    const bool stop = monitor_.report(progress, true);
+    history_.step().shown = false;
+    return stop;
   }
 
   void build_lp() {
@@ -149,28 +142,41 @@ class Chain {
   void one_lp() {
     network_ = Network();  // belongs to the list that build_lp replaces: an interrupted LP leaves no contacts
     build_lp();
-    early_ = last_gain_ > 1e-7 && o_.lp_solver == JAM_LP_IPM ? 0.02 : 0.0;
+    early_ = last_gain_ > 1e-7 && o_.lp_solver == JAM_LP_IPM && !o_.steps ? 0.02 : 0.0;
     solve();
     if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
     if (!kept_) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
-    const double alpha = take_step(out_.packing, pairs_, reach_, answer_, unit_);
     network_ = find_network(lp_, answer_);
+    if (history_.details()) history_.take_network(out_.packing, lp_, answer_);
+    const double alpha = take_step(out_.packing, pairs_, reach_, answer_, unit_);
     const double gain = std::sqrt(1.0 + std::max(answer_.g, 0.0)) - 1.0, step = largest_step(answer_, network_, lp_.dim);
     out_.report.gain = gain;
     out_.report.max_step = step;
     monitor_.log(JAM_LOG_INFO, "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
                  static_cast<long long>(out_.report.lp_solves), gain, step, alpha, pairs_.size(), answer_.iterations, network_.active.size(),
                  static_cast<long long>(network_.stable_count), bound_, packing_fraction(out_.packing));
-    jam_progress progress{};
-    progress.phase = JAM_PHASE_CRUNCH;
-    progress.packing_fraction = packing_fraction(out_.packing);
-    progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
-    progress.gain = gain;
-    progress.max_step = step;
-    progress.steps = out_.report.lp_solves;
-    progress.factorisations = system_.factorisations;
-    if (monitor_.report(progress, true)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    lp_step(alpha);
+    if (show(JAM_PHASE_CRUNCH, gain, step)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
     judge(gain, step, alpha);
+  }
+
+  void lp_step(double alpha) {
+    std::vector<double> moved = answer_.s;
+    for (double &s : moved) s *= alpha * unit_;
+    HistoryRow &row = history_.moved(out_.packing, JAM_STEP_LP, monitor_.seconds(), system_.factorisations, moved.data());
+    int64_t held = 0;
+    for (const double s : answer_.s) held += std::fabs(s) > 0.999 * lp_.bound;
+    const double contacts = static_cast<double>(network_.active.size()), stable = static_cast<double>(network_.stable_count);
+    row[JAM_HISTORY_GAIN] = std::expm1(0.5 * std::log1p(alpha * answer_.g));
+    row[JAM_HISTORY_CONTACTS] = contacts;
+    row[JAM_HISTORY_EXCESS] = contacts - (stable > 0.0 ? lp_.dim * (stable - 1.0) + 1.0 : 0.0);
+    row[JAM_HISTORY_RATTLERS] = static_cast<double>(lp_.n) - stable;
+    row[JAM_HISTORY_ITERATIONS] = answer_.iterations;
+    row[JAM_HISTORY_DUALITY_GAP] = out_.report.duality_gap;
+    row[JAM_HISTORY_PAIRS] = static_cast<double>(pairs_.size());
+    row[JAM_HISTORY_HELD] = static_cast<double>(held);
+    row[JAM_HISTORY_PART] = alpha;
+    row[JAM_HISTORY_BOUND] = lp_.bound;
   }
 
   void judge(double gain, double step, double alpha) {
@@ -196,7 +202,7 @@ class Chain {
     r.factorisations = system_.factorisations;
     if (!answer_.y.empty() && !network_.stable.empty()) {
       out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
-      if (r.stop_reason == JAM_STOP_CONVERGED && o_.polish) polish(out_.packing, out_.contacts, o_.threads);
+      if (r.stop_reason == JAM_STOP_CONVERGED && o_.polish) last_digits();
     } else {
       out_.contacts.coordination.assign(out_.packing.n(), 0);
     }
@@ -209,8 +215,18 @@ class Chain {
     r.seconds_solve = system_.seconds_solve;
   }
 
+  void last_digits() {
+    if (!show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false) && polish(out_.packing, out_.contacts, o_.threads, &monitor_)) {
+      HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
+      for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
+      if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
+    }
+    if (monitor_.cancelled()) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+  }
+
   const jam_crunch_options o_;
   Monitor &monitor_;
+  History &history_;
   CrunchResult out_;
   NewtonSystem system_;
   InteriorPoint ipm_;
@@ -232,9 +248,11 @@ double free_spacing(const Packing &p) {
   return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed, -1.0 / p.dim));
 }
 
-CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history) {
   check_options(start, o);
-  CrunchResult result = Chain(start, o, monitor).run();
+  History own;
+  History &steps = history ? *history : own;
+  CrunchResult result = Chain(start, o, monitor, steps).run();
   const bool gave_up = result.status == JAM_NOT_CONVERGED || result.status == JAM_NOT_JAMMED;
   if (!gave_up || o.method != JAM_CRUNCH_RELINEARISE || monitor.cancelled() || monitor.seconds() > o.wall_time) return result;
   // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain takes
@@ -242,10 +260,14 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   monitor.log(JAM_LOG_WARNING, "the barrier path ended at an undecided contact; the chain of LPs starts again");
   jam_crunch_options chain = o;
   chain.method = JAM_CRUNCH_CHAIN;
-  CrunchResult second = Chain(start, chain, monitor).run();
+  History again;
+  std::swap(again, steps);  // callbacks look at `steps`
+  CrunchResult second = Chain(start, chain, monitor, steps).run();
   second.report.lp_solves += result.report.lp_solves;
   second.report.factorisations += result.report.factorisations;
-  return second.report.jammed ? std::move(second) : std::move(result);
+  if (second.report.jammed) return second;
+  std::swap(again, steps);
+  return result;
 }
 
 }  // namespace jam

@@ -7,6 +7,7 @@
 #include "core/contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
+#include "crunch/history.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
 
@@ -22,8 +23,12 @@ struct CrunchResult {
   std::string text;         // why, when status < 0
 };
 
-// Never throws for what happens after the first LP: the result carries the status. Throws for bad options.
-CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor);
+// options.cpp: throws for options that make no sense and for packings that cannot be crunched.
+void check_options(const Packing &p, const jam_crunch_options &o);
+
+// Throws for bad options, else never: the result carries the status. history may be NULL; it ends with the steps of the
+// attempt that is returned.
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr);
 
 // By how much the mean spacing of spheres, phi^(-1/d) diameters, exceeds that of a random jammed packing (0.84 in d = 2, about
 // 0.64 * 0.7^(d-3) above): how far a sphere may have to travel. 0 when denser.
@@ -35,13 +40,14 @@ double free_spacing(const Packing &p);
 // Offsets follow when spheres are wrapped. s in units of sigma_unit. Returns alpha (0: even tiny steps overlap, which only bad input can do).
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &answer, double sigma_unit);
 
-// network.cpp: pairs that carry force in the answer, spheres with fewer than d + 1 of them removed again and again.
+// network.cpp: rows of the LP that carry force in the answer, spheres with fewer than d + 1 of them removed again and again.
 struct Network {
   std::vector<size_t> active;     // indices into the LP's pairs, between stable spheres
   std::vector<char> stable;       // n
   std::vector<int32_t> contacts;  // n, number of active pairs
   int64_t stable_count = 0;
 };
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer);
 Network find_network(const PackingLp &lp, const LpSolution &answer);
 // Largest |s| over stable spheres after taking out their mean; over all spheres if none is stable.
 double largest_step(const LpSolution &answer, const Network &network, int dim);
@@ -51,7 +57,8 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 // polish.cpp: closes the contacts by Newton steps on (positions, one common diameter factor) and projects the forces on
 // the null space of S^T. Returns false and changes nothing when a force would turn negative, another pair would
 // overlap, or nothing gets better.
-bool polish(Packing &p, ContactNetwork &contacts, int threads);
+// The monitor may cancel it, which changes nothing either.
+bool polish(Packing &p, ContactNetwork &contacts, int threads, Monitor *monitor = nullptr);
 
 // certificate.cpp: everything in the report that follows from packing and contacts alone.
 void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);

@@ -6,17 +6,22 @@
 
 namespace jam {
 
+// At a strictly complementary optimum either the force or the gap is zero; compare them in their own units: y times
+// the number of carrying pairs (about d n) is a force over the mean force, w a relative gap (times two).
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &x) {
+  std::vector<char> on(lp.rows());
+  const double carrying = static_cast<double>(lp.dim) * static_cast<double>(lp.n);
+  for (size_t k = 0; k < on.size(); ++k) on[k] = x.y[k] * carrying > std::max(x.w[k], 1e-9);
+  return on;
+}
+
 Network find_network(const PackingLp &lp, const LpSolution &x) {
   const PairList &pairs = *lp.pairs;
   const size_t n = lp.n, rows = lp.rows();
   Network net;
   net.stable.assign(n, 1);
   net.contacts.assign(n, 0);
-  // At a strictly complementary optimum either the force or the gap is zero; compare them in their own units: y times
-  // the number of carrying pairs (about d n) is a force over the mean force, w a relative gap (times two).
-  std::vector<char> on(rows);
-  const double carrying = static_cast<double>(lp.dim) * static_cast<double>(n);
-  for (size_t k = 0; k < rows; ++k) on[k] = x.y[k] * carrying > std::max(x.w[k], 1e-9);
+  std::vector<char> on = force_carrying(lp, x);
   std::vector<std::vector<size_t>> of(n);
   for (size_t k = 0; k < rows; ++k) {
     if (!on[k] || pairs.i[k] == pairs.j[k]) continue;

@@ -72,7 +72,7 @@ void balance_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system,
 
 }  // namespace
 
-bool polish(Packing &p, ContactNetwork &net, int threads) {
+bool polish(Packing &p, ContactNetwork &net, int threads, Monitor *monitor) {
   if (net.size() == 0) return false;
   Packing q = p;
   ContactNetwork better = net;
@@ -91,6 +91,7 @@ bool polish(Packing &p, ContactNetwork &net, int threads) {
     }
     worst = now;
   }
+  if (monitor && monitor->cancelled()) return false;
   balance_forces(q, better, system, diagonal);
   for (double f : better.force)
     if (!(f > 0.0)) return false;

@@ -41,6 +41,7 @@ class Path {
     while (measure()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
+      if (control_.on_step) control_.on_step(gap_, pairs_.size());
       monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e balance %.1e phi %.12f pairs %zu steps %.2f %.2f moved %.1e centring %.2f",
                    out.factorisations, gap_, balance_, packing_fraction(p_), pairs_.size(), alpha_p_, alpha_d_, last_step_, centring_);
       out.reached = gap_ <= control_.target && balance_ < 1e-3;

@@ -3,6 +3,8 @@
 // multipliers stay. Safe because the linearised set lies inside the true one. The barrier is the entropy of cell theory,
 // so this is another quench than the chain of LPs and may end at another jamming point.
 #pragma once
+#include <functional>
+
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "lp/newton_system.hpp"
@@ -14,6 +16,7 @@ struct RelineariseControl {
   int max_factorisations = 800;
   int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock
+  std::function<void(double gap, size_t pairs)> on_step;  // after every move that stays; may be empty
 };
 
 struct RelineariseResult {

@@ -87,6 +87,26 @@ class Crunch(unittest.TestCase):
 
 
 class MolecularDynamics(unittest.TestCase):
+    def test_history(self):
+        s, seen = jam.System.random(60, 2, 3), []
+
+        def look(p):
+            try:
+                seen.append((s.call("crunch_step_displacements"), s.call("crunch_step_contacts"), s.call("crunch_step_duals")))
+            except jam.errors.StateError:  # amid a step
+                pass
+
+        before = s.positions.copy()
+        r = s.crunch(steps=1, progress=look)
+        h = s.history
+        self.assertEqual(len(h), len(seen))
+        self.assertEqual((h["phase"] == jam.StepPhase.LP).sum(), r.lp_solves)
+        moved = sum(u for u, _, _ in seen) + before - s.positions
+        self.assertLess(abs(moved - np.round(moved)).max(), 1e-12)
+        self.assertTrue(all(len(c) == len(l) and (l > 0).all() for _, c, l in seen))
+        s.scale_diameters(0.9)
+        self.assertRaises(jam.errors.StateError, lambda: s.history)
+
     def test_run_and_compress(self):
         s = jam.System.random(n=108, dim=3, seed=1)
         r = s.run(20)

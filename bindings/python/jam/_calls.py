@@ -83,6 +83,9 @@ def describe(struct: str) -> str:
 SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
     "contacts": {"iout": lambda m, d: (m // 2, 2)},
     "contact_vectors": {"out": lambda m, d: (m // d, d)},
+    "crunch_step_contacts": {"iout": lambda m, d: (m // 2, 2)},
+    "crunch_step_displacements": {"out": lambda m, d: (m // d, d)},
+    "crunch_step_vectors": {"out": lambda m, d: (m // d, d)},
     "floppy_mode": {"out": lambda m, d: (m // d, d)},
     "compare": {"out": lambda m, d: (m // d, d)},
     "gaps": {"pair": lambda m, d: (m, 2)},

@@ -110,6 +110,36 @@ class CrunchMethod(IntEnum):
     CHAIN = 1  # the published chain of LPs: slower; from dilute starts it ends denser
 
 
+class StepPhase(IntEnum):
+    """What kind of step a row of the history is. @since 0.1"""
+    PATH = 1  # a Newton step of the re-linearising path (the first row: all of its opening)
+    LP = 2  # an LP and the move to its answer
+    POLISH = 3  # contacts closed and forces balanced to rounding
+
+
+class HistoryColumn(IntEnum):
+    """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean
+    diameters after the step. NaN where a column has no meaning. @since 0.1"""
+    PHASE = 0  # a jam_step_phase
+    GAIN = 1  # sqrt(Gamma) - 1: relative growth of the diameters in this step
+    PHI = 2  # packing fraction after the step
+    STEP_MAX = 3  # largest displacement in this step
+    STEP_MSD = 4  # mean-square displacement in this step
+    TOTAL_MAX = 5  # largest displacement since the start of the crunch
+    TOTAL_MSD = 6  # mean-square displacement since then
+    CONTACTS = 7  # LP: pairs of stable spheres that carry force in it
+    EXCESS = 8  # LP: contacts - (d (N' - 1) + 1)
+    RATTLERS = 9  # LP: spheres left out of that
+    SECONDS = 10  # wall time of the step
+    ITERATIONS = 11  # of the LP solver; Newton steps elsewhere
+    FACTORISATIONS = 12  # in this step
+    DUALITY_GAP = 13  # after the step, in Gamma
+    PAIRS = 14  # rows of the LP
+    HELD = 15  # LP: displacement components at the step bound: these spheres are out of balance
+    PART = 16  # LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list
+    BOUND = 17  # LP: step bound
+
+
 class Stiffness(IntEnum):
     """Stiffness k of a contact, 1 at the mean force. @since 0.1"""
     HARMONIC = 0  # k = 1
@@ -409,6 +439,7 @@ OPTIONS = {
         "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts (l0)'),
         "step_bound": ("float", 'bound on each |s_i| component; 0, the default: adapts (sbound)'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
+        "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default'),
     },
     "jam_hessian_options": {
         "stiffness": ("Stiffness", 'jam_stiffness, default HARMONIC'),
@@ -470,6 +501,11 @@ CALLS = {
     "jam_checkpoint_write": ('Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to\na binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.\nErrors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1', False, (("path", "string", "char"),)),
     "jam_crunch": ('Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E\n106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.\nStatus: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last\nvalid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,\nJAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),\nJAM_E_BUSY. Threads: alone. @since 0.1', True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_report"))),
     "jam_report_get": ('The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1', False, (("report", "struct_out", "jam_report"),)),
+    "jam_crunch_history": ('One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the\nsame start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1', False, (("column", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_displacements": ("The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and\nonly when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads\nfrom the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1", False, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_contacts": ("Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are\nno LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1", False, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_vectors": ("r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1", False, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_duals": ("Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and\nsum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1", False, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contacts": ('Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.\nErrors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1', False, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_vectors": ('Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1', False, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_gaps": ('Gaps h of the contacts, length contacts. Threads: const. Errors: as jam_contacts. @since 0.1', False, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

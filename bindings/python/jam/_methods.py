@@ -22,6 +22,31 @@ class Methods:
         Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
 
+    def crunch_history(self, column: int) -> np.ndarray:
+        """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
+        same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+        return self.call('crunch_history', column)
+
+    def crunch_step_displacements(self) -> np.ndarray:
+        """The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
+        only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
+        from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+        return self.call('crunch_step_displacements')
+
+    def crunch_step_contacts(self) -> np.ndarray:
+        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
+        no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"""
+        return self.call('crunch_step_contacts')
+
+    def crunch_step_vectors(self) -> np.ndarray:
+        """r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1"""
+        return self.call('crunch_step_vectors')
+
+    def crunch_step_duals(self) -> np.ndarray:
+        """Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
+        sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1"""
+        return self.call('crunch_step_duals')
+
     def contact_vectors(self) -> np.ndarray:
         """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_vectors')

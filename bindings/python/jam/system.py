@@ -11,7 +11,7 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from . import _calls, errors, raw
-from ._generated import CALLS, Info, MdReport, Model, ModesWhich, Progress, Report, StatusCode
+from ._generated import CALLS, HistoryColumn, Info, MdReport, Model, ModesWhich, Progress, Report, StatusCode
 from ._methods import Methods, StressStatesResult
 from ._progress import reporter
 
@@ -378,6 +378,15 @@ class System(Methods):
         made = _calls.new_report("jam_report")
         raw.jam_report_get(self.handle, made)
         return _calls.freeze(made, "jam_report")
+
+    @property
+    def history(self) -> np.ndarray:
+        """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
+        columns = [self.call("crunch_history", int(c)) for c in HistoryColumn]
+        rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in HistoryColumn])
+        for c, values in zip(HistoryColumn, columns):
+            rows[c.name.lower()] = values
+        return rows
 
     @property
     def contacts(self) -> Contacts:

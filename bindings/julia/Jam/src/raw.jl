@@ -92,6 +92,31 @@ const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 const JAM_CRUNCH_RELINEARISE = Int32(0)  # one barrier path, rows made anew after each Newton step: fewest factorisations; where it wanders the chain goes on
 const JAM_CRUNCH_CHAIN = Int32(1)  # the published chain of LPs: slower; from dilute starts it ends denser
 
+# jam_step_phase: What kind of step a row of the history is. @since 0.1
+const JAM_STEP_PATH = Int32(1)  # a Newton step of the re-linearising path (the first row: all of its opening)
+const JAM_STEP_LP = Int32(2)  # an LP and the move to its answer
+const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
+
+# jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step. NaN where a column has no meaning. @since 0.1
+const JAM_HISTORY_PHASE = Int32(0)  # a jam_step_phase
+const JAM_HISTORY_GAIN = Int32(1)  # sqrt(Gamma) - 1: relative growth of the diameters in this step
+const JAM_HISTORY_PHI = Int32(2)  # packing fraction after the step
+const JAM_HISTORY_STEP_MAX = Int32(3)  # largest displacement in this step
+const JAM_HISTORY_STEP_MSD = Int32(4)  # mean-square displacement in this step
+const JAM_HISTORY_TOTAL_MAX = Int32(5)  # largest displacement since the start of the crunch
+const JAM_HISTORY_TOTAL_MSD = Int32(6)  # mean-square displacement since then
+const JAM_HISTORY_CONTACTS = Int32(7)  # LP: pairs of stable spheres that carry force in it
+const JAM_HISTORY_EXCESS = Int32(8)  # LP: contacts - (d (N' - 1) + 1)
+const JAM_HISTORY_RATTLERS = Int32(9)  # LP: spheres left out of that
+const JAM_HISTORY_SECONDS = Int32(10)  # wall time of the step
+const JAM_HISTORY_ITERATIONS = Int32(11)  # of the LP solver; Newton steps elsewhere
+const JAM_HISTORY_FACTORISATIONS = Int32(12)  # in this step
+const JAM_HISTORY_DUALITY_GAP = Int32(13)  # after the step, in Gamma
+const JAM_HISTORY_PAIRS = Int32(14)  # rows of the LP
+const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bound: these spheres are out of balance
+const JAM_HISTORY_PART = Int32(16)  # LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list
+const JAM_HISTORY_BOUND = Int32(17)  # LP: step bound
+
 # jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
 const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
 const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
@@ -233,7 +258,9 @@ mutable struct jam_crunch_options
     neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts (l0)
     step_bound::Cdouble  # bound on each |s_i| component; 0, the default: adapts (sbound)
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
-    jam_crunch_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default
+    reserved::Int32  # 0
+    jam_crunch_options() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -644,6 +671,46 @@ The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_
 """
 function jam_report_get(sys, report)
     return ccall((:jam_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_report}), sys, _ref(jam_report, report))
+end
+
+"""
+One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
+same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+"""
+function jam_crunch_history(sys, column, out, out_len, needed)
+    return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
+only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
+from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+"""
+function jam_crunch_step_displacements(sys, out, out_len, needed)
+    return ccall((:jam_crunch_step_displacements, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
+no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
+"""
+function jam_crunch_step_contacts(sys, iout, iout_len, needed)
+    return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+end
+
+"""
+r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1
+"""
+function jam_crunch_step_vectors(sys, out, out_len, needed)
+    return ccall((:jam_crunch_step_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
+sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1
+"""
+function jam_crunch_step_duals(sys, out, out_len, needed)
+    return ccall((:jam_crunch_step_duals, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """

@@ -1,0 +1,83 @@
+#include "crunch/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "crunch/crunch.hpp"
+
+namespace jam {
+namespace {
+
+// Largest and mean square of the displacements x (n, d) without their mean: a translation of all spheres means nothing.
+void spread(const std::vector<double> &x, int dim, double unit, double &largest, double &mean_square) {
+  const size_t n = x.size() / static_cast<size_t>(dim);
+  std::array<double, JAM_MAX_DIM> mean{};
+  for (size_t k = 0; k < x.size(); ++k) mean[k % dim] += x[k] / static_cast<double>(n);
+  double sum = 0.0, most = 0.0;
+  for (size_t i = 0; i < n; ++i) {
+    double r2 = 0.0;
+    for (int c = 0; c < dim; ++c) r2 += (x[i * dim + c] - mean[c]) * (x[i * dim + c] - mean[c]);
+    sum += r2, most = std::max(most, r2);
+  }
+  largest = std::sqrt(most) / unit;
+  mean_square = sum / (static_cast<double>(n) * unit * unit);
+}
+
+}  // namespace
+
+void History::begin(const Packing &start, bool details) {
+  details_ = details;
+  rows_.clear();
+  rows_.reserve(64);
+  position_ = start.position;
+  diameter_ = start.diameter.front();
+  total_.assign(position_.size(), 0.0);
+  last_ = total_;
+  seconds_ = 0.0, factorisations_ = 0;
+  step_ = CrunchStep();
+}
+
+HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations, const double *displacement) {
+  for (size_t k = 0; k < last_.size(); ++k) {
+    const double dx = now.position[k] - position_[k];
+    last_[k] = displacement ? displacement[k] : dx - now.box * std::nearbyint(dx / now.box);
+    total_[k] += last_[k];
+  }
+  HistoryRow row;
+  row.fill(std::numeric_limits<double>::quiet_NaN());
+  const double unit = diameter_mean(now);
+  spread(last_, now.dim, unit, row[JAM_HISTORY_STEP_MAX], row[JAM_HISTORY_STEP_MSD]);
+  spread(total_, now.dim, unit, row[JAM_HISTORY_TOTAL_MAX], row[JAM_HISTORY_TOTAL_MSD]);
+  row[JAM_HISTORY_PHASE] = phase;
+  row[JAM_HISTORY_GAIN] = (now.diameter.front() - diameter_) / diameter_;
+  row[JAM_HISTORY_PHI] = packing_fraction(now);
+  row[JAM_HISTORY_SECONDS] = seconds - seconds_;
+  row[JAM_HISTORY_FACTORISATIONS] = row[JAM_HISTORY_ITERATIONS] = factorisations - factorisations_;
+  rows_.push_back(row);
+  position_ = now.position;
+  diameter_ = now.diameter.front();
+  seconds_ = seconds, factorisations_ = factorisations;
+  if (details_) {
+    step_.displacement = last_;
+    if (phase != JAM_STEP_LP) step_.pair.clear(), step_.vector.clear(), step_.multiplier.clear();
+  }
+  return rows_.back();
+}
+
+void History::take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer) {
+  const std::vector<char> on = force_carrying(lp, answer);
+  const PairList &pairs = *lp.pairs;
+  double r[JAM_MAX_DIM];
+  step_.pair.clear(), step_.vector.clear(), step_.multiplier.clear();
+  for (size_t k = 0; k < on.size(); ++k) {
+    if (!on[k]) continue;
+    const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
+    pair_vector(p, pairs, k, r);
+    step_.pair.push_back(pairs.i[k]), step_.pair.push_back(pairs.j[k]);
+    step_.vector.insert(step_.vector.end(), r, r + p.dim);
+    step_.multiplier.push_back(answer.y[k] / (sigma * sigma));
+  }
+}
+
+}  // namespace jam

@@ -1,0 +1,52 @@
+// What each step of a crunch did: the rows behind jam_crunch_history, and the details of the last step while a callback looks.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/packing.hpp"
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+constexpr size_t history_columns = JAM_HISTORY_BOUND + 1;
+using HistoryRow = std::array<double, history_columns>;  // by jam_history_column
+
+// Details of one step, kept only on request: they cost as much memory as the LP.
+struct CrunchStep {
+  bool shown = false;                // a callback runs and may ask for them
+  std::vector<double> displacement;  // (n, dim), unit of box, images followed
+  std::vector<int32_t> pair;         // (m, 2) rows of the LP that carry force; empty for other steps
+  std::vector<double> vector;        // (m, dim) r_ij before the step, unit of box
+  std::vector<double> multiplier;    // m: lambda_ij, sum lambda sigma_ij^2 = 1
+};
+
+class History {
+ public:
+  // From here on displacements count. details: fill step() too.
+  void begin(const Packing &start, bool details);
+  // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no sphere moved
+  // by half a box: then nearest images tell it. seconds, factorisations: totals so far. Unknown columns are NaN.
+  HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations, const double *displacement = nullptr);
+  // Did any sphere move, or grow, since the last row?
+  bool behind(const Packing &now) const { return now.position != position_ || now.diameter.front() != diameter_; }
+  // The linear network of an LP before its step is made.
+  void take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer);
+
+  bool details() const { return details_; }
+  CrunchStep &step() { return step_; }
+  const CrunchStep &step() const { return step_; }
+  const std::vector<HistoryRow> &rows() const & { return rows_; }
+  std::vector<HistoryRow> rows() && { return std::move(rows_); }
+
+ private:
+  bool details_ = false;
+  std::vector<HistoryRow> rows_;
+  std::vector<double> position_, total_, last_;  // at the last row; moved since begin(); moved in the last row
+  double diameter_ = 0.0, seconds_ = 0.0;
+  int factorisations_ = 0;
+  CrunchStep step_;
+};
+
+}  // namespace jam

@@ -1,0 +1,44 @@
+// Options of jam_crunch: defaults and what is refused.
+#include <limits>
+
+#include "core/error.hpp"
+#include "crunch/crunch.hpp"
+
+namespace jam {
+
+jam_crunch_options default_crunch_options() {
+  jam_crunch_options o{};
+  o.struct_size = sizeof o;
+  o.lp_solver = JAM_LP_IPM;
+  o.method = JAM_CRUNCH_RELINEARISE;
+  o.polish = 1;
+  o.max_lps = 1000;
+  o.threads = 1;
+  o.gain_tolerance = 1e-12;
+  o.step_tolerance = 1e-9;
+  o.lp_tolerance = 1e-15;
+  o.wall_time = std::numeric_limits<double>::infinity();
+  return o;
+}
+
+void check_options(const Packing &p, const jam_crunch_options &o) {
+  if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP) fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
+  if (o.method != JAM_CRUNCH_RELINEARISE && o.method != JAM_CRUNCH_CHAIN) fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
+  if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
+  if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
+  const auto positive = [](double v, const char *name) {
+    if (!(v > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, v);
+  };
+  positive(o.gain_tolerance, "gain_tolerance");
+  positive(o.step_tolerance, "step_tolerance");
+  positive(o.lp_tolerance, "lp_tolerance");
+  positive(o.wall_time, "wall_time");
+  if (!(o.neighbour_radius >= 0.0)) fail(JAM_E_ARGUMENT, "neighbour_radius is %g, it must be >= 0", o.neighbour_radius);
+  if (!(o.step_bound >= 0.0)) fail(JAM_E_ARGUMENT, "step_bound is %g, it must be >= 0", o.step_bound);
+  if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
+  if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
+  const ClosestPair worst = closest_pair(p);
+  if (worst.gap < -1e-9) fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+}
+
+}  // namespace jam

@@ -1,0 +1,236 @@
+/* jam_crunch_history and jam_crunch_step_*: every column against what the state and the report tell, and the physics of a step:
+ * displacements add up to the whole move, the linear network of every LP is in balance. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "jam/jam.h"
+
+enum { N = 80, MAX_STEPS = 2000 };
+
+static jam_system *start(int dim, int64_t seed) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  double diameters[N];
+  int k;
+  for (k = 0; k < N; ++k) diameters[k] = k % 2 ? 1.4 : 1.0;
+  jam_create_options_init(&o, sizeof o);
+  o.n = N, o.dim = dim, o.seed = seed, o.packing_fraction = dim == 2 ? 0.4 : 0.25;
+  assert_int_equal(jam_create(&o, NULL, 0, diameters, N, &sys), JAM_OK);
+  return sys;
+}
+
+static size_t column(const jam_system *sys, int32_t which, double *out) {
+  size_t rows = 0;
+  assert_int_equal(jam_crunch_history(sys, which, NULL, 0, &rows), JAM_OK);
+  assert_in_range(rows, 1, MAX_STEPS);
+  assert_int_equal(jam_crunch_history(sys, which, out, MAX_STEPS, NULL), JAM_OK);
+  return rows;
+}
+
+/* What the callback gathers. */
+typedef struct watch {
+  jam_system *sys;
+  int dim, steps, lps;
+  double phi, sigma0[N], sum[3 * N];
+  double phi0, worst_gamma;
+  double balance[MAX_STEPS], balance_free[MAX_STEPS]; /* of each LP: over all spheres, over those below the largest displacement */
+} watch;
+
+static void look_at_network(watch *w, const double *displacement) {
+  int32_t *pair;
+  double *vector, *dual, force[3 * N], most = 0.0, total = 0.0, gamma = 0.0, growth;
+  size_t m, k;
+  int c;
+  assert_int_equal(jam_crunch_step_contacts(w->sys, NULL, 0, &m), JAM_OK);
+  if (m == 0) return;
+  pair = malloc(m * sizeof *pair), m /= 2;
+  vector = malloc(m * w->dim * sizeof *vector), dual = malloc(m * sizeof *dual);
+  assert_int_equal(jam_crunch_step_contacts(w->sys, pair, 2 * m, NULL), JAM_OK);
+  assert_int_equal(jam_crunch_step_vectors(w->sys, vector, m * w->dim, NULL), JAM_OK);
+  assert_int_equal(jam_crunch_step_duals(w->sys, dual, m, NULL), JAM_OK);
+  assert_int_equal(jam_crunch_step_duals(w->sys, dual, m - 1, NULL), JAM_E_BUFFER);
+  memset(force, 0, sizeof force);
+  growth = pow(w->phi / w->phi0, 1.0 / w->dim); /* of the diameters, up to the step before */
+  for (k = 0; k < m; ++k) {
+    const double sigma = 0.5 * (w->sigma0[pair[2 * k]] + w->sigma0[pair[2 * k + 1]]) * growth;
+    double r2 = 0.0;
+    assert_true(dual[k] > 0.0);
+    for (c = 0; c < w->dim; ++c) {
+      force[pair[2 * k] * w->dim + c] += dual[k] * vector[k * w->dim + c];
+      force[pair[2 * k + 1] * w->dim + c] -= dual[k] * vector[k * w->dim + c];
+      r2 += vector[k * w->dim + c] * vector[k * w->dim + c];
+    }
+    assert_true(r2 > sigma * sigma * (1.0 - 1e-9)); /* no overlap */
+    total += dual[k] * sqrt(r2) / (double)m, gamma += dual[k] * sigma * sigma;
+  }
+  for (k = 0; k < (size_t)(N * w->dim); ++k) most = fmax(most, fabs(displacement[k]));
+  for (k = 0; k < N; ++k) {
+    double f2 = 0.0, s = 0.0;
+    for (c = 0; c < w->dim; ++c) s = fmax(s, fabs(displacement[k * w->dim + c])), f2 += pow(force[k * w->dim + c], 2);
+    w->balance[w->lps] = fmax(w->balance[w->lps], sqrt(f2) / total);
+    if (s < 0.99 * most) w->balance_free[w->lps] = fmax(w->balance_free[w->lps], sqrt(f2) / total);
+  }
+  w->worst_gamma = fmax(w->worst_gamma, fabs(gamma - 1.0));
+  ++w->lps;
+  free(pair), free(vector), free(dual);
+}
+
+static int32_t each_step(const jam_progress *p, void *user) {
+  watch *w = user;
+  double displacement[3 * N];
+  size_t needed, k;
+  const jam_status status = jam_crunch_step_displacements(w->sys, displacement, N * w->dim, &needed);
+  if (status == JAM_E_STATE) return 0; /* called amid a step */
+  assert_int_equal(status, JAM_OK);
+  assert_int_equal(needed, N * w->dim);
+  for (k = 0; k < needed; ++k) w->sum[k] += displacement[k];
+  look_at_network(w, displacement);
+  w->phi = p->packing_fraction;
+  ++w->steps;
+  return 0;
+}
+
+static void steps_add_up(int dim, int32_t method) {
+  jam_system *sys = start(dim, 5 + dim);
+  jam_crunch_options o;
+  jam_report r;
+  jam_info info;
+  watch w;
+  const double *x, *s;
+  double x0[3 * N], mean[3] = {0, 0, 0}, most = 0.0, msd = 0.0, balance = 0.0, v[MAX_STEPS], phase[MAX_STEPS], growth = 1.0, sum = 0.0, phi = 0.0;
+  size_t len, rows, k, lp = 0, lps = 0;
+  int c;
+  memset(&w, 0, sizeof w), memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r, info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  jam_positions_view(sys, &x, &len), memcpy(x0, x, len * sizeof *x);
+  jam_diameters_view(sys, &s, &len), memcpy(w.sigma0, s, len * sizeof *s);
+  w.sys = sys, w.dim = dim, w.phi = w.phi0 = info.packing_fraction;
+  jam_crunch_options_init(&o, sizeof o);
+  o.method = method, o.steps = 1;
+  assert_int_equal(jam_set_progress(sys, each_step, &w), JAM_OK);
+  assert_int_equal(jam_crunch(sys, &o, &r), JAM_OK);
+
+  /* The whole move, modulo the box; max and mean square of it as the last row has them. */
+  jam_info_get(sys, &info);
+  for (k = 0; k < (size_t)(N * dim); ++k) {
+    double rest = x0[k] + w.sum[k] - x[k];
+    rest -= nearbyint(rest);
+    if (!(fabs(rest) < 1e-13 * w.steps)) fail_msg("coordinate %zu is off by %g", k, rest);
+    mean[k % dim] += w.sum[k] / N;
+  }
+  for (k = 0; k < N; ++k) {
+    double r2 = 0.0;
+    for (c = 0; c < dim; ++c) r2 += pow(w.sum[k * dim + c] - mean[c], 2);
+    most = fmax(most, r2), msd += r2 / N;
+  }
+  rows = column(sys, JAM_HISTORY_TOTAL_MAX, v);
+  assert_int_equal(rows, w.steps);
+  assert_true(fabs(v[rows - 1] * info.diameter_mean - sqrt(most)) < 1e-12);
+  column(sys, JAM_HISTORY_TOTAL_MSD, v);
+  assert_true(fabs(v[rows - 1] * info.diameter_mean * info.diameter_mean - msd) < 1e-12);
+
+  /* Growth: the product of the gains; phi never falls but in the opening of the path. */
+  column(sys, JAM_HISTORY_GAIN, v);
+  for (k = 0; k < rows; ++k) growth *= 1.0 + v[k];
+  assert_true(fabs(growth * w.sigma0[0] / s[0] - 1.0) < 1e-13 * (double)rows);
+  column(sys, JAM_HISTORY_PHASE, phase), column(sys, JAM_HISTORY_PHI, v);
+  for (k = 0; k < rows; ++k) {
+    if (phase[k] == JAM_STEP_LP) lp = k, ++lps;
+    if (k > 0 && phase[k] == JAM_STEP_LP) assert_true(v[k] >= phi * (1.0 - 1e-13));
+    phi = v[k];
+  }
+  assert_true(fabs(phi - r.packing_fraction) < 1e-14);
+  assert_true(phase[0] == (method == JAM_CRUNCH_CHAIN ? JAM_STEP_LP : JAM_STEP_PATH) && phase[rows - 1] == JAM_STEP_POLISH);
+  assert_int_equal(lps, r.lp_solves);
+  assert_int_equal(lps, w.lps);
+
+  /* The last LP is the fixed point that the report tells of. */
+  column(sys, JAM_HISTORY_CONTACTS, v), assert_true(v[lp] == (double)r.contacts);
+  column(sys, JAM_HISTORY_EXCESS, v), assert_true(v[lp] == (double)r.excess_contacts);
+  column(sys, JAM_HISTORY_RATTLERS, v), assert_true(v[lp] == (double)r.rattlers);
+  assert_true(method == JAM_CRUNCH_CHAIN || isnan(v[0]));
+  column(sys, JAM_HISTORY_GAIN, v), assert_true(fabs(v[lp] - r.gain) < 1e-15);
+  column(sys, JAM_HISTORY_STEP_MAX, v), assert_true(v[lp] <= 10.0); /* rattlers may go anywhere */
+  column(sys, JAM_HISTORY_FACTORISATIONS, v);
+  for (k = 0, sum = 0.0; k < rows; ++k) sum += v[k];
+  assert_true(sum == (double)r.factorisations);
+  column(sys, JAM_HISTORY_SECONDS, v);
+  for (k = 0, sum = 0.0; k < rows; ++k) assert_true(v[k] >= 0.0), sum += v[k];
+  assert_true(sum <= r.seconds);
+
+  /* Balance of the linear networks, but for spheres that lean on the step bound: what an LP's answer is let pass with,
+   * which polish takes out at the end only. */
+  column(sys, JAM_HISTORY_HELD, v);
+  for (k = 0, lps = 0; k < rows; ++k)
+    if (phase[k] == JAM_STEP_LP) balance = fmax(balance, v[k] > 0.0 ? w.balance_free[lps] : w.balance[lps]), ++lps;
+  print_message("d %d method %d: %d steps, %d LPs, worst balance %.1e, worst |sum lambda sigma^2 - 1| %.1e\n", dim, method, w.steps, w.lps, balance,
+                w.worst_gamma);
+  assert_true(w.lps > 0 && balance > 0.0 && balance < 1e-3 && w.worst_gamma < 1e-6);
+  jam_destroy(sys);
+}
+
+static void all_methods(void **state) {
+  int dim, method;
+  (void)state;
+  for (dim = 2; dim <= 3; ++dim)
+    for (method = 0; method < 2; ++method) steps_add_up(dim, method);
+}
+
+static int32_t asks_in_vain(const jam_progress *p, void *user) {
+  jam_system *sys = *(jam_system **)user;
+  size_t needed;
+  (void)p;
+  assert_int_equal(jam_crunch_step_displacements(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_non_null(strstr(jam_last_error(), "steps = 1"));
+  return 0;
+}
+
+/* Errors by name; the details are for the callback of a crunch with steps = 1 alone; what moves the spheres drops the history. */
+static void errors(void **state) {
+  jam_system *sys = start(2, 1), *copy;
+  jam_crunch_options o;
+  double v[MAX_STEPS], u[MAX_STEPS];
+  size_t needed, rows;
+  (void)state;
+  assert_int_equal(jam_crunch_history(NULL, 0, NULL, 0, &needed), JAM_E_NULL);
+  assert_int_equal(jam_crunch_history(sys, 0, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_step_displacements(NULL, NULL, 0, &needed), JAM_E_NULL);
+  assert_int_equal(jam_crunch_step_contacts(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_step_vectors(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_step_duals(sys, NULL, 0, &needed), JAM_E_STATE);
+  jam_crunch_options_init(&o, sizeof o);
+  o.steps = 2;
+  assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "steps is 2"));
+  jam_set_progress(sys, asks_in_vain, &sys);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_crunch_step_duals(sys, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_crunch_history(sys, -1, NULL, 0, &needed), JAM_E_ARGUMENT);
+  assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_BOUND + 1, NULL, 0, &needed), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "column is 18"));
+  rows = column(sys, JAM_HISTORY_PHI, v);
+  assert_int_equal(jam_crunch_history(sys, 0, v, rows - 1, &needed), JAM_E_BUFFER);
+  assert_int_equal(needed, rows);
+  o.steps = 0, o.max_lps = -1; /* refused before anything is done: the history stays */
+  assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(column(copy, JAM_HISTORY_PHI, u), rows);
+  assert_memory_equal(u, v, rows * sizeof *v);
+  jam_destroy(copy);
+  assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
+  assert_int_equal(jam_crunch_history(sys, 0, NULL, 0, &needed), JAM_E_STATE);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(all_methods), cmocka_unit_test(errors)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -28,6 +28,21 @@ def _enum_of(member, enums):
     return None
 
 
+def enum_of_argument(f, a, enums):
+    """An int32_t argument is an enum's when the comment names an enum of the header that ends with the argument's name."""
+    if a.role == "scalar" and a.type.scalar == "int32_t":
+        for word in re.findall(r"jam_\w+", f.doc):
+            if word in enums and word.endswith("_" + a.name):
+                return camel(word)
+    return None
+
+
+def is_free(f, inits):
+    """Functions that need no system and make none: formulas and fits."""
+    roles = {a.role for a in f.args}
+    return f.result.base == "jam_status" and f.name not in inits.values() and not roles & {"handle", "new_handle", "callback"}
+
+
 def emit(api):
     inits = options_init(api)
     enums = {e.name for e in api.enums}
@@ -63,10 +78,12 @@ def emit(api):
     for s in api.structs:
         if s.name in rows:
             out.append(f'    "{s.name}": [' + ", ".join(f'("{m.name}", "{TYPES[m.type][4]}")' for m in s.members) + "],")
-    out += ["}", "", "# calls on a system: {C name: (doc, whether it must be alone, ((argument, role, C type), ...))}", "CALLS = {"]
+    out += ["}", "", "# calls: {C name: (on a system, ((argument, role, C type), ...))}; an enum stands for the C type of its values", "CALLS = {"]
     for f in api.functions:
-        if f.args and f.args[0].role == "handle":
-            args = ", ".join(f'("{a.name}", "{a.role}", "{a.type.scalar}")' for a in f.args[1:])
-            out.append(f'    "{f.name}": ({f.doc!r}, {not f.args[0].type.const}, ({args}{"," if len(f.args) == 2 else ""})),')
+        on_system = bool(f.args) and f.args[0].role == "handle"
+        if on_system or is_free(f, inits):
+            taken = f.args[1:] if on_system else f.args
+            args = ", ".join(f'("{a.name}", "{a.role}", "{enum_of_argument(f, a, enums) or a.type.scalar}")' for a in taken)
+            out.append(f'    "{f.name}": ({on_system}, ({args}{"," if len(taken) == 1 else ""})),')
     out.append("}")
     return "\n".join(out) + "\n"

@@ -129,6 +129,13 @@ class System {
     made.adopt([&](jam_system **out) { return jam_read(path.c_str(), nullptr, out); });
     return made;
   }
+  // From a file of checkpoint(): dynamics go on to the same bits.
+  static System from_checkpoint(const std::string &path) {
+    System made;
+    made.adopt([&](jam_system **out) { return jam_checkpoint_read(path.c_str(), out); });
+    return made;
+  }
+  void checkpoint(const std::string &path) const { check(jam_checkpoint_write(get(), path.c_str())); }
   System copy() const {
     System made;
     made.adopt([&](jam_system **out) { return jam_copy(get(), out); });

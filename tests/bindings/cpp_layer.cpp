@@ -1,5 +1,6 @@
 // jam.hpp: ownership, views, exceptions through C frames. Links the shared library only.
 #include <cmath>
+#include <cstdio>
 #include <cstdarg>
 #include <cstddef>
 #include <csetjmp>
@@ -41,6 +42,18 @@ void test_ownership(void **) {
   assert_true(c.positions()(49, 1) == b.positions()(49, 1));
   c = std::move(b);
   assert_true(c.positions().data() == where);
+}
+
+void test_checkpoint(void **) {
+  jam::System a = jam::System::random(64, 3, 7);
+  a.run(10);
+  a.checkpoint("cpp_layer.state");
+  jam::System b = jam::System::from_checkpoint("cpp_layer.state");
+  std::remove("cpp_layer.state");
+  a.run(10);
+  b.run(10);
+  for (std::size_t k = 0; k < 64; ++k) assert_true(a.positions()(k, 2) == b.positions()(k, 2));
+  assert_true(throws<jam::Error>([] { jam::System::from_checkpoint("/does/not/exist"); }));
 }
 
 void test_errors(void **) {
@@ -105,7 +118,7 @@ void test_callbacks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership), cmocka_unit_test(test_errors),
+  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership), cmocka_unit_test(test_checkpoint), cmocka_unit_test(test_errors),
                               cmocka_unit_test(test_crunch_and_forces), cmocka_unit_test(test_callbacks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

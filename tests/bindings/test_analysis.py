@@ -75,6 +75,21 @@ class Network(unittest.TestCase):
         self.assertEqual((report.contacts, report.self_stresses), (self.r.contacts, 1))
         np.testing.assert_allclose(np.sort(s.forces), np.sort(self.s.forces), atol=1e-8)
 
+    def test_functions_without_a_system(self):
+        phi = np.array([0.5, 0.55, 0.6])
+        p = [jam.eos("free_volume", 3, x, 0.64) for x in phi]
+        np.testing.assert_allclose(p, 3 / (1 - phi / 0.64), rtol=1e-14)
+        self.assertEqual(jam.eos(jam.EosForm.MK, 3, 0.5, 0), 1 + 4 * 0.5)
+        fit = jam.glass_fit(phi, p)
+        self.assertAlmostEqual(fit.jammed_fraction, 0.64, 12)
+        self.assertAlmostEqual(fit.dimension, 3, 10)
+        with self.assertRaises(jam.errors.UnsupportedError):
+            jam.eos("carnahan_starling", 2, 0.5, 0)
+        with self.assertRaisesRegex(ValueError, "free_volume"):
+            jam.eos("van_der_waals", 3, 0.5, 0)
+        with self.assertRaises(jam.errors.TooFewError):
+            jam.glass_fit(phi[:2], p[:2])
+
     def test_wrong_calls(self):
         with self.assertRaisesRegex(TypeError, "h_max"):
             self.s.gaps()

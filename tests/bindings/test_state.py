@@ -4,6 +4,7 @@ import gc
 import pickle
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -148,11 +149,21 @@ class Copies(unittest.TestCase):
         a.velocities = np.random.default_rng(0).normal(size=(20, 3))
         self.check_same(a, pickle.loads(pickle.dumps(a)))
 
-    def test_mari_kurchan_is_copied_but_not_pickled(self):
-        a = jam.System.random(n=20, model="mk")
-        self.check_same(a, copy.deepcopy(a))
-        with self.assertRaisesRegex(pickle.PicklingError, "Mari-Kurchan"):
-            pickle.dumps(a)
+    def test_pickles_and_checkpoints_go_on_to_the_same_bits(self):
+        for options in ({}, {"model": "mk"}, {"model": "mk", "mk_zeta": 1.0}):
+            a = jam.System.random(n=64, seed=7, **options)
+            a.compress(growth_rate=0.1, pressure=30)
+            with tempfile.TemporaryDirectory() as folder:
+                a.checkpoint_write(folder + "/c")
+                b = jam.System.from_checkpoint(folder + "/c")
+            c = pickle.loads(pickle.dumps(a))
+            self.assertEqual((b.info, c.info), (a.info, a.info))
+            for s in (a, b, c):
+                s.compress(growth_rate=0.1, pressure=300)
+            self.check_same(a, b)
+            self.check_same(a, c)
+        with self.assertRaises(jam.errors.FormatError):
+            jam.System.from_checkpoint(__file__)
 
     def test_pickle_carries_results_until_the_next_change(self):
         a = jam.System.random(n=40, dim=2, seed=2)

@@ -16,6 +16,7 @@ from typing import Any
 from . import errors, raw
 from ._generated import *  # noqa: F401,F403  enums and report dataclasses
 from ._generated import JAM_ABI, StatusCode
+from ._methods import eos, glass_fit
 from .errors import JamError
 from .system import Contacts, Modes, System
 

@@ -125,7 +125,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
 
     Returns the status and the outputs: None, one result, or a named tuple. Arrays are asked for their size first.
     """
-    table = CALLS["jam_" + name][2]
+    on_system, table = CALLS["jam_" + name]
     given = _take_inputs(name, table, args, named)
     passed, fills, outputs, asked = [], [], {}, []
     for arg, role, ctype in table:
@@ -135,7 +135,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
         elif role == "handle":
             passed.append(getattr(given[arg], "handle", given[arg]))
         elif role in INPUTS:
-            passed.append(given[arg])
+            passed.append(as_enum(given[arg], ctype) if role == "scalar" and ctype not in _DTYPES else given[arg])
         elif role == "struct_out":
             outputs[arg] = (new_report(ctype), ctype)
             passed.append(outputs[arg][0])
@@ -145,8 +145,8 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
             passed.append(None)
         elif role == "scalar_out":
             asked.append(arg)
-    function = getattr(raw, "jam_" + name)
-    answer = function(handle, *passed)
+    function, first = getattr(raw, "jam_" + name), (handle,) if on_system else ()
+    answer = function(*first, *passed)
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
     if fills and "needed" in asked and status in (0, StatusCode.AMBIGUOUS):
         m = scalars[asked.index("needed")]
@@ -154,7 +154,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
             shape = SHAPES.get(name, {}).get(arg, lambda m, d: (m,))(m, dim)
             outputs[arg] = np.empty(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else _DTYPES[ctype])
             passed[at] = outputs[arg].reshape(-1)
-        status, *scalars = function(handle, *passed)
+        status, *scalars = function(*first, *passed)
         if status in (StatusCode.CANCELLED,):
             outputs.update({arg: None for arg, _, _ in fills})
     results = {a: freeze(*o) if isinstance(o, tuple) else o for a, o in outputs.items()}

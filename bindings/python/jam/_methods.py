@@ -22,7 +22,7 @@ class Methods:
         Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
 
-    def crunch_history(self, column: int) -> np.ndarray:
+    def crunch_history(self, column: int | str) -> np.ndarray:
         """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
         same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
         return self.call('crunch_history', column)
@@ -236,3 +236,20 @@ class CompareResult(NamedTuple):
 
     comparison: Comparison
     out: np.ndarray
+
+
+def _call(name: str, *args: Any, **named: Any) -> Any:
+    from . import _calls
+    return _calls.invoke(None, 0, name, args, named)[1]
+
+
+def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:
+    """pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
+    Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"""
+    return _call('eos', form, dim, packing_fraction, jammed_fraction)
+
+
+def glass_fit(fraction: Any, pressure: Any) -> Glass:
+    """Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+    JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"""
+    return _call('glass_fit', fraction, pressure)

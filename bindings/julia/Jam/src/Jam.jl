@@ -20,7 +20,7 @@ include("raw.jl")
 
 export System, JamError, run!, compress!, crunch!, cancel, info, report, positions, diameters, velocities,
        set_positions!, set_velocities!, scale_diameters!, contacts, contact_vectors, contact_gaps, forces,
-       coordination, hessian_rows, modes, call_array
+       coordination, hessian_rows, modes, call_array, checkpoint, from_checkpoint
 
 "A call failed; the system is as it was before. `status` is the code, `text` the library's."
 struct JamError <: Exception
@@ -110,6 +110,16 @@ function System(path::AbstractString; given...)
     check(jam_read(path, o, out))
     return System(out[])
 end
+
+"Makes a system from a file of `checkpoint(s, path)`: dynamics go on to the same bits."
+function from_checkpoint(path::AbstractString)
+    out = Ref{Ptr{Cvoid}}(C_NULL)
+    check(jam_checkpoint_read(path, out))
+    return System(out[])
+end
+
+"Writes all that the dynamics depend on."
+checkpoint(s::System, path::AbstractString) = (check(jam_checkpoint_write(handle(s), path)); nothing)
 
 function Base.copy(s::System)
     out = Ref{Ptr{Cvoid}}(C_NULL)

@@ -1,0 +1,107 @@
+"""What all parts of a System share: the C handle, views of its memory, the way of its progress records."""
+from __future__ import annotations
+
+import threading
+from contextlib import contextmanager
+from typing import Any, Callable
+
+from . import _calls, errors, raw
+from ._generated import Info, Progress, StatusCode
+from ._methods import Methods
+from ._progress import reporter
+
+TRACE_LENGTH = 200_000  # progress records kept by a system
+
+
+class _View:
+    """Memory of a handle shown to numpy, read-only; keeps the handle alive as long as any array on it."""
+
+    def __init__(self, handle: Any, address: int, shape: tuple[int, ...]) -> None:
+        self._handle = handle
+        self.__array_interface__ = {"version": 3, "typestr": "<f8", "shape": shape, "data": (address, True)}
+
+
+class _Dispatch:
+    """The progress callable of a handle for all its life: hands a record to whoever runs the call on this thread.
+
+    Setting it anew for each call would not do: a setter is a call of its own and would use up a pending cancel.
+    """
+
+    def __init__(self) -> None:
+        self._targets: dict[int, Callable] = {}
+
+    def __call__(self, progress: Any) -> bool:
+        target = self._targets.get(threading.get_ident())
+        return target(progress) if target else False
+
+    @contextmanager
+    def to(self, target: Callable) -> Any:
+        me = threading.get_ident()
+        before = self._targets.get(me)
+        self._targets[me] = target
+        try:
+            yield
+        finally:
+            if before is None:
+                del self._targets[me]
+            else:
+                self._targets[me] = before
+
+
+class Base(Methods):
+    """The handle of a system and how calls on it report."""
+
+    dim: int  # a property of State
+
+    def __init__(self, handle: Any) -> None:
+        self._handle: Any = handle
+        self._first_info: Info | None = None
+        self._carried: tuple | None = None  # report and contacts that came with a pickle
+        #: Progress records of this system's calls, at most one every 0.05 s
+        self.trace: list[Progress] = []
+        #: Status of the last call: > 0 where it stopped early or the answer is not unique
+        self.status: StatusCode = StatusCode.OK
+        handle._dispatch = self._dispatch = _Dispatch()  # the C side holds a borrowed reference
+        raw.set_progress(handle, self._dispatch)
+
+    @property
+    def handle(self) -> Any:
+        """The C handle, for jam.raw."""
+        if self._handle is None:
+            raise errors.ClosedError("the system is closed")
+        return self._handle
+
+    def _recorder(self, user: Callable | None) -> Callable:
+        def on_progress(p: Any) -> bool:
+            record = _calls.freeze(p, "jam_progress")
+            if len(self.trace) < TRACE_LENGTH:
+                self.trace.append(record)
+            return bool(user(record)) if user else False
+        return on_progress
+
+    @contextmanager
+    def _reporting(self, progress: Any) -> Any:
+        """Progress records of the calls inside go to the trace and to what the caller asked for."""
+        user = reporter(progress)
+        with self._dispatch.to(self._recorder(user)):
+            try:
+                yield
+            finally:
+                if hasattr(user, "close"):
+                    user.close()
+
+    def call(self, name: str, *args: Any, progress: Any = None, **named: Any) -> Any:
+        """Calls the C function jam_<name> on this system by the header's conventions.
+
+        Inputs by position or keyword, members of option structs by keyword; arrays of any real dtype. Outputs are
+        returned: an array, a number, a report, or a named tuple of them. self.status holds the StatusCode.
+        """
+        handle = self.handle
+        with self._reporting(progress):
+            self.status, result = _calls.invoke(handle, self.dim, name, args, named)
+        if name in _MOVERS:
+            self._carried = None
+        return result
+
+
+_MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry"}

@@ -1,0 +1,105 @@
+"""The jammed network of a system: contacts, forces, stiffness, modes."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _calls, raw
+from ._generated import HistoryColumn, ModesWhich, Report, StatusCode
+from ._handle import Base
+from ._methods import StressStatesResult
+from .results import Contacts, Modes
+
+
+class Network(Base):
+    """What crunch, or contacts_from_geometry, found."""
+
+    @property
+    def report(self) -> Report:
+        """Report and certificate of the last crunch."""
+        if self._carried:
+            return self._carried[0]
+        made = _calls.new_report("jam_report")
+        raw.jam_report_get(self.handle, made)
+        return _calls.freeze(made, "jam_report")
+
+    @property
+    def history(self) -> np.ndarray:
+        """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
+        columns = [self.call("crunch_history", c) for c in HistoryColumn]
+        rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in HistoryColumn])
+        for c, values in zip(HistoryColumn, columns):
+            rows[c.name.lower()] = values
+        return rows
+
+    @property
+    def contacts(self) -> Contacts:
+        """Pairs, unit vectors, gaps and forces of the contacts, as copies."""
+        if self._carried:
+            return self._carried[1]
+        return Contacts(self.call("contacts"), self.call("contact_vectors"),
+                        self.call("contact_gaps"), self.call("forces"))
+
+    @property
+    def forces(self) -> np.ndarray:
+        """(contacts,), mean 1; times report.force_scale they are lambda r."""
+        return self._carried[1].forces if self._carried else self.call("forces")
+
+    @property
+    def coordination(self) -> np.ndarray:
+        """(n,) int32: contacts of each sphere, 0 for rattlers."""
+        if self._carried:
+            return np.bincount(self._carried[1].pairs.reshape(-1), minlength=self.n).astype(np.int32)
+        return self.call("coordination")
+
+    @property
+    def rattlers(self) -> np.ndarray:
+        """(n,) bool."""
+        return self.coordination == 0
+
+    @property
+    def bucklers(self) -> np.ndarray:
+        """(n,) bool: spheres with exactly d + 1 contacts."""
+        return self.coordination == self.dim + 1
+
+    def hessian(self, stiffness: int | str = "harmonic", **options: Any) -> Any:
+        """Hessian of the contact network as scipy.sparse.csr_matrix (d N', d N'), unit: stiffness at the mean force.
+
+        Row d k + c is component c of sphere hessian_map()[k]; rattlers are left out.
+        stiffness: 'harmonic', 'power' (with alpha) or 'hard'. options: alpha, prestress.
+        """
+        from scipy.sparse import csr_matrix
+        chosen = _calls.options("jam_hessian_options", dict(options, stiffness=stiffness))
+        size = self.dim * len(self.call("hessian_map"))
+        count = raw.jam_hessian(self.handle, chosen, None, None, None)[1]
+        start, column, value = np.empty(size + 1, np.int32), np.empty(count, np.int32), np.empty(count)
+        raw.jam_hessian(self.handle, chosen, start, column, value)
+        return csr_matrix((value, column, start), shape=(size, size))
+
+    def modes(self, k: int = 10, which: int | str = "lowest", stiffness: int | str = "harmonic", *, progress: Any = None,
+              alpha: float | None = None, prestress: float | None = None, **options: Any) -> Modes:
+        """Vibrational modes of the network. k: how many. which: 'lowest', 'highest', 'near' (with frequency), 'all'.
+
+        progress: as in crunch. options: frequency, tolerance, memory_limit.
+        """
+        handle = self.handle
+        h = _calls.options("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
+        o = _calls.options("jam_modes_options", dict(options, which=which, count=k))
+        spheres = self.call("hessian_map")
+        m = min(k, self.dim * len(spheres)) if _calls.as_enum(which, "ModesWhich") != ModesWhich.ALL else self.dim * len(spheres)
+        values, vectors = np.empty(m), np.empty((m, len(spheres), self.dim))
+        participation = np.empty(m)
+        with self._reporting(progress):
+            status, m = raw.jam_modes(handle, h, o, values, vectors.reshape(-1), participation)
+        return Modes(values[:m], vectors[:m], participation[:m], spheres, StatusCode(status))
+
+    def stress_states(self, *, progress: Any = None) -> StressStatesResult:
+        """States of self-stress from positions alone: force (contacts,), basis (m, contacts), residual."""
+        handle, contacts = self.handle, self.report.contacts
+        with self._reporting(progress):
+            m = raw.jam_stress_states(handle, None, None)[-1]
+            force, basis = np.empty(contacts if m else 0), np.empty((m, contacts))
+            status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
+        self.status = StatusCode(status)
+        return StressStatesResult(force, basis, residual)

@@ -1,0 +1,77 @@
+"""The state of a system: positions, velocities, diameters and what is known of them at once."""
+from __future__ import annotations
+
+from typing import Any, Callable
+
+import numpy as np
+
+from . import _calls, raw
+from ._generated import Info
+from ._handle import Base, _View
+
+
+class State(Base):
+    """State of a system, as read-only views of its memory."""
+
+    @property
+    def info(self) -> Info:
+        """What the system is now."""
+        made = _calls.new_report("jam_info")
+        raw.jam_info_get(self.handle, made)
+        return _calls.freeze(made, "jam_info")
+
+    n = property(lambda self: self._constant("n"), doc="Number of spheres.")
+    dim = property(lambda self: self._constant("dim"), doc="Dimension d.")
+    box = property(lambda self: self._constant("box"), doc="Side of the cube.")
+    seed = property(lambda self: self._constant("seed"), doc="Seed recorded at creation.")
+    packing_fraction = property(lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the box.")
+    pressure = property(lambda self: self.info.pressure, doc="Reduced pressure last measured by MD, nan before.")
+
+    def _constant(self, name: str) -> Any:
+        """What cannot change in the life of a handle: info sums over all spheres each time."""
+        self.handle
+        if self._first_info is None:
+            self._first_info = self.info
+        return getattr(self._first_info, name)
+
+    def _show(self, function: Callable, flat: bool = False) -> np.ndarray:
+        handle = self.handle
+        _, (address, count) = function(handle)
+        n = raw.jam_diameters_view(handle)[1][1]
+        return np.asarray(_View(handle, address, (n,) if flat else (n, count // n)))
+
+    @property
+    def positions(self) -> np.ndarray:
+        """(n, d) in [0, box): a read-only view without copy that follows the system and keeps it alive."""
+        return self._show(raw.jam_positions_view)
+
+    @positions.setter
+    def positions(self, values: Any) -> None:
+        self._set(raw.jam_set_positions, values, "positions")
+
+    @property
+    def velocities(self) -> np.ndarray:
+        """(n, d), kT/m = 1: read-only view; zero until the first MD call."""
+        return self._show(raw.jam_velocities_view)
+
+    @velocities.setter
+    def velocities(self, values: Any) -> None:
+        self._set(raw.jam_set_velocities, values, "velocities")
+
+    def _set(self, function: Callable, values: Any, name: str) -> None:
+        x = _calls.as_array(values, name=name)
+        shape = self._show(raw.jam_positions_view).shape
+        if x.shape != shape:
+            raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
+        function(self.handle, x.reshape(-1))
+        self._carried = None
+
+    @property
+    def diameters(self) -> np.ndarray:
+        """(n,), unit of box: read-only view."""
+        return self._show(raw.jam_diameters_view, flat=True)
+
+    def scale_diameters(self, factor: float) -> None:
+        """Multiplies all diameters."""
+        raw.jam_scale_diameters(self.handle, float(factor))
+        self._carried = None

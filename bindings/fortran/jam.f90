@@ -131,6 +131,23 @@ module jam
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
   integer(c_int32_t), parameter :: JAM_CONTACT_MEDIAN = 4
 
+  ! jam_quantity: What jam_class_values and jam_histogram look at. @since 0.1
+  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE = 0
+  integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_SUM = 1
+  integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_PAIRS = 2
+  integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_DOT = 3
+  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_SUM = 4
+  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_PAIRS = 5
+  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_DOT = 6
+  integer(c_int32_t), parameter :: JAM_QUANTITY_COORDINATION = 7
+
+  ! jam_class: Which of them. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CLASS_ALL = 0
+  integer(c_int32_t), parameter :: JAM_CLASS_LOCALISED = 1
+  integer(c_int32_t), parameter :: JAM_CLASS_EXTENDED = 2
+  integer(c_int32_t), parameter :: JAM_CLASS_SMALLEST = 3
+  integer(c_int32_t), parameter :: JAM_CLASS_MEDIAN = 4
+
   ! Options of jam_create and jam_read. @since 0.1
   type, bind(c) :: jam_create_options
     ! sizeof(jam_create_options)
@@ -418,7 +435,7 @@ module jam
   ! What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
   type, bind(c) :: jam_geometry_report
     ! set by the caller: sizeof(jam_geometry_report)
-    integer(c_int32_t) :: struct_size = 128
+    integer(c_int32_t) :: struct_size = 136
     ! spheres touching their own image; left out of the network
     integer(c_int32_t) :: self_contacts = 0
     ! used
@@ -451,6 +468,8 @@ module jam
     real(c_double) :: force_residual = 0
     ! over the mean
     real(c_double) :: min_force = 0
+    ! connected sets of stable spheres; with more than one, each has its own states
+    integer(c_int64_t) :: clusters = 0
   end type jam_geometry_report
 
   ! Options of jam_density_of_states. @since 0.1
@@ -477,13 +496,13 @@ module jam
     real(c_double) :: bulk = 0
     ! K without the non-affine part
     real(c_double) :: bulk_affine = 0
-    ! G, mean over the d (d-1) / 2 coordinate planes
+    ! G for simple shear, mean over the d (d-1) coordinate directions
     real(c_double) :: shear = 0
     ! G without the non-affine part
     real(c_double) :: shear_affine = 0
-    ! smallest of the planes
+    ! smallest of the planes, both directions averaged
     real(c_double) :: shear_min = 0
-    ! largest of the planes
+    ! largest of them
     real(c_double) :: shear_max = 0
   end type jam_moduli
 
@@ -1096,6 +1115,28 @@ module jam
       integer(c_int32_t) :: status
     end function jam_contacts_from_geometry
 
+    ! Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
+    ! enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
+    ! gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
+    ! Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    function jam_contact_candidates(sys, window, limit, limit_len, jump, jump_len, contacts, contacts_len, excess, &
+      excess_len, needed) &
+        bind(c, name="jam_contact_candidates") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), value :: window
+      real(c_double), intent(inout), optional :: limit(*)
+      integer(c_size_t), value :: limit_len
+      real(c_double), intent(inout), optional :: jump(*)
+      integer(c_size_t), value :: jump_len
+      integer(c_int32_t), intent(inout), optional :: contacts(*)
+      integer(c_size_t), value :: contacts_len
+      integer(c_int32_t), intent(inout), optional :: excess(*)
+      integer(c_size_t), value :: excess_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_contact_candidates
+
     ! States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
     ! from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
     ! Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
@@ -1171,6 +1212,37 @@ module jam
       integer(c_int32_t) :: status
     end function jam_contact_dots
 
+    ! Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
+    ! jam_contacts, JAM_E_ARGUMENT. @since 0.1
+    function jam_class_values(sys, quantity, which, out, out_len, needed) &
+        bind(c, name="jam_class_values") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: quantity
+      integer(c_int32_t), value :: which
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_class_values
+
+    ! Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
+    ! jam_class_values. @since 0.1
+    function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed) &
+        bind(c, name="jam_histogram") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: quantity
+      integer(c_int32_t), value :: which
+      real(c_double), value :: low
+      real(c_double), value :: high
+      integer(c_int64_t), value :: bins
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_histogram
+
     ! g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
     ! diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1
     function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed) &
@@ -1190,7 +1262,8 @@ module jam
     end function jam_pair_correlation
 
     ! S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
-    ! No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    ! No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
+    ! Threads: alone. @since 0.1
     function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed) &
         bind(c, name="jam_structure_factor") result(status)
       import
@@ -1254,20 +1327,26 @@ module jam
       integer(c_int32_t) :: status
     end function jam_floppy_mode
 
-    ! The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-    ! s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
-    ! the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+    ! The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+    ! weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
+    ! next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
+    ! stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
     ! Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
-    function jam_floppy_modes(sys, median, median_len, s_plus, s_plus_len, s_star, s_star_len, needed) &
+    function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, &
+      s_star_len, stability, stability_len, needed) &
         bind(c, name="jam_floppy_modes") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), intent(inout), optional :: median(*)
       integer(c_size_t), value :: median_len
+      real(c_double), intent(inout), optional :: weight(*)
+      integer(c_size_t), value :: weight_len
       real(c_double), intent(inout), optional :: s_plus(*)
       integer(c_size_t), value :: s_plus_len
       real(c_double), intent(inout), optional :: s_star(*)
       integer(c_size_t), value :: s_star_len
+      real(c_double), intent(inout), optional :: stability(*)
+      integer(c_size_t), value :: stability_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_floppy_modes
@@ -1283,7 +1362,8 @@ module jam
 
     ! Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
     ! omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-    ! and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+    ! and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
+    ! well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
     ! JAM_E_TOO_FEW. Threads: alone. @since 0.1
     function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed) &
         bind(c, name="jam_density_of_states") result(status)
@@ -1301,6 +1381,41 @@ module jam
       integer(c_int32_t) :: status
     end function jam_density_of_states
 
+    ! Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
+    ! jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+    function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, &
+      needed) &
+        bind(c, name="jam_cumulative_spectrum") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      type(jam_dos_options), intent(in), optional :: o
+      real(c_double), intent(inout), optional :: omega(*)
+      integer(c_size_t), value :: omega_len
+      real(c_double), intent(inout), optional :: cumulative(*)
+      integer(c_size_t), value :: cumulative_len
+      real(c_double), intent(inout), optional :: error(*)
+      integer(c_size_t), value :: error_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_cumulative_spectrum
+
+    ! Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
+    ! modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+    function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed) &
+        bind(c, name="jam_project") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(in), optional :: vector(*)
+      integer(c_size_t), value :: vector_len
+      real(c_double), intent(in), optional :: u(*)
+      integer(c_size_t), value :: u_len
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_project
+
     ! value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
     function jam_curvature(sys, h, u, u_len, value) &
         bind(c, name="jam_curvature") result(status)
@@ -1313,7 +1428,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_curvature
 
-    ! Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1
+    ! Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
+    ! unstable. Threads: alone. @since 0.1
     function jam_moduli_get(sys, h, moduli) &
         bind(c, name="jam_moduli_get") result(status)
       import

@@ -15,6 +15,10 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *lambda, size_t lambda_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *participation, size_t participation_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *limit, size_t limit_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *jump, size_t jump_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *contacts, size_t contacts_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *excess, size_t excess_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
@@ -28,11 +32,15 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *q, size_t q_len)};
 %apply double *RESULT {double *score};
 %apply (double *FILL, size_t FILL_LEN) {(double *median, size_t median_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *weight, size_t weight_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *s_plus, size_t s_plus_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *s_star, size_t s_star_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *stability, size_t stability_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *omega, size_t omega_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *density, size_t density_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *cumulative, size_t cumulative_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
 %apply double *RESULT {double *value};
 %extend jam_create_options {
@@ -291,6 +299,10 @@ null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no 
 states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
 forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
 JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_contact_candidates "Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
+enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
+gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
+Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
 %feature("docstring") jam_stress_states "States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
 from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
 Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
@@ -303,10 +315,15 @@ JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
 *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
 pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
+jam_contacts, JAM_E_ARGUMENT. @since 0.1"
+%feature("docstring") jam_histogram "Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
+jam_class_values. @since 0.1"
 %feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
 diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_structure_factor "S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
-No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
+Threads: alone. @since 0.1"
 %feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
 (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"
 %feature("docstring") jam_crystal_score "Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
@@ -316,17 +333,24 @@ JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
 %feature("docstring") jam_floppy_mode "Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
 common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
 (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
-%feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
-the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+%feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
+next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
+stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
 Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
 omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
+well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
 JAM_E_TOO_FEW. Threads: alone. @since 0.1"
+%feature("docstring") jam_cumulative_spectrum "Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
+jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1"
+%feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
+modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
-%feature("docstring") jam_moduli_get "Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_moduli_get "Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
+unstable. Threads: alone. @since 0.1"
 %feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
 nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
 Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"

@@ -595,6 +595,7 @@ typedef struct jam_geometry_report {
   int64_t zero_modes;       /* of S^T S, translations among them; no more than 256 others are counted */
   double force_residual;    /* largest |sum_j f_ij n_ij| over mean force */
   double min_force;         /* over the mean */
+  int64_t clusters;         /* connected sets of stable spheres; with more than one, each has its own states */
 } jam_geometry_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -606,6 +607,13 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report);
+/* Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
+ * enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
+ * gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
+ * Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len, double *jump,
+                                          size_t jump_len, int32_t *contacts, size_t contacts_len, int32_t *excess,
+                                          size_t excess_len, size_t *needed);
 /* States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
  * from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
  * Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
@@ -635,13 +643,41 @@ JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted,
  * pairs. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere,
                                     size_t sphere_len, size_t *needed);
+/* What jam_class_values and jam_histogram look at. @since 0.1 */
+typedef enum jam_quantity {
+  JAM_QUANTITY_FORCE = 0,        /* contacts: f over its mean in the class */
+  JAM_QUANTITY_VECTOR_SUM = 1,   /* stable spheres: |C_i| */
+  JAM_QUANTITY_VECTOR_PAIRS = 2, /* stable spheres: S_i */
+  JAM_QUANTITY_VECTOR_DOT = 3,   /* pairs of contacts of a sphere: n_ij . n_ik */
+  JAM_QUANTITY_FORCE_SUM = 4,    /* stable spheres: sum_j f_ij */
+  JAM_QUANTITY_FORCE_PAIRS = 5,  /* stable spheres: S_i with f n for n */
+  JAM_QUANTITY_FORCE_DOT = 6,    /* pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik */
+  JAM_QUANTITY_COORDINATION = 7  /* stable spheres: z_i */
+} jam_quantity;
+/* Which of them. @since 0.1 */
+typedef enum jam_class {
+  JAM_CLASS_ALL = 0,
+  JAM_CLASS_LOCALISED = 1, /* contacts that touch a buckler; spheres and their pairs: the bucklers */
+  JAM_CLASS_EXTENDED = 2,  /* contacts that do not; spheres and their pairs: all other stable ones */
+  JAM_CLASS_SMALLEST = 3,  /* forces only: the smallest of one of its spheres */
+  JAM_CLASS_MEDIAN = 4     /* forces only: the (lower) median of one of its spheres */
+} jam_class;
+/* Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
+ * jam_contacts, JAM_E_ARGUMENT. @since 0.1 */
+JAM_API jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
+                                    size_t *needed);
+/* Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
+ * jam_class_values. @since 0.1 */
+JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins,
+                                 double *out, size_t out_len, size_t *needed);
 /* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
  * diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
                                         double r_max, int64_t bins, double *out, size_t out_len, size_t *needed);
 /* S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
- * No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
-JAM_API jam_status jam_structure_factor(const jam_system *sys, double q_max, double *q, size_t q_len, double *s,
+ * No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
+ * Threads: alone. @since 0.1 */
+JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s,
                                         size_t s_len, size_t *needed);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
  * (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1 */
@@ -657,12 +693,14 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
  * common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
  * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
- * s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
- * the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+/* The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+ * weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
+ * next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
+ * stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
  * Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
-JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *s_plus, size_t s_plus_len,
-                                    double *s_star, size_t s_star_len, size_t *needed);
+JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight, size_t weight_len,
+                                    double *s_plus, size_t s_plus_len, double *s_star, size_t s_star_len, double *stability,
+                                    size_t stability_len, size_t *needed);
 
 /* Options of jam_density_of_states. @since 0.1 */
 typedef struct jam_dos_options {
@@ -679,10 +717,10 @@ typedef struct jam_moduli {
   int32_t reserved;     /* 0 */
   double bulk;          /* K */
   double bulk_affine;   /* K without the non-affine part */
-  double shear;         /* G, mean over the d (d-1) / 2 coordinate planes */
+  double shear;         /* G for simple shear, mean over the d (d-1) coordinate directions */
   double shear_affine;  /* G without the non-affine part */
-  double shear_min;     /* smallest of the planes */
-  double shear_max;     /* largest of the planes */
+  double shear_min;     /* smallest of the planes, both directions averaged */
+  double shear_max;     /* largest of them */
 } jam_moduli;
 
 /* What jam_compare found; contacts only when both have a network. @since 0.1 */
@@ -702,15 +740,26 @@ typedef struct jam_comparison {
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 /* Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
  * omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
- * and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+ * and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
+ * well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
  * JAM_E_TOO_FEW. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          double *omega, size_t omega_len, double *density, size_t density_len,
                                          double *error, size_t error_len, size_t *needed);
+/* Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
+ * jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1 */
+JAM_API jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega,
+                                           size_t omega_len, double *cumulative, size_t cumulative_len, double *error,
+                                           size_t error_len, size_t *needed);
+/* Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
+ * modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
+JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u, size_t u_len,
+                               double *out, size_t out_len, size_t *needed);
 /* *value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
-/* Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1 */
+/* Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
+ * unstable. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli);
 /* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
  * nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.

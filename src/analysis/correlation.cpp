@@ -41,7 +41,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   return g;
 }
 
-StructureFactor structure_factor(const Packing &p, double q_max) {
+StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch, bool lengths_only) {
   const int d = p.dim;
   const double unit = diameter_mean(p), step = 2.0 * M_PI / p.box;
   if (!(q_max > 0.0 && std::isfinite(q_max))) fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
@@ -50,7 +50,7 @@ StructureFactor structure_factor(const Packing &p, double q_max) {
   if (vectors * static_cast<double>(p.n()) > 2e10)
     fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
   const int m = static_cast<int>(std::floor(reach));
-  const size_t n = p.n(), width = 2 * static_cast<size_t>(m) + 1;
+  const size_t n = lengths_only ? 0 : p.n(), width = 2 * static_cast<size_t>(m) + 1;
   // cos and sin of n x for every sphere, component and n: one row a (component, n), so that inner loops run over spheres
   std::vector<double> co(width * d * n), si(width * d * n);
   for (int c = 0; c < d; ++c)
@@ -62,14 +62,17 @@ StructureFactor structure_factor(const Packing &p, double q_max) {
       }
   std::map<int64_t, std::pair<double, int64_t>> shell;
   std::vector<std::vector<double>> re(d + 1, std::vector<double>(n, 1.0)), im(d + 1, std::vector<double>(n, 0.0));
+  int64_t done = 0;
   // One of each pair +-q: the first component that is not zero is positive.
   auto descend = [&](auto &&self, int c, int64_t n2, bool positive) -> void {
     if (c == d) {
       if (!positive) return;
+      watch(done, static_cast<double>(done) / vectors);
+      ++done;
       double x = 0.0, y = 0.0;
       for (size_t i = 0; i < n; ++i) x += re[d][i], y += im[d][i];
       auto &s = shell[n2];
-      s.first += (x * x + y * y) / static_cast<double>(n);
+      s.first += (x * x + y * y) / static_cast<double>(p.n());
       ++s.second;
       return;
     }

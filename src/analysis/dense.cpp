@@ -1,13 +1,15 @@
-// The full spectrum: Householder reduction, divide and conquer, back transformation (LAPACK by OpenBLAS), in
-// three calls instead of dsyevd so that cancelling works between them.
+// The full spectrum: Householder reduction, divide and conquer, back transformation (LAPACK by OpenBLAS). Reduction and back
+// transformation go panel by panel, as dsytrd and dormtr do inside, so that they can be cancelled; dstedc is one call.
 #include <algorithm>
 #include <cmath>
 #include "analysis/modes.hpp"
 #include "core/error.hpp"
 
 extern "C" {
-void dsytrd_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e, double *tau, double *work,
-             const int *lwork, int *info);
+void dlatrd_(const char *uplo, const int *n, const int *nb, double *a, const int *lda, double *e, double *tau, double *w, const int *ldw);
+void dsyr2k_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a, const int *lda,
+             const double *b, const int *ldb, const double *beta, double *c, const int *ldc);
+void dsytd2_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e, double *tau, int *info);
 void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz, double *work, const int *lwork,
              int *iwork, const int *liwork, int *info);
 void dsterf_(const int *n, double *d, double *e, int *info);
@@ -16,6 +18,33 @@ void dormtr_(const char *side, const char *uplo, const char *trans, const int *m
 }
 
 namespace jam {
+namespace {
+
+// Lower triangle of a to tridiagonal form d, e; reflectors stay in a and tau. False when stopped.
+bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double *tau, const std::function<bool(double)> &stop) {
+  const int panel = 32;
+  const double one = 1.0, minus_one = -1.0;
+  std::vector<double> w(static_cast<size_t>(n) * panel);
+  const auto at = [&](int row, int column) { return &a[static_cast<size_t>(column) * n + row]; };
+  int k = 0;
+  for (; k + 2 * panel < n; k += panel) {
+    const double left = 1.0 - static_cast<double>(k) / n;
+    if (stop(0.6 * (1.0 - left * left * left))) return false;
+    const int rest = n - k, below = rest - panel;
+    dlatrd_("L", &rest, &panel, at(k, k), &n, e + k, tau + k, w.data(), &rest);
+    dsyr2k_("L", "N", &below, &panel, &minus_one, at(k + panel, k), &n, &w[panel], &rest, &one, at(k + panel, k + panel), &n);
+    for (int j = k; j < k + panel; ++j) {
+      *at(j + 1, j) = e[j];
+      d[j] = *at(j, j);
+    }
+  }
+  const int rest = n - k;
+  int info = 0;
+  dsytd2_("L", &rest, at(k, k), &n, d + k, e + k, tau + k, &info);
+  return true;
+}
+
+}  // namespace
 
 bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors, const std::function<bool(double)> &stop) {
   lambda.assign(n, 0.0);
@@ -23,10 +52,7 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   std::vector<double> e(std::max(1, n - 1)), tau(std::max(1, n - 1));
   std::vector<double> work(static_cast<size_t>(n) * 64 + 16);
   int lwork = static_cast<int>(work.size()), info = 0;
-  if (stop(0.0)) return false;
-  dsytrd_("L", &n, a.data(), &n, lambda.data(), e.data(), tau.data(), work.data(), &lwork, &info);
-  if (info != 0) fail(JAM_E_SOLVER, "dsytrd gave info %d", info);
-  if (stop(0.5)) return false;
+  if (stop(0.0) || !tridiagonalise(n, a, lambda.data(), e.data(), tau.data(), stop) || stop(0.6)) return false;
   if (!vectors) {
     dsterf_(&n, lambda.data(), e.data(), &info);
     if (info != 0) fail(JAM_E_SOLVER, "dsterf gave info %d: the spectrum did not converge", info);
@@ -44,9 +70,12 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
     dstedc_("I", &n, lambda.data(), e.data(), z.data(), &n, w.data(), &lw, iw.data(), &li, &info);
   }
   if (info != 0) fail(JAM_E_SOLVER, "dstedc gave info %d: the spectrum did not converge", info);
-  if (stop(0.75)) return false;
-  dormtr_("L", "L", "N", &n, &n, a.data(), &n, tau.data(), z.data(), &n, work.data(), &lwork, &info);
-  if (info != 0) fail(JAM_E_SOLVER, "dormtr gave info %d", info);
+  for (int first = 0; first < n; first += 512) {
+    if (stop(0.8 + 0.2 * first / n)) return false;
+    const int columns = std::min(512, n - first);
+    dormtr_("L", "L", "N", &n, &columns, a.data(), &n, tau.data(), &z[static_cast<size_t>(first) * n], &n, work.data(), &lwork, &info);
+    if (info != 0) fail(JAM_E_SOLVER, "dormtr gave info %d", info);
+  }
   a.swap(z);
   return true;
 }

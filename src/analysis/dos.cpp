@@ -1,7 +1,8 @@
-// Density of states by Chebyshev moments. With x = 2 lambda / lambda_max - 1 = cos theta, omega = omega_max sin((pi - theta) / 2):
-// the resolution in theta is a uniform resolution in omega, also at omega = 0.
+// Density of states by Chebyshev moments in x = (2 lambda - high - low) / (high - low) = cos theta. Without pre-stress low = 0 and
+// omega = omega_max sin((pi - theta) / 2): the resolution in theta is a uniform resolution in omega, also at omega = 0.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include "analysis/spectrum.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -45,20 +46,35 @@ double largest_eigenvalue(const StableGraph &g, const BlockMatrix &h) {
   return std::min(h.norm_bound(), 1.05 * lambda + 2.0 * residual);
 }
 
+// Lower bound of the spectrum: S~^T S~ has none below 0, and the pre-stress part takes no more than 2 max_i sum_j t_ij.
+double smallest_eigenvalue(const StableGraph &g, const ContactWeights &w) {
+  std::vector<double> sum(g.nodes, 0.0);
+  for (size_t k = 0; k < w.transverse.size(); ++k) {
+    sum[g.a[k]] += w.transverse[k];
+    sum[g.b[k]] += w.transverse[k];
+  }
+  return sum.empty() ? 0.0 : -2.0 * *std::max_element(sum.begin(), sum.end());
+}
+
+struct Interval {
+  double low, high;
+  double theta(double lambda) const { return std::acos(std::max(-1.0, std::min(1.0, (2.0 * lambda - high - low) / (high - low)))); }
+};
+
 // mu_m = <v| T_m(x) |v>, m < moments, by two moments a product: T_{2m} = 2 T_m T_m - 1, T_{2m+1} = 2 T_{m+1} T_m - T_1.
-bool moments_of(const BlockMatrix &h, double lambda_max, std::vector<double> v, std::vector<double> &mu,
-                const std::function<bool()> &stop) {
+void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std::vector<double> &mu, const std::function<void()> &watch) {
   const size_t n = v.size();
+  const double scale = 2.0 / (span.high - span.low), shift = (span.high + span.low) / (span.high - span.low);
   auto apply = [&](const std::vector<double> &x, std::vector<double> &y) {
     h.multiply(x.data(), y.data());
-    for (size_t k = 0; k < n; ++k) y[k] = 2.0 * y[k] / lambda_max - x[k];
+    for (size_t k = 0; k < n; ++k) y[k] = scale * y[k] - shift * x[k];
   };
   std::vector<double> before = v, now(n), next(n);
   apply(before, now);
   mu[0] = dot(v, v);
   if (mu.size() > 1) mu[1] = dot(v, now);
   for (size_t m = 1; 2 * m < mu.size(); ++m) {
-    if (stop()) return false;
+    watch();
     mu[2 * m] = 2.0 * dot(now, now) - mu[0];
     apply(now, next);
     for (size_t k = 0; k < n; ++k) next[k] = 2.0 * next[k] - before[k];
@@ -66,7 +82,6 @@ bool moments_of(const BlockMatrix &h, double lambda_max, std::vector<double> v, 
     before.swap(now);
     now.swap(next);
   }
-  return true;
 }
 
 // Jackson's damping, which keeps the density positive.
@@ -75,52 +90,93 @@ double jackson(size_t m, size_t moments) {
   return ((static_cast<double>(moments) - x + 1.0) * std::cos(q * x) + std::sin(q * x) / std::tan(q)) / static_cast<double>(moments + 1);
 }
 
+// mu_0 + 2 sum mu_m cos(m theta), by Clenshaw's recurrence.
+double cosine_sum(const std::vector<double> &mu, double theta) {
+  double b1 = 0.0, b2 = 0.0;
+  const double c = 2.0 * std::cos(theta);
+  for (size_t m = mu.size() - 1; m >= 1; --m) {
+    const double b = 2.0 * mu[m] + c * b1 - b2;
+    b2 = b1;
+    b1 = b;
+  }
+  return mu[0] + 0.5 * c * b1 - b2;
+}
+
+// sum (mu_m / m) sin(m theta), likewise.
+double sine_sum(const std::vector<double> &mu, double theta) {
+  double b1 = 0.0, b2 = 0.0;
+  const double c = 2.0 * std::cos(theta);
+  for (size_t m = mu.size() - 1; m >= 1; --m) {
+    const double b = mu[m] / static_cast<double>(m) + c * b1 - b2;
+    b2 = b1;
+    b1 = b;
+  }
+  return b1 * std::sin(theta);
+}
+
+// D(omega) = rho(lambda) 2 |omega|, rho(lambda) = S(theta) / (pi sin theta) 2 / (high - low).
+double density_at(const std::vector<double> &mu, Interval span, double omega) {
+  if (span.low == 0.0) {  // sin theta = 2 s c with s = omega / omega_max, so that omega = 0 is no exception
+    const double s = omega / std::sqrt(span.high), half = std::asin(std::min(1.0, s));
+    return cosine_sum(mu, M_PI - 2.0 * half) / M_PI * 2.0 / (std::sqrt(span.high) * std::cos(half));
+  }
+  const double theta = span.theta(omega * std::fabs(omega));
+  return cosine_sum(mu, theta) / (M_PI * std::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
+}
+
+// Share of the spectrum below omega: the same series, integrated.
+double share_below(const std::vector<double> &mu, Interval span, double omega) {
+  const double theta = span.theta(omega * std::fabs(omega));
+  return (mu[0] * (M_PI - theta) - 2.0 * sine_sum(mu, theta)) / M_PI;
+}
+
+// Mean over random vectors and its standard error.
+struct Average {
+  std::vector<double> sum, square;
+  explicit Average(size_t n) : sum(n, 0.0), square(n, 0.0) {}
+  void add(size_t k, double x) {
+    sum[k] += x;
+    square[k] += x * x;
+  }
+  void give(double count, std::vector<double> &mean, std::vector<double> &error) const {
+    for (size_t k = 0; k < sum.size(); ++k) {
+      mean.push_back(sum[k] / count);
+      error.push_back(std::sqrt(std::max(0.0, square[k] / count - sum[k] * sum[k] / (count * count)) / (count - 1.0)));
+    }
+  }
+};
+
 }  // namespace
 
-jam_status density_of_states(const StableGraph &g, const BlockMatrix &h, const jam_dos_options &o, Monitor &monitor, DensityOfStates &out) {
+DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o, const Watch &watch) {
   if (o.moments < 8 || o.moments > 1000000) fail(JAM_E_ARGUMENT, "moments is %d, it must be in 8..1e6", o.moments);
   if (o.vectors < 2 || o.vectors > 100000) fail(JAM_E_ARGUMENT, "vectors is %d, it must be in 2..1e5", o.vectors);
   if (o.points < 1 || o.points > 10000000) fail(JAM_E_ARGUMENT, "points is %d, it must be in 1..1e7", o.points);
+  const BlockMatrix h = make_hessian(g, w);
   const size_t n = h.rows(), points = static_cast<size_t>(o.points), moments = static_cast<size_t>(o.moments);
-  const double lambda_max = largest_eigenvalue(g, h);
-  if (n <= static_cast<size_t>(g.dim) || !(lambda_max > 0.0)) fail(JAM_E_TOO_FEW, "%d stable spheres have no density of states", g.nodes);
-  const double omega_max = std::sqrt(lambda_max), modes = static_cast<double>(n) - g.dim;
-  std::vector<double> sum(points, 0.0), sum2(points, 0.0), mu(moments), v(n);
+  const Interval span{smallest_eigenvalue(g, w), largest_eigenvalue(g, h)};
+  if (n <= static_cast<size_t>(g.dim) || !(span.high > 0.0)) fail(JAM_E_TOO_FEW, "%d stable spheres have no density of states", g.nodes);
+  const double first = -std::sqrt(-span.low);
+  DensityOfStates out;
+  out.step = (std::sqrt(span.high) - first) / static_cast<double>(points);
+  for (size_t k = 0; k < points; ++k) out.omega.push_back(first + out.step * (static_cast<double>(k) + 0.5));
+  Average density(points), cumulative(points);
+  std::vector<double> mu(moments), v(n);
   for (int32_t r = 0; r < o.vectors; ++r) {
     Rng rng(o.seed, Stream::analysis_start, static_cast<uint64_t>(r) << 32);
     for (double &x : v) x = rng.bits() & 1 ? 1.0 : -1.0;
     remove_translation(g.dim, g.nodes, v.data());
-    auto stop = [&] {
-      jam_progress p{};
-      p.phase = JAM_PHASE_ANALYSE;
-      p.steps = r;
-      p.fraction = static_cast<double>(r) / o.vectors;
-      return monitor.report(p);
-    };
-    if (!moments_of(h, lambda_max, v, mu, stop)) return JAM_CANCELLED;
-    for (size_t m = 0; m < moments; ++m) mu[m] *= jackson(m, moments) / modes;
+    moments_of(h, span, v, mu, [&] { watch(r, static_cast<double>(r) / o.vectors); });
+    // Each vector over its own length: the integral is 1 for every one of them.
+    for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];
     for (size_t k = 0; k < points; ++k) {
-      const double s = (static_cast<double>(k) + 0.5) / static_cast<double>(points), half = std::asin(s), theta = M_PI - 2.0 * half;
-      // Clenshaw's recurrence for mu_0 + 2 sum mu_m cos(m theta)
-      double b1 = 0.0, b2 = 0.0;
-      const double c = 2.0 * std::cos(theta);
-      for (size_t m = moments - 1; m >= 1; --m) {
-        const double b = 2.0 * mu[m] + c * b1 - b2;
-        b2 = b1;
-        b1 = b;
-      }
-      const double density = (mu[0] + 0.5 * c * b1 - b2) / M_PI * 2.0 / (omega_max * std::cos(half));
-      sum[k] += density;
-      sum2[k] += density * density;
+      density.add(k, density_at(mu, span, out.omega[k]));
+      cumulative.add(k, share_below(mu, span, out.omega[k] + 0.5 * out.step));
     }
   }
-  const double count = o.vectors;
-  for (size_t k = 0; k < points; ++k) {
-    out.omega.push_back(omega_max * (static_cast<double>(k) + 0.5) / static_cast<double>(points));
-    out.density.push_back(sum[k] / count);
-    out.error.push_back(std::sqrt(std::max(0.0, sum2[k] / count - sum[k] * sum[k] / (count * count)) / (count - 1.0)));
-  }
-  return JAM_OK;
+  density.give(o.vectors, out.density, out.density_error);
+  cumulative.give(o.vectors, out.cumulative, out.cumulative_error);
+  return out;
 }
 
 }  // namespace jam

@@ -1,51 +1,96 @@
 // Elastic moduli with the non-affine part, and comparing two packings.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 #include "analysis/spectrum.hpp"
 #include "core/error.hpp"
 
 namespace jam {
 namespace {
 
-// Energy of the strained network over its volume for contact elongations e: without and with the spheres relaxing.
-// The relaxed energy is summed over what is left of each elongation, so nothing cancels.
-void relax(const StableGraph &g, const ContactWeights &w, const PinnedSolver &solver, const std::vector<double> &e, double &affine, double &relaxed) {
-  std::vector<double> t(g.contacts()), u(g.unknowns()), s(g.contacts());
-  for (size_t k = 0; k < t.size(); ++k) t[k] = w.stiffness[k] * e[k];
-  balance(g, t.data(), u.data());
-  solver.solve(u.data(), 1);
-  stretch(g, u.data(), s.data());
-  affine = relaxed = 0.0;
-  for (size_t k = 0; k < t.size(); ++k) {
-    affine += w.stiffness[k] * e[k] * e[k];
-    relaxed += w.stiffness[k] * (e[k] - s[k]) * (e[k] - s[k]);
+// Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: as it stands, and with the
+// spheres relaxing. The relaxed one is summed over what is left of each du, so nothing cancels.
+struct Strained {
+  const StableGraph &g;
+  const ContactWeights &w;
+  const PinnedSolver &solver;
+
+  double transverse(size_t k) const { return w.transverse.empty() ? 0.0 : w.transverse[k]; }
+  // Block k of the Hessian times x: stiffness k along n, -t across.
+  void force(size_t k, const double *x, double *f) const {
+    const double *n = &g.normal[k * g.dim], t = transverse(k);
+    double along = 0.0;
+    for (int c = 0; c < g.dim; ++c) along += n[c] * x[c];
+    for (int c = 0; c < g.dim; ++c) f[c] = (w.stiffness[k] + t) * along * n[c] - t * x[c];
   }
-}
+  double energy(size_t k, const double *x) const {
+    const double *n = &g.normal[k * g.dim];
+    double along = 0.0, all = 0.0;
+    for (int c = 0; c < g.dim; ++c) along += n[c] * x[c], all += x[c] * x[c];
+    return w.stiffness[k] * along * along - transverse(k) * (all - along * along);
+  }
+
+  void relax(const std::vector<double> &du, double &affine, double &relaxed) const {
+    const size_t d = static_cast<size_t>(g.dim);
+    std::vector<double> u(g.unknowns(), 0.0), f(d), left(d);
+    for (size_t k = 0; k < g.contacts(); ++k) {
+      force(k, &du[k * d], f.data());
+      for (size_t c = 0; c < d; ++c) {
+        u[static_cast<size_t>(g.a[k]) * d + c] += f[c];
+        u[static_cast<size_t>(g.b[k]) * d + c] -= f[c];
+      }
+    }
+    solver.solve(u.data(), 1);
+    affine = relaxed = 0.0;
+    for (size_t k = 0; k < g.contacts(); ++k) {
+      for (size_t c = 0; c < d; ++c)
+        left[c] = du[k * d + c] - (u[static_cast<size_t>(g.a[k]) * d + c] - u[static_cast<size_t>(g.b[k]) * d + c]);
+      affine += energy(k, &du[k * d]);
+      relaxed += energy(k, left.data());
+    }
+  }
+};
 
 }  // namespace
 
-jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w) {
+// With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round, G = E'' / V. Bulk: K = V d^2 E / dV^2
+// = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
+jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w, const Watch &watch) {
   jam_moduli m{};
   const int d = p.dim;
-  const double volume = std::pow(p.box, d);
+  const size_t width = static_cast<size_t>(d);
+  const double volume = std::pow(p.box, d), directions = d * (d - 1);
   const PinnedSolver solver(g, w);
-  std::vector<double> e(g.contacts());
-  double affine = 0.0, relaxed = 0.0;
-  for (size_t k = 0; k < e.size(); ++k) e[k] = g.distance[k] / d;  // isotropic strain of volume strain 1
-  relax(g, w, solver, e, affine, relaxed);
-  m.bulk_affine = affine / volume;
-  m.bulk = relaxed / volume;
-  const int planes = d * (d - 1) / 2;
+  if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.hessian().norm_bound())
+    fail(JAM_E_STATE, "with this pre-stress the Hessian has negative eigenvalues: the network is unstable and has no moduli");
+  const Strained strained{g, w, solver};
+  std::vector<double> du(g.contacts() * width);
+  double affine = 0.0, relaxed = 0.0, pressure = 0.0;
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    for (size_t c = 0; c < width; ++c) du[k * width + c] = g.distance[k] * g.normal[k * width + c] / d;  // volume strain 1
+    pressure += strained.transverse(k) * g.distance[k] * g.distance[k] / (d * volume);
+  }
+  strained.relax(du, affine, relaxed);
+  m.bulk_affine = affine / volume + pressure * (d - 1) / d;
+  m.bulk = relaxed / volume + pressure * (d - 1) / d;
   m.shear_min = std::numeric_limits<double>::infinity();
+  m.shear_max = -m.shear_min;
   for (int a = 0; a < d; ++a)
-    for (int b = a + 1; b < d; ++b) {
-      for (size_t k = 0; k < e.size(); ++k) e[k] = g.distance[k] * g.normal[k * d + a] * g.normal[k * d + b];
-      relax(g, w, solver, e, affine, relaxed);
-      m.shear_affine += affine / volume / planes;
-      m.shear += relaxed / volume / planes;
-      m.shear_min = std::min(m.shear_min, relaxed / volume);
-      m.shear_max = std::max(m.shear_max, relaxed / volume);
+    for (int b = 0; b < a; ++b) {
+      double plane = 0.0;
+      for (const auto &[x, y] : {std::pair<int, int>(a, b), std::pair<int, int>(b, a)}) {
+        watch();
+        std::fill(du.begin(), du.end(), 0.0);
+        for (size_t k = 0; k < g.contacts(); ++k) du[k * width + x] = g.distance[k] * g.normal[k * width + y];
+        strained.relax(du, affine, relaxed);
+        m.shear_affine += affine / volume / directions;
+        m.shear += relaxed / volume / directions;
+        plane += 0.5 * relaxed / volume;
+      }
+      m.shear_min = std::min(m.shear_min, plane);
+      m.shear_max = std::max(m.shear_max, plane);
     }
   return m;
 }

@@ -9,8 +9,12 @@
 
 namespace jam {
 
-FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g) : g_(g), space_(g) {
-  const StressStates s = find_stress(g, false);
+void FloppyModes::resize(size_t m) {
+  for (auto *x : {&median, &weight, &s_plus, &s_star, &stability}) x->resize(m);
+}
+
+FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch) : g_(g), space_(g, watch) {
+  const StressStates s = find_stress(g, space_, false, watch);
   if (s.dimension != 1 || s.zero_modes != g.dim)
     fail(JAM_E_STATE, "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
          static_cast<long long>(s.dimension), static_cast<long long>(s.zero_modes));
@@ -48,7 +52,7 @@ void FloppySolver::fields(size_t first, int count, std::vector<double> &dr) cons
     for (size_t x = 0; x < n; ++x) dr[q * n + x] += inflation(first + q) * uniform_[x];
 }
 
-void FloppySolver::measure(size_t l, const double *dr, double &median, double &s_plus, double &s_star) const {
+void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   const size_t d = static_cast<size_t>(g_.dim);
   std::vector<double> size(g_.nodes);
   double all = 0.0;
@@ -60,9 +64,10 @@ void FloppySolver::measure(size_t l, const double *dr, double &median, double &s
   }
   const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
   std::nth_element(size.begin(), middle, size.end());
-  median = *middle / std::sqrt(all);
+  out.median[l] = *middle / std::sqrt(all);
+  out.weight[l] = force_[l] / *middle;
   const double gamma = inflation(l);
-  s_plus = std::numeric_limits<double>::infinity();
+  double s_plus = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < i_.size(); ++k) {
     const double *u = dr + static_cast<size_t>(i_[k]) * d, *v = dr + static_cast<size_t>(j_[k]) * d, *n = &normal_[k * d];
     double closing = gamma * sigma_[k];
@@ -80,29 +85,25 @@ void FloppySolver::measure(size_t l, const double *dr, double &median, double &s
     }
     bend += force_[k] * (sum - along * along) / g_.distance[k];
   }
-  s_star = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();
+  out.s_plus[l] = s_plus;
+  out.s_star[l] = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();
+  out.stability[l] = out.s_star[l] / s_plus;
 }
 
-jam_status all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, Monitor &monitor, FloppyModes &out) {
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch) {
   const BlasSingleThread single;
-  const FloppySolver solver(p, network, g);
+  const FloppySolver solver(p, network, g, watch);
   const size_t m = g.contacts(), n = g.unknowns(), block = 64;
-  out.median.resize(m);
-  out.s_plus.resize(m);
-  out.s_star.resize(m);
+  FloppyModes out;
+  out.resize(m);
   std::vector<double> dr;
   for (size_t first = 0; first < m; first += block) {
-    jam_progress report{};
-    report.phase = JAM_PHASE_ANALYSE;
-    report.steps = static_cast<int64_t>(first);
-    report.fraction = static_cast<double>(first) / static_cast<double>(m);
-    if (monitor.report(report)) return JAM_CANCELLED;
+    watch(static_cast<int64_t>(first), static_cast<double>(first) / static_cast<double>(m));
     const int count = static_cast<int>(std::min(block, m - first));
     solver.fields(first, count, dr);
-    for (int q = 0; q < count; ++q)
-      solver.measure(first + q, &dr[q * n], out.median[first + q], out.s_plus[first + q], out.s_star[first + q]);
+    for (int q = 0; q < count; ++q) solver.measure(first + q, &dr[q * n], out);
   }
-  return JAM_OK;
+  return out;
 }
 
 }  // namespace jam

@@ -7,8 +7,11 @@ namespace jam {
 
 struct FloppyModes {
   std::vector<double> median;  // b: median |dr_i| over |dr|
+  std::vector<double> weight;  // W: f over the median |dr_i| of the field for s = 1
   std::vector<double> s_plus;  // opening at which, to first order, the next contact forms
   std::vector<double> s_star;  // opening of least diameter: f / sum_k f_k |dr_perp,k|^2 / r_k
+  std::vector<double> stability;  // s_star / s_plus
+  void resize(size_t m);
 };
 
 // To first order in the opening s of contact l all other contacts stay closed when the diameters change by a common factor
@@ -17,12 +20,12 @@ struct FloppyModes {
 class FloppySolver {
  public:
   // JAM_E_STATE unless there is exactly one state of self-stress and only translations cost nothing.
-  FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g);
+  FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch = Watch());
   // dr (count, nodes, dim) of contacts first .. first + count - 1.
   void fields(size_t first, int count, std::vector<double> &dr) const;
   double inflation(size_t contact) const { return -force_[contact] / force_sigma_; }
-  // b, s_plus, s_star of contact l with field dr.
-  void measure(size_t l, const double *dr, double &median, double &s_plus, double &s_star) const;
+  // Entry l of all figures, from the field dr of contact l.
+  void measure(size_t l, const double *dr, FloppyModes &out) const;
 
  private:
   const StableGraph &g_;
@@ -35,7 +38,7 @@ class FloppySolver {
   std::vector<double> normal_, open_, sigma_;
 };
 
-// All contacts; JAM_OK or JAM_CANCELLED.
-jam_status all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, Monitor &monitor, FloppyModes &out);
+// All contacts, in blocks.
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch = Watch());
 
 }  // namespace jam

@@ -130,23 +130,35 @@ void remove_rattlers(const Packing &p, ContactNetwork &net) {
 
 namespace {
 
+constexpr size_t most_candidates = 12;
+
 struct Jump {
   double ratio, below, above;
 };
 
-// The largest jumps of the sorted gaps, best first. Gaps below the resolution of the coordinates count as that.
-std::vector<Jump> find_jumps(const GapList &g, double resolution, double window) {
+// The largest jumps of the sorted gaps, best first: the best of all, and the best of those that leave at least half of the
+// spheres with enough contacts (ratios are large among the few smallest gaps, too). Gaps below the resolution count as that.
+std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resolution, double window) {
   std::vector<Jump> jumps;
+  const double enough = p.dim * 0.5 * static_cast<double>(p.n());
+  size_t few = 0;
   for (size_t q = 0; q < g.order.size(); ++q) {
     const double below = std::max(std::fabs(g.gap[g.order[q]]), resolution);
     const double above = q + 1 < g.order.size() ? std::max(std::fabs(g.gap[g.order[q + 1]]), resolution) : window;
     if (above > below) jumps.push_back({above / below, below, above});
+    if (static_cast<double>(q + 1) < enough) few = jumps.size();
   }
-  const size_t keep = std::min<size_t>(jumps.size(), 12);
-  std::partial_sort(jumps.begin(), jumps.begin() + static_cast<std::ptrdiff_t>(keep), jumps.end(),
-                    [](const Jump &x, const Jump &y) { return x.ratio > y.ratio; });
-  jumps.resize(keep);
-  return jumps;
+  const auto best = [&](size_t first, size_t last) {
+    const size_t keep = std::min<size_t>(last - first, most_candidates);
+    const auto begin = jumps.begin() + static_cast<std::ptrdiff_t>(first);
+    std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep), jumps.begin() + static_cast<std::ptrdiff_t>(last),
+                      [](const Jump &x, const Jump &y) { return x.ratio > y.ratio; });
+    return std::vector<Jump>(begin, begin + static_cast<std::ptrdiff_t>(keep));
+  };
+  std::vector<Jump> out = best(few, jumps.size()), small = best(0, few);
+  out.insert(out.end(), small.begin(), small.end());
+  std::stable_sort(out.begin(), out.end(), [](const Jump &x, const Jump &y) { return x.ratio > y.ratio; });
+  return out;
 }
 
 bool can_be_rigid(const ContactNetwork &net, int d) {
@@ -155,17 +167,44 @@ bool can_be_rigid(const ContactNetwork &net, int d) {
   return stable > 0 && static_cast<int64_t>(net.size()) >= d * (stable - 1) + 1;
 }
 
+// Gaps carry the rounding of coordinates that are as large as the box.
+double gap_resolution(const Packing &p) {
+  return 8.0 * std::numeric_limits<double>::epsilon() * p.box / *std::min_element(p.diameter.begin(), p.diameter.end());
+}
+void check_window(double window) {
+  if (!(window > 0.0 && window <= 1.0)) fail(JAM_E_ARGUMENT, "window is %g, it must be in (0, 1]", window);
+}
+int64_t excess_of(const ContactNetwork &net, int d) {
+  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  return stable > 0 ? static_cast<int64_t>(net.size()) - (d * (static_cast<int64_t>(stable) - 1) + 1) : 0;
+}
+
 }  // namespace
 
-GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o) {
+ContactCandidates contact_candidates(const Packing &p, double window) {
+  check_window(window);
+  ContactCandidates out;
+  const GapList g = pairs_below(p, window);
+  for (const Jump &jump : find_jumps(p, g, gap_resolution(p), window)) {
+    if (out.limit.size() == most_candidates) break;
+    const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
+    if (!can_be_rigid(net, p.dim)) continue;
+    out.limit.push_back(std::sqrt(jump.below * jump.above));
+    out.jump.push_back(jump.ratio);
+    out.contacts.push_back(static_cast<int32_t>(net.size()));
+    out.excess.push_back(static_cast<int32_t>(excess_of(net, p.dim)));
+  }
+  return out;
+}
+
+GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o, const Watch &watch) {
   if (!(o.tolerance >= 0.0 && o.tolerance < 1.0)) fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in [0, 1)", o.tolerance);
-  if (!(o.window > 0.0 && o.window <= 1.0)) fail(JAM_E_ARGUMENT, "window is %g, it must be in (0, 1]", o.window);
+  check_window(o.window);
   GeometryResult out;
   jam_geometry_report &r = out.report;
   const double window = std::max(o.window, 2.0 * o.tolerance);
   const GapList g = pairs_below(p, window);
-  const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
-  r.resolution = 8.0 * std::numeric_limits<double>::epsilon() * p.box / smallest;
+  r.resolution = gap_resolution(p);
   r.tolerance = o.tolerance;
   r.second_contacts = -1;
   bool clear = true;
@@ -174,7 +213,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   } else {
     bool chosen = false;
     double second = 1.0;
-    for (const Jump &jump : find_jumps(g, r.resolution, window)) {
+    for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
       ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
       if (!can_be_rigid(net, p.dim)) continue;
       if (chosen) {
@@ -207,14 +246,15 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   if (o.tolerance > 0.0) r.jump = r.gap_above / std::max(r.gap_below, r.resolution);
   if (out.network.coordination.empty()) out.network.coordination.assign(p.n(), 0);
   const StableGraph graph = make_graph(p, out.network);
-  StressStates stress = find_stress(graph, false);
+  StressStates stress = find_stress(graph, false, watch);
   out.network.force = stress.force;
   r.contacts = static_cast<int64_t>(out.network.size());
   r.self_stresses = stress.dimension;
   r.zero_modes = stress.zero_modes;
   r.force_residual = stress.residual;
   r.min_force = stress.min_force;
-  r.excess_contacts = graph.nodes > 0 ? r.contacts - (p.dim * (static_cast<int64_t>(graph.nodes) - 1) + 1) : 0;
+  r.excess_contacts = excess_of(out.network, p.dim);
+  r.clusters = count_clusters(graph);
   if (!stress.positive)
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear)

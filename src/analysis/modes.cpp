@@ -10,6 +10,7 @@
 #include <Spectra/SymEigsSolver.h>
 
 #include "analysis/factor.hpp"
+#include "analysis/watch.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "lp/blas.hpp"
@@ -42,22 +43,16 @@ void check_modes_options(const jam_modes_options &o, const StableGraph &g) {
 
 namespace {
 
-struct Stopped {};
-
 // One Lanczos operator: x -> P A' P x with P taking out the translations and the modes already found.
 class Operator {
  public:
   using Scalar = double;
   Operator(const StableGraph &g, std::function<void(const double *, double *)> apply, Monitor &monitor)
-      : g_(g), apply_(std::move(apply)), monitor_(monitor), work_(g.unknowns()) {}
+      : g_(g), apply_(std::move(apply)), watch_(monitor), work_(g.unknowns()) {}
   Eigen::Index rows() const { return static_cast<Eigen::Index>(g_.unknowns()); }
   Eigen::Index cols() const { return rows(); }
   void perform_op(const double *x, double *y) const {
-    jam_progress p{};
-    p.phase = JAM_PHASE_ANALYSE;
-    p.steps = ++count_;
-    p.fraction = std::nan("");
-    if (monitor_.report(p)) throw Stopped();
+    watch_(++count_);
     std::copy(x, x + g_.unknowns(), work_.begin());
     project(work_.data());
     apply_(work_.data(), y);
@@ -77,7 +72,7 @@ class Operator {
   }
   const StableGraph &g_;
   std::function<void(const double *, double *)> apply_;
-  Monitor &monitor_;
+  Watch watch_;
   mutable std::vector<double> work_;
   mutable int64_t count_ = 0;
 };
@@ -176,7 +171,7 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
     jam_progress p{};
     p.phase = JAM_PHASE_ANALYSE;
     p.fraction = fraction;
-    return monitor.report(p, true);
+    return monitor.report(p, fraction == 0.0);
   };
   if (!dense_eigen(n, a, out.lambda, true, stop)) return JAM_CANCELLED;
   out.vector = std::move(a);

@@ -44,69 +44,7 @@ void scale_to_mean(std::vector<double> &f) {
 
 }  // namespace
 
-namespace {
-// Clusters of touching spheres by union-find; the representative is the smallest node.
-std::vector<int32_t> cluster_roots(const StableGraph &g) {
-  std::vector<int32_t> root(g.nodes);
-  for (int32_t i = 0; i < g.nodes; ++i) root[i] = i;
-  auto find = [&](int32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (size_t k = 0; k < g.contacts(); ++k) {
-    const int32_t x = find(g.a[k]), y = find(g.b[k]);
-    root[std::max(x, y)] = std::min(x, y);
-  }
-  for (int32_t i = 0; i < g.nodes; ++i) root[i] = find(i);
-  return root;
-}
-}  // namespace
-
-PinnedSolver::PinnedSolver(const StableGraph &g, const ContactWeights &w) : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
-  const std::vector<int32_t> root = cluster_roots(g);
-  const double bound = h_.norm_bound();
-  const size_t d = static_cast<size_t>(g.dim);
-  for (int32_t i = 0; i < g.nodes; ++i)
-    if (root[i] == i) {
-      ++clusters_;
-      for (size_t c = 0; c < d; ++c) tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += 0.1 * bound;
-    }
-  factor_.factorise_from(1e-13 * bound);
-}
-
-void PinnedSolver::solve(double *x, int count) const {
-  const size_t n = g_.unknowns();
-  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
-  std::vector<double> b(x, x + n * count), r(n * count), y(n);
-  factor_.solve_many(x, count);
-  double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
-  for (int pass = 0; pass < 20; ++pass) {
-    double residual = 0.0;
-    for (int k = 0; k < count; ++k) {
-      h_.multiply(x + k * n, y.data());
-      for (size_t q = 0; q < n; ++q) {
-        r[k * n + q] = b[k * n + q] - y[q];
-        residual = std::max(residual, std::fabs(r[k * n + q]));
-      }
-      remove_translation(g_.dim, g_.nodes, &r[k * n]);
-    }
-    if (residual == 0.0 || !(residual < 0.3 * last)) break;
-    last = residual;
-    factor_.solve_many(r.data(), count);
-    double change = 0.0, size = 0.0;
-    for (size_t q = 0; q < r.size(); ++q) {
-      change = std::max(change, std::fabs(r[q]));
-      size = std::max(size, std::fabs(x[q] += r[q]));
-    }
-    // Changes fall by a constant ratio: the next one would be change * ratio.
-    const double ratio = change / (pass == 0 ? size : last_change);
-    last_change = change;
-    if (!(change * ratio > 1e-14 * size)) break;
-  }
-  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
-}
-
-NullSpace::NullSpace(const StableGraph &g) : g_(g), solver_(g, unit_weights(g)) {}
+NullSpace::NullSpace(const StableGraph &g, const Watch &watch) : g_(g), watch_(watch), solver_(g, unit_weights(g)) {}
 
 int NullSpace::project(std::vector<double> &f, int refinements) const {
   std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
@@ -121,6 +59,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
     }
     last = residual;
     best = f;
+    watch_();
     solver_.apply(y.data(), 1);
     stretch(g_, y.data(), s.data());
     for (size_t k = 0; k < f.size(); ++k) f[k] -= s[k];
@@ -144,6 +83,7 @@ int64_t NullSpace::zero_modes() const {
     std::vector<double> x(n * block);
     for (double &v : x) v = rng.normal();
     for (int pass = 0; pass < 4; ++pass) {
+      watch_();
       solver_.apply(x.data(), block);
       for (double &v : x) v *= solver_.shift();
     }
@@ -167,7 +107,7 @@ int64_t NullSpace::dimension() const {
 // Minimises phi(u) = 1/2 sum max(0, 1 - (S u)_k)^2, which is convex; at its minimum f = max(0, 1 - S u) balances and is the
 // point of the cone {f >= 0, S^T f = 0} nearest to (1, 1, ...), which is its direction of least norm at a given mean
 // (Moreau's decomposition; semismooth Newton with a line search).
-bool least_force(const StableGraph &g, std::vector<double> &f) {
+bool least_force(const StableGraph &g, std::vector<double> &f, const Watch &watch) {
   const size_t m = g.contacts(), n = g.unknowns();
   std::vector<double> u(n, 0.0), su(m, 0.0), gradient(n), step(n), sstep(m);
   ContactWeights w = unit_weights(g);
@@ -184,6 +124,7 @@ bool least_force(const StableGraph &g, std::vector<double> &f) {
     return sum;
   };
   for (int pass = 0; pass < 100; ++pass) {
+    watch();
     for (size_t k = 0; k < m; ++k) {
       f[k] = std::max(0.0, 1.0 - su[k]);
       w.stiffness[k] = f[k] > 0.0 ? 1.0 : 0.0;
@@ -212,12 +153,14 @@ bool least_force(const StableGraph &g, std::vector<double> &f) {
   return true;
 }
 
-StressStates find_stress(const StableGraph &g, bool with_basis, int refinements) {
+StressStates find_stress(const StableGraph &g, bool with_basis, const Watch &watch) {
   const BlasSingleThread single;
+  return g.contacts() == 0 ? StressStates() : find_stress(g, NullSpace(g, watch), with_basis, watch);
+}
+
+StressStates find_stress(const StableGraph &g, const NullSpace &space, bool with_basis, const Watch &watch) {
   StressStates out;
   const size_t m = g.contacts();
-  if (m == 0) return out;
-  const NullSpace space(g);
   const auto fresh = [&](uint64_t stream) {
     std::vector<double> w(m);
     Rng rng(3, Stream::analysis_start, stream << 32);
@@ -226,14 +169,14 @@ StressStates find_stress(const StableGraph &g, bool with_basis, int refinements)
   };
   std::vector<std::vector<double>> q;
   out.force.assign(m, 1.0);
-  space.project(out.force, refinements);
+  space.project(out.force);
   // Fast way out, true for almost every packing: as many contacts as one state of self-stress has, and a random vector
   // projects on the same line as (1, 1, ...).
   const auto one = static_cast<int64_t>(g.unknowns()) - g.dim + 1;
   if (static_cast<int64_t>(m) == one && norm(out.force) > 1e-6 * std::sqrt(static_cast<double>(m))) {
     std::vector<double> second = fresh(1), line = out.force;
     const double length = norm(second);
-    space.project(second, refinements < 0 ? -1 : refinements);
+    space.project(second);
     const double scale = norm(line);
     for (double &v : line) v /= scale;
     q.push_back(line);
@@ -255,7 +198,7 @@ StressStates find_stress(const StableGraph &g, bool with_basis, int refinements)
     return out;
   }
   if (out.dimension > 1) {
-    out.positive = least_force(g, out.force);
+    out.positive = least_force(g, out.force, watch);
     if (out.positive) space.project(out.force, 1);
   } else if (norm(out.force) <= 1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
     out.force = fresh(2);

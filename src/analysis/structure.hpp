@@ -1,6 +1,7 @@
 // Structure of a packing: gaps, classes of contacts, vectors of a sphere's contacts, correlations, bond order.
 #pragma once
 #include <vector>
+#include "analysis/watch.hpp"
 #include "core/contacts.hpp"
 #include "core/packing.hpp"
 
@@ -34,13 +35,19 @@ struct ContactDots {
 };
 ContactDots contact_dots(const Packing &p, const ContactNetwork &network, bool weighted);
 
+// Values of a jam_quantity that belong to a jam_class; JAM_E_ARGUMENT when there is no such thing.
+std::vector<double> class_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
+// Their density in equal bins of [low, high): its integral is the share of values there.
+std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins);
+
 // g_ab(r) in `bins` bins up to r_max mean diameters. kind: one label a sphere or empty; a, b < 0: any.
 std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max, size_t bins);
 
 struct StructureFactor {
   std::vector<double> q, s;  // one value for each length of an allowed wave vector 2 pi n / L, ascending
 };
-StructureFactor structure_factor(const Packing &p, double q_max);
+// lengths_only: q is right, s is not.
+StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch = Watch(), bool lengths_only = false);
 
 // Q_l of every sphere from all neighbours with |r| < cutoff sigma_ij.
 std::vector<double> bond_order(const Packing &p, int l, double cutoff);

@@ -4,12 +4,24 @@
 #include <limits>
 #include "analysis/graph.hpp"
 #include "analysis/hessian.hpp"
+#include "analysis/watch.hpp"
 #include "capi/guard.hpp"
 
 namespace jam {
 
 inline void need_network(const jam_system *sys) {
   if (!sys->has_report) fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+}
+// A verb whose work is left by Stopped when the monitor says so; nothing has been written then.
+template <class F>
+jam_status guard_watched(jam_system *sys, F &&f) noexcept {
+  return guard_verb(sys, [&]() -> jam_status {
+    try {
+      return f(Watch(sys->monitor));
+    } catch (const Stopped &) {
+      return JAM_CANCELLED;
+    }
+  });
 }
 inline bool empty_network(const jam_system *sys) { return sys->contacts.size() == 0; }
 

@@ -10,11 +10,11 @@ extern "C" {
 jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) { return init_options(o, size, default_geometry_options()); }
 
 jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     check_out_struct(report, "report");
     jam_geometry_options full = default_geometry_options();
     take_options(o, full);
-    GeometryResult result = contacts_from_geometry(sys->packing, full);
+    GeometryResult result = contacts_from_geometry(sys->packing, full, watch);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     jam_report r{};
     certify(sys->packing, result.network, r);
@@ -30,15 +30,34 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
   });
 }
 
+jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len, double *jump, size_t jump_len,
+                                  int32_t *contacts, size_t contacts_len, int32_t *excess, size_t excess_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!needed && !limit && !jump && !contacts && !excess) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    const ContactCandidates c = contact_candidates(sys->packing, window);
+    const size_t m = c.limit.size();
+    if (needed) *needed = m;
+    check_output(limit, limit_len, m, "limit");
+    check_output(jump, jump_len, m, "jump");
+    check_output(contacts, contacts_len, m, "contacts");
+    check_output(excess, excess_len, m, "excess");
+    put_output(c.limit, limit, m);
+    put_output(c.jump, jump, m);
+    put_output(c.contacts, contacts, m);
+    put_output(c.excess, excess, m);
+    return JAM_OK;
+  });
+}
+
 jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len, double *residual,
                              size_t *needed) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     need_network(sys);
     const StableGraph g = make_graph(sys->packing, sys->contacts);
     check_output(force, force_len, g.contacts(), "force");
     if (!basis && basis_len != 0) fail(JAM_E_NULL, "basis is NULL but its length is %zu", basis_len);
     if (!needed && !force && !basis && !residual) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    const StressStates s = find_stress(g, basis != nullptr);
+    const StressStates s = find_stress(g, basis != nullptr, watch);
     if (needed) *needed = static_cast<size_t>(s.dimension);
     check_output(basis, basis_len, s.basis.size(), "basis");
     put_output(s.force, force, s.force.size());

@@ -1,8 +1,49 @@
 // Header section "analysis": density of states, moduli, projections, comparing packings.
+#include <algorithm>
 #include "analysis/spectrum.hpp"
 #include "capi/analysis.hpp"
 
 using namespace jam;
+
+namespace {
+
+struct SpectralArrays {
+  double *omega;
+  size_t omega_len;
+  double *value;
+  size_t value_len;
+  double *error;
+  size_t error_len;
+};
+
+// Density of states or its integral: omega stands in the middle or at the upper end of a bin.
+jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, const SpectralArrays &out, bool cumulative,
+                         size_t *needed) {
+  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
+    const jam_hessian_options options = take_hessian_options(h);
+    jam_dos_options full = default_dos_options();
+    take_options(o, full);
+    need_network(sys);
+    if (empty_network(sys)) return JAM_NOT_JAMMED;
+    const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
+    if (!needed && !out.omega && !out.value && !out.error) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (needed) *needed = points;
+    check_output(out.omega, out.omega_len, points, "omega");
+    check_output(out.value, out.value_len, points, cumulative ? "cumulative" : "density");
+    check_output(out.error, out.error_len, points, "error");
+    if (!out.omega && !out.value && !out.error) return JAM_OK;
+    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    DensityOfStates dos = density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full, watch);
+    if (cumulative)
+      for (double &x : dos.omega) x += 0.5 * dos.step;
+    put_output(dos.omega, out.omega, points);
+    put_output(cumulative ? dos.cumulative : dos.density, out.value, points);
+    put_output(cumulative ? dos.cumulative_error : dos.density_error, out.error, points);
+    return JAM_OK;
+  });
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -10,30 +51,12 @@ jam_status jam_dos_options_init(jam_dos_options *o, size_t size) { return init_o
 
 jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega, size_t omega_len,
                                  double *density, size_t density_len, double *error, size_t error_len, size_t *needed) {
-  return guard_verb(sys, [&]() -> jam_status {
-    const jam_hessian_options options = take_hessian_options(h);
-    if (options.prestress > 0.0) fail(JAM_E_ARGUMENT, "prestress is %g; the density of states needs 0", options.prestress);
-    jam_dos_options full = default_dos_options();
-    take_options(o, full);
-    need_network(sys);
-    if (empty_network(sys)) return JAM_NOT_JAMMED;
-    const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
-    if (!needed && !omega && !density && !error) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    if (needed) *needed = points;
-    check_output(omega, omega_len, points, "omega");
-    check_output(density, density_len, points, "density");
-    check_output(error, error_len, points, "error");
-    if (!omega && !density && !error) return JAM_OK;
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
-    DensityOfStates dos;
-    const BlockMatrix m = make_hessian(g, contact_weights(g, diameter_mean(sys->packing), options));
-    const jam_status status = density_of_states(g, m, full, sys->monitor, dos);
-    if (status == JAM_CANCELLED) return status;
-    put_output(dos.omega, omega, points);
-    put_output(dos.density, density, points);
-    put_output(dos.error, error, points);
-    return status;
-  });
+  return spectral_call(sys, h, o, {omega, omega_len, density, density_len, error, error_len}, false, needed);
+}
+
+jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega, size_t omega_len,
+                                   double *cumulative, size_t cumulative_len, double *error, size_t error_len, size_t *needed) {
+  return spectral_call(sys, h, o, {omega, omega_len, cumulative, cumulative_len, error, error_len}, true, needed);
 }
 
 jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len, double *value) {
@@ -49,16 +72,31 @@ jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, co
   });
 }
 
+jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u, size_t u_len, double *out,
+                       size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    check_array_in(vector, vector_len, "vector");
+    check_array_in(u, u_len, "u");
+    need_network(sys);
+    const size_t n = make_graph(sys->packing, sys->contacts).unknowns();
+    if (u_len != n) fail(JAM_E_ARGUMENT, "u_len is %zu, it must be d N' = %zu", u_len, n);
+    if (vector_len % std::max<size_t>(n, 1) != 0) fail(JAM_E_ARGUMENT, "vector_len is %zu, no multiple of d N' = %zu", vector_len, n);
+    std::vector<double> c(n ? vector_len / n : 0, 0.0);
+    for (size_t m = 0; m < c.size(); ++m)
+      for (size_t k = 0; k < n; ++k) c[m] += vector[m * n + k] * u[k];
+    return give_array(c.data(), c.size(), out, out_len, needed);
+  });
+}
+
 jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
-    if (options.prestress > 0.0) fail(JAM_E_ARGUMENT, "prestress is %g; the moduli need 0", options.prestress);
     need(moduli, "moduli");
     check_out_struct(moduli, "moduli");
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const StableGraph g = make_graph(sys->packing, sys->contacts);
-    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options)), moduli);
+    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), watch), moduli);
     return JAM_OK;
   });
 }

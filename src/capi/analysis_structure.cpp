@@ -58,6 +58,25 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
   });
 }
 
+jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    need_network(sys);
+    const std::vector<double> v = class_values(sys->packing, sys->contacts, quantity, which);
+    return give_array(v.data(), v.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins, double *out,
+                         size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+    need_network(sys);
+    const std::vector<double> density =
+        histogram(class_values(sys->packing, sys->contacts, quantity, which), low, high, static_cast<size_t>(bins));
+    return give_array(density.data(), density.size(), out, out_len, needed);
+  });
+}
+
 jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max,
                                 int64_t bins, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
@@ -69,10 +88,10 @@ jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size
   });
 }
 
-jam_status jam_structure_factor(const jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
+jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len, size_t *needed) {
+  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     if (!needed && !q && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    const StructureFactor f = structure_factor(sys->packing, q_max);
+    const StructureFactor f = structure_factor(sys->packing, q_max, watch, !q && !s);
     if (needed) *needed = f.q.size();
     check_output(q, q_len, f.q.size(), "q");
     check_output(s, s_len, f.s.size(), "s");

@@ -30,6 +30,8 @@ void fcc(void **) {
   assert_int_equal(r.status, JAM_AMBIGUOUS);  // hyperstatic: more than one state of self-stress
   assert_int_equal(r.report.contacts, 6 * 108);
   assert_int_equal(r.report.excess_contacts, 6 * 108 - (3 * 107 + 1));
+  assert_int_equal(r.report.clusters, 1);
+  assert_int_equal(contact_candidates(p, 0.1).limit.size(), 1);  // a clear case has one
   // rank from the dense spectrum
   const StableGraph g = make_graph(p, r.network);
   Monitor monitor;
@@ -130,6 +132,7 @@ void two_clusters(void **) {
   p.diameter.assign(36, 1.0);
   const GeometryResult r = look(p, 1e-9);
   assert_int_equal(r.report.contacts, 2 * (18 + 24));
+  assert_int_equal(r.report.clusters, 2);
   assert_int_equal(r.report.zero_modes, 4);  // each strip has its two translations
   assert_int_equal(r.status, JAM_AMBIGUOUS);
   const StableGraph g = make_graph(p, r.network);
@@ -147,6 +150,16 @@ void no_clear_jump(void **) {
   const GeometryResult r = look(p);
   assert_true(r.status == JAM_AMBIGUOUS || r.status == JAM_NOT_JAMMED);
   assert_true(r.report.jump < 1e3);
+  const ContactCandidates c = contact_candidates(p, 0.1);
+  assert_true(c.limit.size() >= 2 && c.limit.size() <= 12);  // choose one of them
+  assert_true(c.limit[0] == r.report.tolerance && c.jump[0] == r.report.jump);
+  assert_int_equal(c.contacts[0], r.report.contacts);
+  assert_int_equal(c.excess[0], r.report.excess_contacts);
+  assert_true(c.limit[1] == r.report.second_tolerance && c.jump[1] <= c.jump[0]);
+  for (size_t k = 0; k < c.limit.size(); ++k) {  // each is what the tolerance gives
+    assert_int_equal(look(p, c.limit[k]).report.contacts, c.contacts[k]);
+    assert_true(c.excess[k] >= 0);
+  }
 }
 
 void pulling_is_no_force(void **) {

@@ -5,6 +5,7 @@
 #include "analysis_networks.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
+#include "jam/jam.h"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
 #include <stdarg.h>
@@ -123,6 +124,36 @@ void classes(void **) {
   assert_int_equal(f[3], 0);
 }
 
+void values_by_class(void **) {
+  // The same small network: spheres 0, 2 and 3 are bucklers or less, so every number can be counted by hand.
+  Case c;
+  c.packing.dim = 2;
+  c.packing.diameter.assign(6, 1.0);
+  c.packing.position = {0, 0, 1, 0, -0.5, 0.8, -0.5, -0.8, 2.0, 0.0, 3.0, 0.0};
+  add_contact(c, 0, 1, {0, 0}, 3.0);
+  add_contact(c, 0, 2, {0, 0}, 1.0);
+  add_contact(c, 0, 3, {0, 0}, 2.0);
+  add_contact(c, 1, 4, {0, 0}, 6.0);
+  const auto get = [&](int32_t quantity, int32_t which) { return class_values(c.packing, c.network, quantity, which); };
+  const std::vector<double> local = get(JAM_QUANTITY_FORCE, JAM_CLASS_LOCALISED), extended = get(JAM_QUANTITY_FORCE, JAM_CLASS_EXTENDED);
+  assert_int_equal(local.size(), 3);
+  assert_true(local[0] == 1.5 && local[1] == 0.5 && local[2] == 1.0);  // over their mean 2
+  assert_int_equal(extended.size(), 1);
+  assert_true(extended[0] == 1.0);
+  assert_int_equal(get(JAM_QUANTITY_FORCE, JAM_CLASS_SMALLEST).size(), 4);
+  assert_int_equal(get(JAM_QUANTITY_COORDINATION, JAM_CLASS_ALL).size(), 5);  // sphere 5 touches nothing
+  assert_true(get(JAM_QUANTITY_COORDINATION, JAM_CLASS_LOCALISED) == std::vector<double>{3.0});
+  assert_true(get(JAM_QUANTITY_FORCE_SUM, JAM_CLASS_ALL) == (std::vector<double>{6.0, 9.0, 1.0, 2.0, 6.0}));
+  assert_int_equal(get(JAM_QUANTITY_VECTOR_DOT, JAM_CLASS_LOCALISED).size(), 3);
+  assert_int_equal(get(JAM_QUANTITY_VECTOR_DOT, JAM_CLASS_EXTENDED).size(), 1);
+  assert_true(std::fabs(get(JAM_QUANTITY_FORCE_DOT, JAM_CLASS_EXTENDED)[0] + 18.0) < 1e-12);  // straight through sphere 1
+  assert_true(std::fabs(get(JAM_QUANTITY_VECTOR_PAIRS, JAM_CLASS_EXTENDED)[0] + 1.0) < 1e-12);
+  assert_true(std::fabs(get(JAM_QUANTITY_VECTOR_SUM, JAM_CLASS_EXTENDED)[0]) < 1e-12);
+  const std::vector<double> h = histogram({0.1, 0.1, 0.6, 5.0, -1.0}, 0.0, 1.0, 4);
+  assert_true(std::fabs(h[0] - 0.4 / 0.25) < 1e-12 && h[1] == 0.0 && std::fabs(h[2] - 0.2 / 0.25) < 1e-12 && h[3] == 0.0);
+  assert_true(histogram({}, 0.0, 1.0, 2) == (std::vector<double>{0.0, 0.0}));
+}
+
 void correlation_adds_up(void **) {
   const Packing p = fluid(3, 500, 0.2);
   std::vector<int32_t> kind(500);
@@ -166,6 +197,6 @@ void structure_factor_direct(void **) {
 int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(fcc_structure), cmocka_unit_test(triangular_bond_order), cmocka_unit_test(local_fraction_of_fcc),
                                      cmocka_unit_test(sum_rule),      cmocka_unit_test(gaps_by_brute_force),   cmocka_unit_test(classes),
-                                     cmocka_unit_test(correlation_adds_up), cmocka_unit_test(structure_factor_direct)};
+                                     cmocka_unit_test(values_by_class), cmocka_unit_test(correlation_adds_up), cmocka_unit_test(structure_factor_direct)};
   return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
 }

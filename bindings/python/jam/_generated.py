@@ -162,6 +162,27 @@ class ContactClass(IntEnum):
     MEDIAN = 4  # has the (lower) median force of one of its spheres
 
 
+class Quantity(IntEnum):
+    """What jam_class_values and jam_histogram look at. @since 0.1"""
+    FORCE = 0  # contacts: f over its mean in the class
+    VECTOR_SUM = 1  # stable spheres: |C_i|
+    VECTOR_PAIRS = 2  # stable spheres: S_i
+    VECTOR_DOT = 3  # pairs of contacts of a sphere: n_ij . n_ik
+    FORCE_SUM = 4  # stable spheres: sum_j f_ij
+    FORCE_PAIRS = 5  # stable spheres: S_i with f n for n
+    FORCE_DOT = 6  # pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik
+    COORDINATION = 7  # stable spheres: z_i
+
+
+class Class(IntEnum):
+    """Which of them. @since 0.1"""
+    ALL = 0
+    LOCALISED = 1  # contacts that touch a buckler; spheres and their pairs: the bucklers
+    EXTENDED = 2  # contacts that do not; spheres and their pairs: all other stable ones
+    SMALLEST = 3  # forces only: the smallest of one of its spheres
+    MEDIAN = 4  # forces only: the (lower) median of one of its spheres
+
+
 @dataclass(frozen=True, repr=False)
 class Info:
     """What the system is now. @since 0.1
@@ -341,7 +362,8 @@ class GeometryReport:
     self_stresses: dimension of the null space of S^T; a lower bound when zero_modes is cut off
     zero_modes: of S^T S, translations among them; no more than 256 others are counted
     force_residual: largest |sum_j f_ij n_ij| over mean force
-    min_force: over the mean"""
+    min_force: over the mean
+    clusters: connected sets of stable spheres; with more than one, each has its own states"""
     self_contacts: int
     tolerance: float
     gap_below: float
@@ -358,6 +380,7 @@ class GeometryReport:
     zero_modes: int
     force_residual: float
     min_force: float
+    clusters: int
 
 
 @dataclass(frozen=True, repr=False)
@@ -367,10 +390,10 @@ class Moduli:
     reserved: 0
     bulk: K
     bulk_affine: K without the non-affine part
-    shear: G, mean over the d (d-1) / 2 coordinate planes
+    shear: G for simple shear, mean over the d (d-1) coordinate directions
     shear_affine: G without the non-affine part
-    shear_min: smallest of the planes
-    shear_max: largest of the planes"""
+    shear_min: smallest of the planes, both directions averaged
+    shear_max: largest of them"""
     reserved: int
     bulk: float
     bulk_affine: float
@@ -517,19 +540,24 @@ CALLS = {
     "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
+    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("limit", "array_out", "double"), ("limit_len", "len", "size_t"), ("jump", "array_out", "double"), ("jump_len", "len", "size_t"), ("contacts", "array_out", "int32_t"), ("contacts_len", "len", "size_t"), ("excess", "array_out", "int32_t"), ("excess_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_class_values": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_histogram": (True, (("quantity", "scalar", "int32_t"), ("which", "scalar", "int32_t"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pair_correlation": (True, (("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("a", "scalar", "int32_t"), ("b", "scalar", "int32_t"), ("r_max", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
     "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_floppy_mode": (True, (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_floppy_modes": (True, (("median", "array_out", "double"), ("median_len", "len", "size_t"), ("s_plus", "array_out", "double"), ("s_plus_len", "len", "size_t"), ("s_star", "array_out", "double"), ("s_star_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_modes": (True, (("median", "array_out", "double"), ("median_len", "len", "size_t"), ("weight", "array_out", "double"), ("weight_len", "len", "size_t"), ("s_plus", "array_out", "double"), ("s_plus_len", "len", "size_t"), ("s_star", "array_out", "double"), ("s_star_len", "len", "size_t"), ("stability", "array_out", "double"), ("stability_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("omega", "array_out", "double"), ("omega_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_cumulative_spectrum": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("omega", "array_out", "double"), ("omega_len", "len", "size_t"), ("cumulative", "array_out", "double"), ("cumulative_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
     "jam_moduli_get": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli"))),
     "jam_compare": (True, (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

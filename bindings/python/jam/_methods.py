@@ -73,6 +73,13 @@ class Methods:
         window: jumps are looked for in |h| < window, in (0, 1], default 0.1"""
         return self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
 
+    def contact_candidates(self, window: float) -> ContactCandidatesResult:
+        """Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
+        enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
+        gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
+        Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        return self.call('contact_candidates', window)
+
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
         """States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
         from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
@@ -100,15 +107,26 @@ class Methods:
         pairs. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_dots', weighted)
 
+    def class_values(self, quantity: int | str, which: int) -> np.ndarray:
+        """Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
+        jam_contacts, JAM_E_ARGUMENT. @since 0.1"""
+        return self.call('class_values', quantity, which)
+
+    def histogram(self, quantity: int, which: int, low: float, high: float, bins: int) -> np.ndarray:
+        """Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
+        jam_class_values. @since 0.1"""
+        return self.call('histogram', quantity, which, low, high, bins)
+
     def pair_correlation(self, kind: Any, a: int, b: int, r_max: float, bins: int) -> np.ndarray:
         """g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
         diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"""
         return self.call('pair_correlation', kind, a, b, r_max, bins)
 
-    def structure_factor(self, q_max: float) -> StructureFactorResult:
+    def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
         """S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
-        No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
-        return self.call('structure_factor', q_max)
+        No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
+        Threads: alone. @since 0.1"""
+        return self.call('structure_factor', q_max, progress=progress)
 
     def bond_order(self, l: int, cutoff: float) -> np.ndarray:
         """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
@@ -132,16 +150,18 @@ class Methods:
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-        s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
-        the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+        """The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+        weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
+        next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
+        stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
         Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
         return self.call('floppy_modes', progress=progress)
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
         """Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
         omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-        and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+        and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
+        well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
         JAM_E_TOO_FEW. Threads: alone. @since 0.1
 
         Options:
@@ -154,6 +174,25 @@ class Methods:
         seed: of the random vectors, default 1"""
         return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
+    def cumulative_spectrum(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> CumulativeSpectrumResult:
+        """Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
+        jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+
+        Options:
+        stiffness: jam_stiffness, default HARMONIC
+        alpha: POWER: > 1, default 2
+        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+        moments: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
+        vectors: random vectors, 2..1e5, default 16
+        points: values of omega, default 200
+        seed: of the random vectors, default 1"""
+        return self.call('cumulative_spectrum', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
+
+    def project(self, vector: Any = None, u: Any = None) -> np.ndarray:
+        """Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
+        modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
+        return self.call('project', vector, u)
+
     def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
         """value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
 
@@ -164,7 +203,8 @@ class Methods:
         return self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
 
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
-        """Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1
+        """Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
+        unstable. Threads: alone. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
@@ -177,6 +217,15 @@ class Methods:
         nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
         Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
         return self.call('compare', other)
+
+
+class ContactCandidatesResult(NamedTuple):
+    """What contact_candidates returns."""
+
+    limit: np.ndarray
+    jump: np.ndarray
+    contacts: np.ndarray
+    excess: np.ndarray
 
 
 class StressStatesResult(NamedTuple):
@@ -219,8 +268,10 @@ class FloppyModesResult(NamedTuple):
     """What floppy_modes returns."""
 
     median: np.ndarray
+    weight: np.ndarray
     s_plus: np.ndarray
     s_star: np.ndarray
+    stability: np.ndarray
 
 
 class DensityOfStatesResult(NamedTuple):
@@ -228,6 +279,14 @@ class DensityOfStatesResult(NamedTuple):
 
     omega: np.ndarray
     density: np.ndarray
+    error: np.ndarray
+
+
+class CumulativeSpectrumResult(NamedTuple):
+    """What cumulative_spectrum returns."""
+
+    omega: np.ndarray
+    cumulative: np.ndarray
     error: np.ndarray
 
 

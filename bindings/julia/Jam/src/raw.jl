@@ -133,6 +133,23 @@ const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere wit
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
 const JAM_CONTACT_MEDIAN = Int32(4)  # has the (lower) median force of one of its spheres
 
+# jam_quantity: What jam_class_values and jam_histogram look at. @since 0.1
+const JAM_QUANTITY_FORCE = Int32(0)  # contacts: f over its mean in the class
+const JAM_QUANTITY_VECTOR_SUM = Int32(1)  # stable spheres: |C_i|
+const JAM_QUANTITY_VECTOR_PAIRS = Int32(2)  # stable spheres: S_i
+const JAM_QUANTITY_VECTOR_DOT = Int32(3)  # pairs of contacts of a sphere: n_ij . n_ik
+const JAM_QUANTITY_FORCE_SUM = Int32(4)  # stable spheres: sum_j f_ij
+const JAM_QUANTITY_FORCE_PAIRS = Int32(5)  # stable spheres: S_i with f n for n
+const JAM_QUANTITY_FORCE_DOT = Int32(6)  # pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik
+const JAM_QUANTITY_COORDINATION = Int32(7)  # stable spheres: z_i
+
+# jam_class: Which of them. @since 0.1
+const JAM_CLASS_ALL = Int32(0)
+const JAM_CLASS_LOCALISED = Int32(1)  # contacts that touch a buckler; spheres and their pairs: the bucklers
+const JAM_CLASS_EXTENDED = Int32(2)  # contacts that do not; spheres and their pairs: all other stable ones
+const JAM_CLASS_SMALLEST = Int32(3)  # forces only: the smallest of one of its spheres
+const JAM_CLASS_MEDIAN = Int32(4)  # forces only: the (lower) median of one of its spheres
+
 """
 Options of jam_create and jam_read. @since 0.1
 """
@@ -356,7 +373,8 @@ mutable struct jam_geometry_report
     zero_modes::Int64  # of S^T S, translations among them; no more than 256 others are counted
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over mean force
     min_force::Cdouble  # over the mean
-    jam_geometry_report() = new(128, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    clusters::Int64  # connected sets of stable spheres; with more than one, each has its own states
+    jam_geometry_report() = new(136, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -379,10 +397,10 @@ mutable struct jam_moduli
     reserved::Int32  # 0
     bulk::Cdouble  # K
     bulk_affine::Cdouble  # K without the non-affine part
-    shear::Cdouble  # G, mean over the d (d-1) / 2 coordinate planes
+    shear::Cdouble  # G for simple shear, mean over the d (d-1) coordinate directions
     shear_affine::Cdouble  # G without the non-affine part
-    shear_min::Cdouble  # smallest of the planes
-    shear_max::Cdouble  # largest of the planes
+    shear_min::Cdouble  # smallest of the planes, both directions averaged
+    shear_max::Cdouble  # largest of them
     jam_moduli() = new(56, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -810,6 +828,16 @@ function jam_contacts_from_geometry(sys, o, report)
 end
 
 """
+Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
+enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
+gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
+Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+"""
+function jam_contact_candidates(sys, window, limit, limit_len, jump, jump_len, contacts, contacts_len, excess, excess_len, needed)
+    return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, window, _ptr(limit), limit_len, _ptr(jump), jump_len, _ptr(contacts), contacts_len, _ptr(excess), excess_len, _ref(Csize_t, needed))
+end
+
+"""
 States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
 from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
 Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
@@ -852,6 +880,22 @@ function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, neede
 end
 
 """
+Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
+jam_contacts, JAM_E_ARGUMENT. @since 0.1
+"""
+function jam_class_values(sys, quantity, which, out, out_len, needed)
+    return ccall((:jam_class_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
+jam_class_values. @since 0.1
+"""
+function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed)
+    return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
 g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
 diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1
 """
@@ -861,7 +905,8 @@ end
 
 """
 S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
-No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
+Threads: alone. @since 0.1
 """
 function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed)
     return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(q), q_len, _ptr(s), s_len, _ref(Csize_t, needed))
@@ -901,13 +946,14 @@ function jam_floppy_mode(sys, contact, out, out_len, needed)
 end
 
 """
-The same field for every contact, measured: median (n_c) = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-s_plus (n_c) = opening at which to first order the next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k,
-the opening of least diameter to second order; the stability index is s_star / s_plus. Arrays may be NULL with length 0.
+The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
+weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
+next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
+stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
 Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
 """
-function jam_floppy_modes(sys, median, median_len, s_plus, s_plus_len, s_star, s_star_len, needed)
-    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(median), median_len, _ptr(s_plus), s_plus_len, _ptr(s_star), s_star_len, _ref(Csize_t, needed))
+function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, s_star_len, stability, stability_len, needed)
+    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(median), median_len, _ptr(weight), weight_len, _ptr(s_plus), s_plus_len, _ptr(s_star), s_star_len, _ptr(stability), stability_len, _ref(Csize_t, needed))
 end
 
 """
@@ -920,11 +966,28 @@ end
 """
 Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
 omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-and may be NULL. prestress must be 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
+well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
 JAM_E_TOO_FEW. Threads: alone. @since 0.1
 """
 function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed)
     return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
+end
+
+"""
+Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
+jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+"""
+function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, needed)
+    return ccall((:jam_cumulative_spectrum, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(cumulative), cumulative_len, _ptr(error), error_len, _ref(Csize_t, needed))
+end
+
+"""
+Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
+modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+"""
+function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
+    return ccall((:jam_project, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -935,7 +998,8 @@ function jam_curvature(sys, h, u, u_len, value)
 end
 
 """
-Elastic moduli; prestress must be 0. Status: JAM_OK, JAM_NOT_JAMMED. Errors: as jam_modes. Threads: alone. @since 0.1
+Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
+unstable. Threads: alone. @since 0.1
 """
 function jam_moduli_get(sys, h, moduli)
     return ccall((:jam_moduli_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli, moduli))

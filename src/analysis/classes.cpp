@@ -1,0 +1,90 @@
+// Distributions by class: which values of a quantity belong to localised and which to extended contacts, and their histograms.
+#include <algorithm>
+#include <cmath>
+#include "analysis/structure.hpp"
+#include "core/error.hpp"
+#include "jam/jam.h"
+
+namespace jam {
+namespace {
+
+// Forces of a class over their mean.
+std::vector<double> class_forces(const Packing &p, const ContactNetwork &net, int32_t which) {
+  if (net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
+  const std::vector<int32_t> flags = classify_contacts(p, net);
+  std::vector<double> out;
+  for (size_t k = 0; k < net.size(); ++k) {
+    const bool in = which == JAM_CLASS_ALL || (which == JAM_CLASS_LOCALISED && (flags[k] & JAM_CONTACT_LOCALISED)) ||
+                    (which == JAM_CLASS_EXTENDED && !(flags[k] & JAM_CONTACT_LOCALISED)) ||
+                    (which == JAM_CLASS_SMALLEST && (flags[k] & JAM_CONTACT_SMALLEST)) ||
+                    (which == JAM_CLASS_MEDIAN && (flags[k] & JAM_CONTACT_MEDIAN));
+    if (in) out.push_back(net.force[k]);
+  }
+  double mean = 0.0;
+  for (double f : out) mean += f / static_cast<double>(out.size());
+  if (mean > 0.0)
+    for (double &f : out) f /= mean;
+  return out;
+}
+
+// One value of every sphere.
+std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, int32_t quantity) {
+  const bool weighted = quantity == JAM_QUANTITY_FORCE_PAIRS;
+  std::vector<double> out(p.n(), 0.0);
+  if (quantity == JAM_QUANTITY_COORDINATION) {
+    std::copy(net.coordination.begin(), net.coordination.end(), out.begin());
+  } else if (quantity == JAM_QUANTITY_FORCE_SUM) {
+    if (net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
+    for (size_t k = 0; k < net.size(); ++k) {
+      out[net.pairs.i[k]] += net.force[k];
+      out[net.pairs.j[k]] += net.force[k];
+    }
+  } else {
+    const SphereStructure t = sphere_structure(p, net, weighted);
+    if (quantity != JAM_QUANTITY_VECTOR_SUM) return t.s;
+    for (size_t i = 0; i < out.size(); ++i) {
+      double c2 = 0.0;
+      for (int c = 0; c < p.dim; ++c) c2 += t.c[i * p.dim + c] * t.c[i * p.dim + c];
+      out[i] = std::sqrt(c2);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<double> class_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
+  if (quantity < JAM_QUANTITY_FORCE || quantity > JAM_QUANTITY_COORDINATION) fail(JAM_E_ARGUMENT, "quantity is %d, not a jam_quantity", quantity);
+  if (which < JAM_CLASS_ALL || which > JAM_CLASS_MEDIAN) fail(JAM_E_ARGUMENT, "which is %d, not a jam_class", which);
+  if (quantity == JAM_QUANTITY_FORCE) return class_forces(p, net, which);
+  if (which == JAM_CLASS_SMALLEST || which == JAM_CLASS_MEDIAN)
+    fail(JAM_E_ARGUMENT, "which is %d: smallest and median are classes of forces only", which);
+  auto in = [&](size_t i) {
+    const int32_t z = net.coordination[i];
+    return z > 0 && (which == JAM_CLASS_ALL || (z == p.dim + 1) == (which == JAM_CLASS_LOCALISED));
+  };
+  std::vector<double> out;
+  if (quantity == JAM_QUANTITY_VECTOR_DOT || quantity == JAM_QUANTITY_FORCE_DOT) {
+    const ContactDots dots = contact_dots(p, net, quantity == JAM_QUANTITY_FORCE_DOT);
+    for (size_t k = 0; k < dots.dot.size(); ++k)
+      if (in(static_cast<size_t>(dots.sphere[k]))) out.push_back(dots.dot[k]);
+    return out;
+  }
+  const std::vector<double> all = sphere_values(p, net, quantity);
+  for (size_t i = 0; i < all.size(); ++i)
+    if (in(i)) out.push_back(all[i]);
+  return out;
+}
+
+std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins) {
+  if (!(high > low && std::isfinite(low) && std::isfinite(high))) fail(JAM_E_ARGUMENT, "low is %g and high %g: they must be finite and low < high", low, high);
+  if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
+  std::vector<double> out(bins, 0.0);
+  const double width = (high - low) / static_cast<double>(bins);
+  for (double x : values)
+    if (x >= low && x < high)
+      out[std::min(bins - 1, static_cast<size_t>((x - low) / width))] += 1.0 / (width * static_cast<double>(values.size()));
+  return out;
+}
+
+}  // namespace jam

@@ -392,6 +392,28 @@ module jam
     real(c_double) :: seconds_solve = 0
   end type jam_report
 
+  ! What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
+  type, bind(c) :: jam_estimate
+    ! set by the caller: sizeof(jam_estimate)
+    integer(c_int32_t) :: struct_size = 64
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! of the longest neighbour list
+    integer(c_int64_t) :: pairs = 0
+    ! peak memory beside what is in use now; mostly good to a factor of 2
+    real(c_double) :: bytes = 0
+    ! of it for the factorisation
+    real(c_double) :: factor_bytes = 0
+    ! of one factorisation
+    real(c_double) :: flops = 0
+    ! about how many: guessed from density and method, may be wrong by a factor of 5
+    real(c_double) :: factorisations = 0
+    ! of one factorisation and what goes with it, on this core
+    real(c_double) :: step_seconds = 0
+    ! the product of both
+    real(c_double) :: seconds = 0
+  end type jam_estimate
+
   ! Options of all calls that use a Hessian. @since 0.1
   type, bind(c) :: jam_hessian_options
     ! sizeof(jam_hessian_options)
@@ -895,6 +917,18 @@ module jam
       type(jam_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_crunch
+
+    ! Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
+    ! JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+    ! JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+    function jam_crunch_estimate(sys, o, estimated) &
+        bind(c, name="jam_crunch_estimate") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_crunch_options), intent(in), optional :: o
+      type(jam_estimate), intent(inout), optional :: estimated
+      integer(c_int32_t) :: status
+    end function jam_crunch_estimate
 
     ! The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1
     function jam_report_get(sys, report) &

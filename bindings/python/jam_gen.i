@@ -124,6 +124,15 @@
   ~jam_report() { free($self); }
 }
 %feature("docstring") jam_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1"
+%extend jam_estimate {
+  jam_estimate() {
+    jam_estimate *made = (jam_estimate *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_estimate() { free($self); }
+}
+%feature("docstring") jam_estimate "What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1"
 %extend jam_hessian_options {
   jam_hessian_options() {
     jam_hessian_options *made = (jam_hessian_options *)calloc(1, sizeof *made);
@@ -264,6 +273,9 @@ Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMM
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_crunch_estimate "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
+JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
 %feature("docstring") jam_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
 %feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
 same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"

@@ -444,6 +444,24 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
  * JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report);
+
+/* What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1 */
+typedef struct jam_estimate {
+  uint32_t struct_size;  /* set by the caller: sizeof(jam_estimate) */
+  int32_t reserved;      /* 0 */
+  int64_t pairs;         /* of the longest neighbour list */
+  double bytes;          /* peak memory beside what is in use now; mostly good to a factor of 2 */
+  double factor_bytes;   /* of it for the factorisation */
+  double flops;          /* of one factorisation */
+  double factorisations; /* about how many: guessed from density and method, may be wrong by a factor of 5 */
+  double step_seconds;   /* of one factorisation and what goes with it, on this core */
+  double seconds;        /* the product of both */
+} jam_estimate;
+
+/* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
+ * JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+ * JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1 */
+JAM_API jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
 /* The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1 */
 JAM_API jam_status jam_report_get(const jam_system *sys, jam_report *report);
 

@@ -51,6 +51,17 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *
   });
 }
 
+jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated) {
+  return guard_const(sys, [&]() -> jam_status {
+    need(estimated, "estimated");
+    check_out_struct(estimated, "estimated");
+    jam_crunch_options full = default_crunch_options();
+    take_options(o, full);
+    give_struct(estimate(sys->packing, full), estimated);
+    return JAM_OK;
+  });
+}
+
 jam_status jam_report_get(const jam_system *sys, jam_report *report) {
   return with_contacts(sys, [&](const ContactNetwork &) -> jam_status {
     need(report, "report");

@@ -199,7 +199,6 @@ class Chain {
   void finish() {
     jam_report &r = out_.report;
     r.method = o_.method;
-    r.factorisations = system_.factorisations;
     if (!answer_.y.empty() && !network_.stable.empty()) {
       out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
       if (r.stop_reason == JAM_STOP_CONVERGED && o_.polish) last_digits();
@@ -209,6 +208,7 @@ class Chain {
     certify(out_.packing, out_.contacts, r);
     r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < 1e-6 && r.min_force > 0.0;
     if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+    r.factorisations = system_.factorisations;
     r.seconds = monitor_.seconds();
     r.seconds_factor = system_.seconds_factor;
     r.seconds_assemble = system_.seconds_assemble;
@@ -216,7 +216,7 @@ class Chain {
   }
 
   void last_digits() {
-    if (!show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false) && polish(out_.packing, out_.contacts, o_.threads, &monitor_)) {
+    if (!show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false) && polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_)) {
       HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
       for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
       if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
@@ -250,6 +250,11 @@ double free_spacing(const Packing &p) {
 
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history) {
   check_options(start, o);
+  if (monitor.log_fn && monitor.log_level >= JAM_LOG_INFO) {
+    const jam_estimate e = estimate(start, o);
+    monitor.log(JAM_LOG_INFO, "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them", e.bytes / 1e6,
+                static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
+  }
   History own;
   History &steps = history ? *history : own;
   CrunchResult result = Chain(start, o, monitor, steps).run();

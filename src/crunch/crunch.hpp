@@ -30,6 +30,9 @@ void check_options(const Packing &p, const jam_crunch_options &o);
 // attempt that is returned.
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr);
 
+// estimate.cpp: memory and work of a crunch before it runs. Throws for bad options.
+jam_estimate estimate(const Packing &start, const jam_crunch_options &o);
+
 // By how much the mean spacing of spheres, phi^(-1/d) diameters, exceeds that of a random jammed packing (0.84 in d = 2, about
 // 0.64 * 0.7^(d-3) above): how far a sphere may have to travel. 0 when denser.
 double free_spacing(const Packing &p);
@@ -57,8 +60,8 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 // polish.cpp: closes the contacts by Newton steps on (positions, one common diameter factor) and projects the forces on
 // the null space of S^T. Returns false and changes nothing when a force would turn negative, another pair would
 // overlap, or nothing gets better.
-// The monitor may cancel it, which changes nothing either.
-bool polish(Packing &p, ContactNetwork &contacts, int threads, Monitor *monitor = nullptr);
+// The monitor may cancel it, which changes nothing either. system is used anew: it need not hold the contacts' graph.
+bool polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
 
 // certificate.cpp: everything in the report that follows from packing and contacts alone.
 void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);

@@ -72,11 +72,10 @@ void balance_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system,
 
 }  // namespace
 
-bool polish(Packing &p, ContactNetwork &net, int threads, Monitor *monitor) {
+bool polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   if (net.size() == 0) return false;
   Packing q = p;
   ContactNetwork better = net;
-  NewtonSystem system;
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
   const std::vector<double> diagonal = small_diagonal(p, net);
   double worst = largest(better.gap);

@@ -30,6 +30,14 @@ class BlockCholesky {
   // The same for nrhs vectors one after the other in x.
   void solve_many(double *x, int nrhs) const;
 
+  // What analyse() would come to, without the memory for the numbers: flops of one factorisation; doubles in the factor and in
+  // the fronts beside it.
+  struct Sizes {
+    double flops;
+    size_t factor, fronts;
+  };
+  static Sizes measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads);
+
   double flops() const { return flops_; }
   size_t bytes() const;
   size_t factor_nonzeros() const { return values_.size(); }
@@ -70,6 +78,7 @@ class BlockCholesky {
   void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
 
   int dim_ = 0, threads_ = 1;
+  bool dry_ = false;  // sizes only
   int32_t n_ = 0;
   double flops_ = 0.0, relative_ = 1e-16, floor_ = 0.0;
   std::vector<int32_t> order_;  // of the last analyse(), for analyse_keep_order()
@@ -83,7 +92,7 @@ class BlockCholesky {
   std::vector<std::vector<double>> kept_;      // those of subtree roots, which outlive their thread's stack
   std::vector<int32_t> lists_[3];              // supernodes of thread 0, thread 1, and the top of the tree
   Stack stacks_[2];
-  size_t largest_below_ = 0;
+  size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0;
 };
 
 }  // namespace jam

@@ -9,6 +9,14 @@
 namespace jam {
 namespace {
 
+// Room for size numbers whose old values are not needed: never the old and the new block at a time, and a little more than
+// asked, so that lists that change by a few pairs do not break up the heap. Pages beyond size stay untouched.
+void make_room(std::vector<double> &v, size_t size) {
+  if (size <= v.capacity()) return;
+  std::vector<double>().swap(v);
+  v.reserve(size + size / 8);
+}
+
 // Liu's algorithm with path compression, on the graph relabelled by place[].
 std::vector<int32_t> elimination_tree(const Graph &g, const std::vector<int32_t> &order, const std::vector<int32_t> &place) {
   const int32_t n = g.size();
@@ -126,7 +134,11 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     for (int32_t k = d.first; k < d.last; ++k) owner[k] = static_cast<int32_t>(supernodes_.size());
     supernodes_.push_back(std::move(s));
   }
-  values_.assign(values, 0.0);
+  value_count_ = values;
+  if (!dry_) {
+    make_room(values_, values);
+    values_.assign(values, 0.0);
+  }
   runs_.assign(supernodes_.size(), {});
   for (size_t k = 0; k < supernodes_.size(); ++k) {
     Supernode &s = supernodes_[k];
@@ -233,8 +245,11 @@ void BlockCholesky::plan() {
   }
   update_.assign(count, nullptr);
   kept_.assign(count, {});
+  std::vector<size_t> kept(count, 0);
+  stack_count_ = 0;
   for (const int32_t r : roots)
-    if (!top[r]) kept_[r].assign(below(supernodes_[r]) * below(supernodes_[r]), 0.0);
+    if (!top[r]) stack_count_ += kept[r] = below(supernodes_[r]) * below(supernodes_[r]);
+  for (size_t k = 0; k < count && !dry_; ++k) kept_[k].assign(kept[k], 0.0);
   // Deepest stack: children lie on it while their parent's Schur complement is built above them.
   for (int t = 0; t < 3; ++t) {
     size_t now = 0, most = 0;
@@ -242,11 +257,15 @@ void BlockCholesky::plan() {
       const size_t own = below(supernodes_[k]) * below(supernodes_[k]);
       most = std::max(most, now + own);
       for (const int32_t c : supernodes_[k].children)
-        if (kept_[c].empty()) now -= below(supernodes_[c]) * below(supernodes_[c]);
-      if (kept_[k].empty()) now += own;
+        if (kept[c] == 0) now -= below(supernodes_[c]) * below(supernodes_[c]);
+      if (kept[k] == 0) now += own;
     }
+    stack_count_ += most;
     Stack &stack = stacks_[t % 2];
-    if (stack.memory.size() < most) stack.memory.resize(most);
+    if (!dry_ && stack.memory.size() < most) {
+      make_room(stack.memory, most);
+      stack.memory.resize(most);
+    }
   }
 }
 
@@ -277,6 +296,13 @@ void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, co
   place_entries(ei, ej, edges);
   plan();
   original_diagonal_.assign(static_cast<size_t>(n) * dim, 0.0);
+}
+
+BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads) {
+  BlockCholesky trial;
+  trial.dry_ = true;
+  trial.analyse(dim, n, ei, ej, edges, threads);
+  return {trial.flops_, trial.value_count_, trial.stack_count_};
 }
 
 size_t BlockCholesky::bytes() const {

@@ -344,6 +344,28 @@ class Report:
 
 
 @dataclass(frozen=True, repr=False)
+class Estimate:
+    """What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
+
+    reserved: 0
+    pairs: of the longest neighbour list
+    bytes: peak memory beside what is in use now; mostly good to a factor of 2
+    factor_bytes: of it for the factorisation
+    flops: of one factorisation
+    factorisations: about how many: guessed from density and method, may be wrong by a factor of 5
+    step_seconds: of one factorisation and what goes with it, on this core
+    seconds: the product of both"""
+    reserved: int
+    pairs: int
+    bytes: float
+    factor_bytes: float
+    flops: float
+    factorisations: float
+    step_seconds: float
+    seconds: float
+
+
+@dataclass(frozen=True, repr=False)
 class GeometryReport:
     """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
 
@@ -495,6 +517,7 @@ REPORTS = {
     "jam_md_report": MdReport,
     "jam_glass": Glass,
     "jam_report": Report,
+    "jam_estimate": Estimate,
     "jam_geometry_report": GeometryReport,
     "jam_moduli": Moduli,
     "jam_comparison": Comparison,
@@ -525,6 +548,7 @@ CALLS = {
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_report"))),
+    "jam_crunch_estimate": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
     "jam_report_get": (True, (("report", "struct_out", "jam_report"),)),
     "jam_crunch_history": (True, (("column", "scalar", "HistoryColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

@@ -22,6 +22,26 @@ class Methods:
         Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
 
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None) -> Estimate:
+        """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
+        JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+        JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+
+        Options:
+        lp_solver: jam_lp_solver, default IPM
+        method: jam_crunch_method, default RELINEARISE
+        polish: 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
+        max_lps: >= 1, default 1000 (CALiPPSO: max_iters)
+        threads: 1 or 2, default 1; bits are reproducible on 1
+        gain_tolerance: on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence)
+        step_tolerance: on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence)
+        lp_tolerance: relative complementarity and residual of one LP, default 1e-15
+        neighbour_radius: largest pair distance in an LP; 0, the default: adapts (l0)
+        step_bound: bound on each |s_i| component; 0, the default: adapts (sbound)
+        wall_time: limit in seconds, > 0, default infinity
+        steps: 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default"""
+        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps)
+
     def crunch_history(self, column: int | str) -> np.ndarray:
         """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
         same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""

@@ -318,6 +318,22 @@ mutable struct jam_report
 end
 
 """
+What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
+"""
+mutable struct jam_estimate
+    struct_size::UInt32  # set by the caller: sizeof(jam_estimate)
+    reserved::Int32  # 0
+    pairs::Int64  # of the longest neighbour list
+    bytes::Cdouble  # peak memory beside what is in use now; mostly good to a factor of 2
+    factor_bytes::Cdouble  # of it for the factorisation
+    flops::Cdouble  # of one factorisation
+    factorisations::Cdouble  # about how many: guessed from density and method, may be wrong by a factor of 5
+    step_seconds::Cdouble  # of one factorisation and what goes with it, on this core
+    seconds::Cdouble  # the product of both
+    jam_estimate() = new(64, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
 Options of all calls that use a Hessian. @since 0.1
 """
 mutable struct jam_hessian_options
@@ -682,6 +698,15 @@ JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_crunch(sys, o, report)
     return ccall((:jam_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_report}), sys, _ref(jam_crunch_options, o), _ref(jam_report, report))
+end
+
+"""
+Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
+JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
+JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+"""
+function jam_crunch_estimate(sys, o, estimated)
+    return ccall((:jam_crunch_estimate, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
 end
 
 """

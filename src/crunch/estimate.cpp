@@ -1,0 +1,99 @@
+// What a crunch will cost, from the particle graph and its elimination tree alone.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/pairs.hpp"
+#include "crunch/crunch.hpp"
+#include "lp/blas.hpp"
+#include "lp/block_cholesky.hpp"
+
+namespace jam {
+namespace {
+
+// Pairs a sphere that lists near jamming hold, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
+constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0, 27.0, 40.0};
+// Steps of a path: from a state grown to high pressure, and from a dilute start, whose network buckles again and again.
+constexpr double steps_dense = 60.0, steps_dilute = 300.0;
+
+// The chain's step bound follows its last step: up to this, mean diameters, unless the start is close to its jamming point.
+constexpr double chain_bound = 0.5, close_gap = 3e-5;
+
+// Median gap of the d n nearest pairs: the contacts to be.
+double contact_gap(const Packing &p) {
+  const PairList pairs = find_pairs(p, 0.0, 1.5);
+  const size_t wanted = static_cast<size_t>(p.dim) * p.n() / 2;
+  if (pairs.size() <= wanted) return 0.5;
+  std::vector<double> gap(pairs.size());
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < gap.size(); ++k) gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
+  std::nth_element(gap.begin(), gap.begin() + wanted, gap.end());
+  return gap[wanted];
+}
+
+// The list that the run begins with, a little denser as the spheres grow before it is shortened, and from a start with few
+// neighbours at least as many of the nearest pairs as a list holds near jamming.
+PairList longest_list(const Packing &p, const jam_crunch_options &o) {
+  const double unit = diameter_mean(p), free = free_spacing(p), jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
+  const double chain = 2.2 * (o.step_bound > 0.0 ? o.step_bound : contact_gap(p) > close_gap ? chain_bound : 0.1 + 0.6 * free);
+  double reach = unit * (o.method == JAM_CRUNCH_CHAIN ? chain : o.step_bound > 0.0 ? std::max(chain, 0.15 + 1.5 * free) : 0.15 + 1.5 * free);
+  if (o.neighbour_radius > 0.0) reach = std::max(0.0, o.neighbour_radius * unit - diameter_max(p));
+  // How far the diameters grow before the list gets shorter: the chain and mixtures keep theirs, the path of equal spheres shortens it early.
+  const double part = o.method == JAM_CRUNCH_CHAIN || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
+  const double grown = std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
+  PairList pairs = find_pairs(p, reach, grown);
+  const double enough = std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
+  for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < enough; ++k) {
+    reach = 1.1 * reach + 0.01 * unit;
+    pairs = find_pairs(p, reach, 1.0);
+  }
+  return pairs;
+}
+
+// Flops a second of this core in blocks as large as the fronts are; a millisecond.
+double measured_rate(int size) {
+  const BlasSingleThread single;
+  const double one = 1.0, zero = 0.0;
+  std::vector<double> a(static_cast<size_t>(size) * size, 1e-3), c(a.size());
+  double best = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double t0 = now_seconds();
+    dgemm_("N", "T", &size, &size, &size, &one, a.data(), &size, a.data(), &size, &zero, c.data(), &size);
+    best = std::max(best, 2.0 * size * size * static_cast<double>(size) / std::max(now_seconds() - t0, 1e-7));
+  }
+  return best;
+}
+
+}  // namespace
+
+jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
+  check_options(p, o);
+  PairList pairs = longest_list(p, o);
+  std::vector<int32_t> ei, ej;
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k] || (!ei.empty() && ei.back() == pairs.i[k] && ej.back() == pairs.j[k])) continue;
+    ei.push_back(pairs.i[k]), ej.push_back(pairs.j[k]);
+  }
+  const double d = p.dim, n = static_cast<double>(p.n()), rows = static_cast<double>(pairs.size()), edges = static_cast<double>(ei.size());
+  pairs = PairList();
+  const BlockCholesky::Sizes sizes = BlockCholesky::measure(p.dim, static_cast<int32_t>(p.n()), ei.data(), ej.data(), ei.size(), o.threads);
+
+  jam_estimate e{};
+  e.pairs = static_cast<int64_t>(rows);
+  e.flops = sizes.flops;
+  e.factor_bytes = 8.0 * static_cast<double>(sizes.factor + sizes.fronts);
+  // Blocks before elimination; a dozen vectors and the rows themselves for each pair, two dozen for each unknown; three pair
+  // lists; tables of the symbolic part (an index for each block of the factor among them).
+  const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 27.0);
+  const double lists = 3.0 * rows * (8.0 + 8.0 * d), tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(sizes.factor) / (d * d);
+  e.bytes = e.factor_bytes + blocks + vectors + lists + tables;
+  e.factorisations = o.method == JAM_CRUNCH_CHAIN ? 3.0 * steps_dense : steps_dense;
+  if (free_spacing(p) > 0.05) e.factorisations = steps_dilute;
+  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few times.
+  const double rate = measured_rate(192);
+  e.step_seconds = sizes.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(sizes.factor) + 4e-7 * rows;
+  e.seconds = e.factorisations * e.step_seconds;
+  return e;
+}
+
+}  // namespace jam

@@ -1,0 +1,150 @@
+/* jam_crunch_estimate: memory against what a child process really takes, the log line, errors. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "jam/jam.h"
+
+static jam_system *start(int64_t n, double phi) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n, o.packing_fraction = phi;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_estimate estimated(const jam_system *sys, const jam_crunch_options *o) {
+  jam_estimate e;
+  e.struct_size = sizeof e;
+  assert_int_equal(jam_crunch_estimate(sys, o, &e), JAM_OK);
+  return e;
+}
+
+static int32_t stop_after(const jam_progress *p, void *left) {
+  (void)p;
+  return --*(int *)left <= 0;
+}
+
+static double peak(void) {
+  struct rusage u;
+  getrusage(RUSAGE_SELF, &u);
+  return 1024.0 * (double)u.ru_maxrss;
+}
+
+typedef struct measured {
+  double estimate, taken;
+} measured;
+
+/* The whole life of a packing in a fresh process: how much its peak grows while it crunches. The longest lists come early. */
+static measured life(int64_t n, double phi, double pressure, int steps) {
+  jam_system *small = start(200, 0.3), *sys;
+  jam_crunch_options o;
+  jam_compress_options c;
+  measured m;
+  assert_int_equal(jam_crunch(small, NULL, NULL), JAM_OK); /* code and buffers of all libraries are in memory now */
+  jam_destroy(small);
+  sys = start(n, phi);
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 0.1, c.pressure = pressure;
+  if (pressure > 0.0) jam_compress(sys, &c, NULL);
+  jam_crunch_options_init(&o, sizeof o);
+  o.steps = 1; /* the callback hears of each */
+  m.estimate = estimated(sys, &o).bytes;
+  m.taken = peak();
+  jam_set_progress(sys, stop_after, &steps);
+  m.taken = jam_crunch(sys, &o, NULL) == JAM_CANCELLED ? peak() - m.taken : -1.0;
+  jam_destroy(sys);
+  return m;
+}
+
+static void memory(int64_t n, double phi, double pressure, int steps) {
+  int ends[2], status = -1;
+  measured m = {0.0, 0.0};
+  pid_t child;
+  assert_int_equal(pipe(ends), 0);
+  child = fork();
+  if (child == 0) {
+    m = life(n, phi, pressure, steps);
+    _exit(write(ends[1], &m, sizeof m) != sizeof m);
+  }
+  close(ends[1]);
+  assert_true(read(ends[0], &m, sizeof m) == sizeof m);
+  close(ends[0]);
+  assert_true(waitpid(child, &status, 0) == child && status == 0);
+  print_message("n %d: estimate %.1f MB, taken %.1f MB\n", (int)n, m.estimate / 1e6, m.taken / 1e6);
+#ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed */
+  assert_true(m.taken > 0.5 * m.estimate && m.taken < 2.0 * m.estimate);
+#endif
+  assert_true(m.taken > 0.0);
+}
+
+static void memory_within_two(void **state) {
+  (void)state;
+  memory(1024, 0.3, 30.0, 30);
+  memory(4096, 0.3, 0.0, 2);
+}
+
+/* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */
+static void orders(void **state) {
+  jam_system *small = start(300, 0.3), *large = start(600, 0.3);
+  jam_crunch_options o;
+  jam_estimate a, b, two;
+  (void)state;
+  a = estimated(small, NULL), b = estimated(large, NULL);
+  assert_true(b.pairs > 1.8 * (double)a.pairs && b.pairs < 2.2 * (double)a.pairs);
+  assert_true(b.flops > 2.0 * a.flops && b.bytes > 1.9 * a.bytes);
+  assert_true(a.seconds == a.factorisations * a.step_seconds && a.step_seconds > 0.0);
+  jam_crunch_options_init(&o, sizeof o);
+  o.threads = 2;
+  two = estimated(large, &o);
+  assert_true(two.bytes >= b.bytes && two.flops == b.flops);
+  jam_destroy(small), jam_destroy(large);
+}
+
+static void keep_estimate(int32_t level, const char *line, void *user) {
+  if (level == JAM_LOG_INFO && !strncmp(line, "estimate: ", 10)) snprintf(user, 400, "%s", line);
+}
+
+/* The first line of a crunch that is logged. */
+static void is_logged(void **state) {
+  jam_system *sys = start(60, 0.3);
+  char line[400] = "", expected[40];
+  jam_estimate e = estimated(sys, NULL);
+  (void)state;
+  jam_set_log(sys, keep_estimate, JAM_LOG_INFO, line);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
+  snprintf(expected, sizeof expected, "estimate: %.3g MB, %d pairs,", e.bytes / 1e6, (int)e.pairs);
+  assert_int_equal(strncmp(line, expected, strlen(expected)), 0);
+  jam_destroy(sys);
+}
+
+static void errors(void **state) {
+  jam_system *sys = start(60, 0.3), *one = start(1, 0.1);
+  jam_crunch_options o;
+  jam_estimate e;
+  (void)state;
+  e.struct_size = sizeof e;
+  assert_int_equal(jam_crunch_estimate(NULL, NULL, &e), JAM_E_NULL);
+  assert_int_equal(jam_crunch_estimate(sys, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_crunch_estimate(one, NULL, &e), JAM_E_TOO_FEW);
+  jam_crunch_options_init(&o, sizeof o);
+  o.max_lps = 0;
+  assert_int_equal(jam_crunch_estimate(sys, &o, &e), JAM_E_ARGUMENT);
+  e.struct_size = 0;
+  assert_int_equal(jam_crunch_estimate(sys, NULL, &e), JAM_E_STRUCT_SIZE);
+  jam_destroy(sys), jam_destroy(one);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_within_two), cmocka_unit_test(orders), cmocka_unit_test(is_logged), cmocka_unit_test(errors)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -46,6 +46,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_STOP_LP_LIMIT = 9
   integer(c_int32_t), parameter :: JAM_STOP_SOLVER = 10
   integer(c_int32_t), parameter :: JAM_STOP_UNJAMMED = 11
+  integer(c_int32_t), parameter :: JAM_STOP_TIME = 12
 
   ! jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
   integer(c_int32_t), parameter :: JAM_OVERLAP_REFUSE = 0
@@ -54,6 +55,10 @@ module jam
   ! jam_model: Pair distance. @since 0.1
   integer(c_int32_t), parameter :: JAM_MODEL_EUCLID = 0
   integer(c_int32_t), parameter :: JAM_MODEL_MK = 1
+
+  ! jam_masses: Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1
+  integer(c_int32_t), parameter :: JAM_MASSES_EQUAL = 0
+  integer(c_int32_t), parameter :: JAM_MASSES_VOLUME = 1
 
   ! jam_phase: Which part reports progress. @since 0.1
   integer(c_int32_t), parameter :: JAM_PHASE_RUN = 1
@@ -72,6 +77,10 @@ module jam
   integer(c_int32_t), parameter :: JAM_FORMAT_AUTO = 0
   integer(c_int32_t), parameter :: JAM_FORMAT_PLAIN = 1
   integer(c_int32_t), parameter :: JAM_FORMAT_XYZ = 2
+
+  ! jam_growth_law: How the spheres grow. @since 0.1
+  integer(c_int32_t), parameter :: JAM_GROWTH_DIAMETER = 0
+  integer(c_int32_t), parameter :: JAM_GROWTH_DENSITY = 1
 
   ! jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
   integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
@@ -168,12 +177,16 @@ module jam
     integer(c_int32_t) :: model = 0
     ! MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted
     real(c_double) :: mk_zeta = 0
+    ! jam_masses, default EQUAL
+    integer(c_int32_t) :: masses = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_create_options
 
   ! What the system is now. @since 0.1
   type, bind(c) :: jam_info
     ! set by the caller: sizeof(jam_info)
-    integer(c_int32_t) :: struct_size = 64
+    integer(c_int32_t) :: struct_size = 72
     ! d
     integer(c_int32_t) :: dim = 0
     ! number of spheres
@@ -192,12 +205,16 @@ module jam
     integer(c_int32_t) :: model = 0
     ! 1 when all diameters are equal
     integer(c_int32_t) :: monodisperse = 0
+    ! jam_masses
+    integer(c_int32_t) :: masses = 0
+    ! jam_phase of the MD stage that was stopped early and can be resumed, or 0
+    integer(c_int32_t) :: paused = 0
   end type jam_info
 
   ! Given to the progress callback; valid during the call only. @since 0.1
   type, bind(c) :: jam_progress
     ! sizeof(jam_progress) as the library knows it
-    integer(c_int32_t) :: struct_size = 80
+    integer(c_int32_t) :: struct_size = 88
     ! jam_phase
     integer(c_int32_t) :: phase = 0
     ! now
@@ -218,42 +235,54 @@ module jam
     integer(c_int64_t) :: steps = 0
     ! crunch: so far
     integer(c_int64_t) :: factorisations = 0
+    ! number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    integer(c_int64_t) :: snapshot = 0
   end type jam_progress
 
   ! Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1
   type, bind(c) :: jam_run_options
     ! sizeof(jam_run_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 0
-    integer(c_int32_t) :: reserved = 0
-    ! to make, > 0, default 100
+    ! 1: go on with the run that stopped early; default 0
+    integer(c_int32_t) :: resume = 0
+    ! to make since the run began, > 0, default 100
     real(c_double) :: collisions_per_particle = 0
-    ! seconds, > 0, default infinity
+    ! seconds of this call, > 0, default infinity
     real(c_double) :: wall_time = 0
+    ! to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity
+    real(c_double) :: time = 0
   end type jam_run_options
 
   ! One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1
   type, bind(c) :: jam_compress_options
     ! sizeof(jam_compress_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 0
-    integer(c_int32_t) :: reserved = 0
+    ! 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
+    integer(c_int32_t) :: resume = 0
     ! G > 0, default 1e-2
     real(c_double) :: growth_rate = 0
     ! target reduced pressure, > 1, default 500
     real(c_double) :: pressure = 0
     ! target, > 0, default infinity
     real(c_double) :: packing_fraction = 0
-    ! limit, > 0, default infinity
+    ! limit since the stage began, > 0, default infinity
     real(c_double) :: collisions_per_particle = 0
-    ! limit in seconds, > 0, default infinity
+    ! limit in seconds of this call, > 0, default infinity
     real(c_double) :: wall_time = 0
+    ! limit of simulated time since the stage began, > 0, default infinity
+    real(c_double) :: time = 0
+    ! quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
+    real(c_double) :: growth_rate_end = 0
+    ! jam_growth_law, default DIAMETER
+    integer(c_int32_t) :: growth_law = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_compress_options
 
   ! What MD did. @since 0.1
   type, bind(c) :: jam_md_report
     ! set by the caller: sizeof(jam_md_report)
-    integer(c_int32_t) :: struct_size = 88
+    integer(c_int32_t) :: struct_size = 96
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
     ! in this call
@@ -276,7 +305,33 @@ module jam
     real(c_double) :: max_overlap = 0
     ! wall time
     real(c_double) :: seconds = 0
+    ! d<sigma>/dt over sqrt(kT/m) at the end
+    real(c_double) :: growth_rate = 0
   end type jam_md_report
+
+  ! What jam_observe records. @since 0.1
+  type, bind(c) :: jam_observe_options
+    ! sizeof(jam_observe_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! 1: collisions of each sphere, and collisions and momentum of each pair; default 0
+    integer(c_int32_t) :: collisions = 0
+    ! bins of the gap histogram, 0 (default: none) or >= 2
+    integer(c_int32_t) :: gap_bins = 0
+    ! bins of g(r), default 0: none
+    integer(c_int32_t) :: r_bins = 0
+    ! collisions per particle between samples of the series, gaps and g(r), > 0, default 10
+    real(c_double) :: sample_every = 0
+    ! the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
+    real(c_double) :: gap_min = 0
+    ! up to here, in (gap_min, 10], default 1
+    real(c_double) :: gap_max = 0
+    ! of g(r), mean diameters, > 0, default 4
+    real(c_double) :: r_max = 0
+    ! collisions per particle before the first snapshot; 0, the default: none
+    real(c_double) :: snapshot_every = 0
+    ! each interval between snapshots is so many times the one before, >= 1, default 1
+    real(c_double) :: snapshot_factor = 0
+  end type jam_observe_options
 
   ! A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
   type, bind(c) :: jam_glass
@@ -554,14 +609,14 @@ module jam
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
     module procedure default_create_options, default_run_options, default_compress_options, &
-      default_crunch_options, default_hessian_options, default_modes_options, &
-      default_geometry_options, default_dos_options
+      default_observe_options, default_crunch_options, default_hessian_options, &
+      default_modes_options, default_geometry_options, default_dos_options
   end interface jam_defaults
 
   abstract interface
     ! Progress callback, on the calling thread. Non-zero return stops the call with JAM_CANCELLED
-    ! and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel
-    ! and the jam_*_view and const getters of the state before the call. @since 0.1
+    ! and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel, jam_checkpoint_write (of
+    ! the stage as it runs) and const getters, which show the state before the call or the last snapshot. @since 0.1
     function jam_progress_fn(progress, user) &
         bind(c) result(status)
       import
@@ -820,7 +875,10 @@ module jam
     end function jam_compress_options_init
 
     ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-    ! drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL.
+    ! drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
+    ! JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
+    ! or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
+    ! none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
     ! Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
     ! JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
     ! JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
@@ -837,7 +895,9 @@ module jam
     ! that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
     ! 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
     ! Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-    ! JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1
+    ! JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
+    ! with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
+    ! alone. @since 0.1
     function jam_compress(sys, o, report) &
         bind(c, name="jam_compress") result(status)
       import
@@ -847,8 +907,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_compress
 
-    ! Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
-    ! a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+    ! Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
+    ! or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
+    ! goes on from it makes the same bits as one that never stopped there. Threads: const.
     ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
     function jam_checkpoint_write(sys, path) &
         bind(c, name="jam_checkpoint_write") result(status)
@@ -867,6 +928,123 @@ module jam
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function jam_checkpoint_read
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_observe_options_init(o, size) &
+        bind(c, name="jam_observe_options_init") result(status)
+      import
+      type(jam_observe_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_observe_options_init
+
+    ! From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
+    ! Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
+    ! present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
+    ! Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+    function jam_observe(sys, o) &
+        bind(c, name="jam_observe") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_observe_options), intent(in), optional :: o
+      integer(c_int32_t) :: status
+    end function jam_observe
+
+    ! Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+    function jam_observe_stop(sys) &
+        bind(c, name="jam_observe_stop") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t) :: status
+    end function jam_observe_stop
+
+    ! Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
+    ! its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
+    ! length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+    function jam_observed_series(sys, time, time_len, collisions, collisions_len, fraction, fraction_len, &
+      pressure, pressure_len, error, error_len, msd, msd_len, needed) &
+        bind(c, name="jam_observed_series") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: time(*)
+      integer(c_size_t), value :: time_len
+      real(c_double), intent(inout), optional :: collisions(*)
+      integer(c_size_t), value :: collisions_len
+      real(c_double), intent(inout), optional :: fraction(*)
+      integer(c_size_t), value :: fraction_len
+      real(c_double), intent(inout), optional :: pressure(*)
+      integer(c_size_t), value :: pressure_len
+      real(c_double), intent(inout), optional :: error(*)
+      integer(c_size_t), value :: error_len
+      real(c_double), intent(inout), optional :: msd(*)
+      integer(c_size_t), value :: msd_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_observed_series
+
+    ! Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
+    ! 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+    function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, needed) &
+        bind(c, name="jam_observed_spheres") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), intent(inout), optional :: collisions(*)
+      integer(c_size_t), value :: collisions_len
+      real(c_double), intent(inout), optional :: displacement(*)
+      integer(c_size_t), value :: displacement_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_observed_spheres
+
+    ! Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+    ! sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
+    ! be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+    function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, &
+      needed) &
+        bind(c, name="jam_observed_pairs") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), intent(inout), optional :: pair(*)
+      integer(c_size_t), value :: pair_len
+      integer(c_int64_t), intent(inout), optional :: collisions(*)
+      integer(c_size_t), value :: collisions_len
+      real(c_double), intent(inout), optional :: momentum(*)
+      integer(c_size_t), value :: momentum_len
+      real(c_double), intent(out), optional :: time
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_observed_pairs
+
+    ! Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
+    ! h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
+    ! 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+    function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, needed) &
+        bind(c, name="jam_observed_gaps") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: edge(*)
+      integer(c_size_t), value :: edge_len
+      real(c_double), intent(inout), optional :: density(*)
+      integer(c_size_t), value :: density_len
+      real(c_double), intent(inout), optional :: error(*)
+      integer(c_size_t), value :: error_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_observed_gaps
+
+    ! g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+    ! Errors: as jam_observed_series. @since 0.1
+    function jam_observed_correlation(sys, r, r_len, g, g_len, needed) &
+        bind(c, name="jam_observed_correlation") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: r(*)
+      integer(c_size_t), value :: r_len
+      real(c_double), intent(inout), optional :: g(*)
+      integer(c_size_t), value :: g_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_observed_correlation
 
     ! pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1
@@ -1528,6 +1706,12 @@ contains
     integer(c_int32_t) :: status
     status = jam_compress_options_init(o, c_sizeof(o))
   end subroutine default_compress_options
+
+  subroutine default_observe_options(o)
+    type(jam_observe_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_observe_options_init(o, c_sizeof(o))
+  end subroutine default_observe_options
 
   subroutine default_crunch_options(o)
     type(jam_crunch_options), intent(out) :: o

@@ -3,11 +3,26 @@
 %apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
 %apply (const double **VIEW, size_t *VIEW_LEN) {(const double **view, size_t *view_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *velocities, size_t velocities_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *time, size_t time_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *collisions, size_t collisions_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *fraction, size_t fraction_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *pressure, size_t pressure_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *msd, size_t msd_len)};
+%apply size_t *RESULT {size_t *needed};
+%apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *displacement, size_t displacement_len)};
+%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *momentum, size_t momentum_len)};
+%apply double *RESULT {double *time};
+%apply (double *FILL, size_t FILL_LEN) {(double *edge, size_t edge_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *density, size_t density_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *r, size_t r_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *g, size_t g_len)};
 %apply double *RESULT {double *pressure};
 %apply (const double *IN, size_t IN_LEN) {(const double *fraction, size_t fraction_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *pressure, size_t pressure_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
-%apply size_t *RESULT {size_t *needed};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
@@ -23,7 +38,6 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
 %apply (double *FILL, size_t FILL_LEN) {(double *gap, size_t gap_len)};
-%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *c, size_t c_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *s, size_t s_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *dot, size_t dot_len)};
@@ -37,8 +51,6 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *s_star, size_t s_star_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *stability, size_t stability_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *omega, size_t omega_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *density, size_t density_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *cumulative, size_t cumulative_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
@@ -97,6 +109,15 @@
   ~jam_md_report() { free($self); }
 }
 %feature("docstring") jam_md_report "What MD did. @since 0.1"
+%extend jam_observe_options {
+  jam_observe_options() {
+    jam_observe_options *made = (jam_observe_options *)calloc(1, sizeof *made);
+    if (made) { jam_observe_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_observe_options() { free($self); }
+}
+%feature("docstring") jam_observe_options "What jam_observe records. @since 0.1"
 %extend jam_glass {
   jam_glass() {
     jam_glass *made = (jam_glass *)calloc(1, sizeof *made);
@@ -248,7 +269,10 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL.
+drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
+JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
+or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
+none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
 JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
@@ -256,12 +280,34 @@ JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1"
-%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
-a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
+with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
+alone. @since 0.1"
+%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
+or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
+goes on from it makes the same bits as one that never stopped there. Threads: const.
 Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
 JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
+Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
+present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
+Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_observe_stop "Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_observed_series "Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
+its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
+length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_observed_spheres "Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
+0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_pairs "Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
+be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_gaps "Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
+h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
+0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_correlation "g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_eos "pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"
 %feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,

@@ -95,7 +95,8 @@ typedef enum jam_stop_reason {
   JAM_STOP_CONVERGED = 8,        /* crunch: both tolerances met, certificate computed */
   JAM_STOP_LP_LIMIT = 9,         /* crunch: max_lps came first */
   JAM_STOP_SOLVER = 10,          /* crunch: no LP answer passed the checks */
-  JAM_STOP_UNJAMMED = 11         /* crunch: converged without a rigid network */
+  JAM_STOP_UNJAMMED = 11,        /* crunch: converged without a rigid network */
+  JAM_STOP_TIME = 12             /* MD: its simulated time is over */
 } jam_stop_reason;
 
 /* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
@@ -127,6 +128,12 @@ typedef enum jam_model {
   JAM_MODEL_MK = 1      /* Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts */
 } jam_model;
 
+/* Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1 */
+typedef enum jam_masses {
+  JAM_MASSES_EQUAL = 0, /* all 1 */
+  JAM_MASSES_VOLUME = 1 /* as the volumes, sigma_i^d */
+} jam_masses;
+
 /* Options of jam_create and jam_read. @since 0.1 */
 typedef struct jam_create_options {
   uint32_t struct_size;    /* sizeof(jam_create_options) */
@@ -138,6 +145,8 @@ typedef struct jam_create_options {
   int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
   int32_t model;           /* jam_model, default EUCLID */
   double mk_zeta;          /* MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted */
+  int32_t masses;          /* jam_masses, default EQUAL */
+  int32_t reserved;        /* 0 */
 } jam_create_options;
 
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
@@ -174,6 +183,8 @@ typedef struct jam_info {
   double pressure;         /* reduced pressure p last measured by MD, NaN before */
   int32_t model;           /* jam_model */
   int32_t monodisperse;    /* 1 when all diameters are equal */
+  int32_t masses;          /* jam_masses */
+  int32_t paused;          /* jam_phase of the MD stage that was stopped early and can be resumed, or 0 */
 } jam_info;
 
 /* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -224,11 +235,12 @@ typedef struct jam_progress {
   int64_t collisions;       /* MD: so far in this call */
   int64_t steps;            /* crunch: LPs so far; analysis: items done */
   int64_t factorisations;   /* crunch: so far */
+  int64_t snapshot;         /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
 } jam_progress;
 
 /* Progress callback, on the calling thread. Non-zero return stops the call with JAM_CANCELLED
- * and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel
- * and the jam_*_view and const getters of the state before the call. @since 0.1 */
+ * and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel, jam_checkpoint_write (of
+ * the stage as it runs) and const getters, which show the state before the call or the last snapshot. @since 0.1 */
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 /* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
@@ -280,20 +292,33 @@ JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t fo
 /* Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1 */
 typedef struct jam_run_options {
   uint32_t struct_size;           /* sizeof(jam_run_options) */
-  int32_t reserved;               /* 0 */
-  double collisions_per_particle; /* to make, > 0, default 100 */
-  double wall_time;               /* seconds, > 0, default infinity */
+  int32_t resume;                 /* 1: go on with the run that stopped early; default 0 */
+  double collisions_per_particle; /* to make since the run began, > 0, default 100 */
+  double wall_time;               /* seconds of this call, > 0, default infinity */
+  double time;                    /* to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity */
 } jam_run_options;
+
+/* How the spheres grow. @since 0.1 */
+typedef enum jam_growth_law {
+  JAM_GROWTH_DIAMETER = 0, /* growth_rate is d<sigma>/dt over sqrt(kT/m), constant */
+  JAM_GROWTH_DENSITY = 1   /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a
+                            * per cent of sigma); d times it is the relative rate of density. The same number at every n */
+} jam_growth_law;
 
 /* One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1 */
 typedef struct jam_compress_options {
   uint32_t struct_size;           /* sizeof(jam_compress_options) */
-  int32_t reserved;               /* 0 */
+  int32_t resume;                 /* 1: go on with the stage that stopped early, of which all but the limits is kept; default 0 */
   double growth_rate;             /* G > 0, default 1e-2 */
   double pressure;                /* target reduced pressure, > 1, default 500 */
   double packing_fraction;        /* target, > 0, default infinity */
-  double collisions_per_particle; /* limit, > 0, default infinity */
-  double wall_time;               /* limit in seconds, > 0, default infinity */
+  double collisions_per_particle; /* limit since the stage began, > 0, default infinity */
+  double wall_time;               /* limit in seconds of this call, > 0, default infinity */
+  double time;                    /* limit of simulated time since the stage began, > 0, default infinity */
+  double growth_rate_end;         /* quasi-static: the rate falls as a power of p to this one at the target pressure; in
+                                   * [0, growth_rate], default 0: constant */
+  int32_t growth_law;             /* jam_growth_law, default DIAMETER */
+  int32_t reserved;               /* 0 */
 } jam_compress_options;
 
 /* What MD did. @since 0.1 */
@@ -311,6 +336,7 @@ typedef struct jam_md_report {
   double energy_drift;          /* jam_run: |K_end/K_start - 1| */
   double max_overlap;           /* largest -h seen at the end and at list updates, >= 0 */
   double seconds;               /* wall time */
+  double growth_rate;           /* d<sigma>/dt over sqrt(kT/m) at the end */
 } jam_md_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -319,7 +345,10 @@ JAM_API jam_status jam_run_options_init(jam_run_options *o, size_t size);
 JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t size);
 
 /* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
- * drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL.
+ * drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
+ * JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
+ * or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
+ * none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
  * Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
  * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
  * JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
@@ -328,16 +357,69 @@ JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_rep
  * that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
  * 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
  * Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
- * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1 */
+ * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
+ * with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
+ * alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
-/* Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
- * a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+/* Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
+ * or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
+ * goes on from it makes the same bits as one that never stopped there. Threads: const.
  * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
 /* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
  * JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
+
+/* What jam_observe records. @since 0.1 */
+typedef struct jam_observe_options {
+  uint32_t struct_size;   /* sizeof(jam_observe_options) */
+  int32_t collisions;     /* 1: collisions of each sphere, and collisions and momentum of each pair; default 0 */
+  int32_t gap_bins;       /* bins of the gap histogram, 0 (default: none) or >= 2 */
+  int32_t r_bins;         /* bins of g(r), default 0: none */
+  double sample_every;    /* collisions per particle between samples of the series, gaps and g(r), > 0, default 10 */
+  double gap_min;         /* the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios */
+  double gap_max;         /* up to here, in (gap_min, 10], default 1 */
+  double r_max;           /* of g(r), mean diameters, > 0, default 4 */
+  double snapshot_every;  /* collisions per particle before the first snapshot; 0, the default: none */
+  double snapshot_factor; /* each interval between snapshots is so many times the one before, >= 1, default 1 */
+} jam_observe_options;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
+/* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
+ * Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
+ * present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
+ * Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
+/* Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
+JAM_API jam_status jam_observe_stop(jam_system *sys);
+/* Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
+ * its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
+ * length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions,
+                                       size_t collisions_len, double *fraction, size_t fraction_len, double *pressure,
+                                       size_t pressure_len, double *error, size_t error_len, double *msd, size_t msd_len,
+                                       size_t *needed);
+/* Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
+ * 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
+                                        double *displacement, size_t displacement_len, size_t *needed);
+/* Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+ * sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
+ * be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
+                                      size_t collisions_len, double *momentum, size_t momentum_len, double *time,
+                                      size_t *needed);
+/* Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
+ * h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
+ * 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
+                                     size_t density_len, double *error, size_t error_len, size_t *needed);
+/* g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+ * Errors: as jam_observed_series. @since 0.1 */
+JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
+                                            size_t *needed);
 
 /* Equations of state p(phi) in closed form. @since 0.1 */
 typedef enum jam_eos_form {

@@ -1,4 +1,5 @@
 // Header section "the system": create, copy, destroy, info, views, setters; progress, log, cancel.
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -8,12 +9,25 @@
 
 using namespace jam;
 
+void jam_system::note_diameters() noexcept {
+  packing_fraction = jam::packing_fraction(packing);
+  diameter_mean = jam::diameter_mean(packing);
+  const double first = packing.diameter[0];
+  monodisperse = std::all_of(packing.diameter.begin(), packing.diameter.end(), [first](double s) { return s == first; });
+}
+
 void jam_system::commit(const Packing &result) noexcept {
+  show(result);
+  paused.reset();
+}
+
+void jam_system::show(const Packing &result) noexcept {
   std::copy(result.position.begin(), result.position.end(), packing.position.begin());
   std::copy(result.diameter.begin(), result.diameter.end(), packing.diameter.begin());
   std::copy(result.velocity.begin(), result.velocity.end(), packing.velocity.begin());
   packing.pressure = result.pressure;
   packing.has_velocity = result.has_velocity;
+  note_diameters();
 }
 
 namespace {
@@ -40,6 +54,7 @@ jam_status jam_create(const jam_create_options *o, const double *positions, size
     take_options(o, full);
     auto sys = std::make_unique<jam_system>();
     sys->packing = make_packing(full, positions, positions_len, diameters, diameters_len);
+    sys->note_diameters();
     *out = sys.release();
     return JAM_OK;
   });
@@ -56,6 +71,8 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->has_report = src->has_report;
     sys->history = src->history;
     sys->has_history = src->has_history;
+    sys->note_diameters();
+    if (src->paused) sys->paused = read_stage(sys->packing, write_stage(*src->paused));
     *out = sys.release();
     return JAM_OK;
   });
@@ -73,13 +90,13 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
     full.n = static_cast<int64_t>(p.n());
     full.seed = p.seed;
     full.box = p.box;
-    full.packing_fraction = packing_fraction(p);
-    full.diameter_mean = diameter_mean(p);
+    full.packing_fraction = sys->packing_fraction;
+    full.diameter_mean = sys->diameter_mean;
     full.pressure = p.pressure;
     full.model = p.model;
-    full.monodisperse = 1;
-    for (double s : p.diameter)
-      if (s != p.diameter[0]) full.monodisperse = 0;
+    full.monodisperse = sys->monodisperse;
+    full.masses = p.masses;
+    full.paused = !sys->paused ? 0 : growing(*sys->paused) ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN;
     give_struct(full, info);
     return JAM_OK;
   });
@@ -111,6 +128,7 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
     check_array_in(velocities, velocities_len, "velocities");
     std::copy(velocities, velocities + velocities_len, v.begin());
     sys->packing.has_velocity = true;
+    sys->paused.reset();
     return JAM_OK;
   });
 }

@@ -47,6 +47,7 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_system **
     limit_diameters(full, file);
     auto sys = std::make_unique<jam_system>();
     sys->packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size());
+    sys->note_diameters();
     *out = sys.release();
     return JAM_OK;
   });

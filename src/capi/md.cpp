@@ -1,27 +1,75 @@
-// Header section "molecular dynamics".
+// Header section "molecular dynamics": running, checkpoints, closed forms.
 #include <memory>
 #include <utility>
 
 #include "capi/guard.hpp"
 #include "core/create.hpp"
 #include "edmd/glass.hpp"
-#include "edmd/md.hpp"
 #include "io/checkpoint.hpp"
 
 using namespace jam;
 
 namespace {
-// Runs `work` on a copy of the packing; the handle changes only when it does not throw.
-template <class F>
-jam_status run_md(jam_system *sys, jam_md_report *report, F &&work) {
-  Packing p = sys->packing;
-  jam_md_report full{};
-  const jam_status status = work(p, full);
-  sys->commit(p);
+
+// While a stage runs, callbacks may look at it: jam_checkpoint_write takes it as it is between two events. Snapshots show in
+// the views; should the call fail later, the handle gets its state back.
+class Live {
+ public:
+  Live(jam_system *sys, const Stage *stage, bool shows) : sys_(sys) {
+    if (shows) before_ = std::make_unique<Packing>(sys->packing);
+    sys->live = stage;
+  }
+  ~Live() {
+    sys_->live = nullptr;
+    if (before_) sys_->show(*before_);
+  }
+  Live(const Live &) = delete;
+  Live &operator=(const Live &) = delete;
+
+ private:
+  jam_system *sys_;
+  std::unique_ptr<Packing> before_;
+};
+
+// Runs a stage; the handle changes only when nothing is thrown. A stage that was stopped early stays with the handle.
+jam_status run_md(jam_system *sys, StagePtr stage, const MdStage &limits, jam_md_report &report) {
+  MdListeners listeners;
+  listeners.monitor = &sys->monitor;
+  if (sys->observing) listeners.observer = sys->observer.get();
+  const bool shows = listeners.observer && listeners.observer->has_snapshots();
+  if (shows) listeners.show = [sys](const Packing &p) { sys->show(p); };
+  jam_status status = JAM_OK;
+  {
+    const Live live(sys, stage.get(), shows);
+    status = run(*stage, limits, listeners, report);
+  }
+  sys->commit(packing_of(*stage));
   sys->drop_results();
-  give_struct(full, report);
+  if (status == JAM_CANCELLED || status == JAM_LIMIT) sys->paused = std::move(stage);
   return status;
 }
+
+// The stage that waits on the handle, or one that begins.
+StagePtr take_stage(jam_system *sys, bool resume, const MdStage &stage) {
+  if (!resume) return begin_stage(sys->packing, stage);
+  if (!sys->paused) fail(JAM_E_STATE, "resume is 1 but no stage was stopped early on this handle");
+  if (growing(*sys->paused) != (stage.growth > 0.0))
+    fail(JAM_E_STATE, "the stage that was stopped early is one of %s", stage.growth > 0.0 ? "jam_run" : "jam_compress");
+  return std::move(sys->paused);  // a failure from here on loses the stage, not the packing
+}
+
+template <class Options, class Check>
+jam_status verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_md_report *report) {
+  check_out_struct(report, "report");
+  take_options(o, full);
+  check(full);
+  const MdStage stage = stage_of(full);
+  jam_md_report made{};
+  const jam_status status = run_md(sys, take_stage(sys, full.resume == 1, stage), stage, made);
+  give_struct(made, report);
+  return status;
+}
+
 }  // namespace
 
 extern "C" {
@@ -30,32 +78,33 @@ jam_status jam_run_options_init(jam_run_options *o, size_t size) { return init_o
 jam_status jam_compress_options_init(jam_compress_options *o, size_t size) { return init_options(o, size, default_compress_options()); }
 
 jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report) {
-  return guard_verb(sys, [&]() -> jam_status {
-    check_out_struct(report, "report");
-    jam_run_options full = default_run_options();
-    take_options(o, full);
-    check_run_options(full);
-    const MdStage stage{0.0, 0.0, 0.0, full.collisions_per_particle, full.wall_time};
-    return run_md(sys, report, [&](Packing &p, jam_md_report &r) { return run_stage(p, stage, sys->monitor, r); });
-  });
+  return guard_verb(sys, [&] { return verb(sys, o, default_run_options(), check_run_options, report); });
 }
 
 jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report) {
   return guard_verb(sys, [&]() -> jam_status {
+    if (o) return verb(sys, o, default_compress_options(), check_compress_options, report);
     check_out_struct(report, "report");
-    if (!o) return run_md(sys, report, [&](Packing &p, jam_md_report &r) { return run_default_protocol(p, sys->monitor, r); });
-    jam_compress_options full = default_compress_options();
-    take_options(o, full);
-    check_compress_options(full);
-    const MdStage stage{full.growth_rate, full.pressure, full.packing_fraction, full.collisions_per_particle, full.wall_time};
-    return run_md(sys, report, [&](Packing &p, jam_md_report &r) { return run_stage(p, stage, sys->monitor, r); });
+    const Packing before = sys->packing;
+    jam_md_report made{};
+    jam_status status = JAM_OK;
+    try {
+      for (const MdStage &stage : default_protocol)
+        if (status == JAM_OK) status = run_md(sys, begin_stage(sys->packing, stage), stage, made);
+    } catch (...) {
+      sys->commit(before);  // one call, one change
+      throw;
+    }
+    give_struct(made, report);
+    return status;
   });
 }
 
 jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
-    write_checkpoint(sys->packing, path);
+    if (sys->live) write_checkpoint(current(*sys->live), write_stage(*sys->live), path);
+    else write_checkpoint(sys->packing, sys->paused ? write_stage(*sys->paused) : std::string(), path);
     return JAM_OK;
   });
 }
@@ -65,8 +114,11 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     need(path, "path");
     need(out, "out");
     auto sys = std::make_unique<jam_system>();
-    sys->packing = read_checkpoint(path);
+    std::string stage;
+    sys->packing = read_checkpoint(path, stage);
     settle_overlaps(sys->packing, JAM_OVERLAP_REFUSE);
+    sys->note_diameters();
+    if (!stage.empty()) sys->paused = read_stage(sys->packing, std::move(stage));
     *out = sys.release();
     return JAM_OK;
   });

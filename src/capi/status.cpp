@@ -60,6 +60,7 @@ const char *jam_stop_string(int32_t reason) {
     case JAM_STOP_LP_LIMIT: return "lp_limit";
     case JAM_STOP_SOLVER: return "solver";
     case JAM_STOP_UNJAMMED: return "unjammed";
+    case JAM_STOP_TIME: return "time";
     default: return "unknown";
   }
 }

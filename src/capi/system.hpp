@@ -1,10 +1,12 @@
 // The opaque handle: in C++ the C name is the class, so nothing is cast.
 #pragma once
 #include <atomic>
+#include <memory>
 #include "core/contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
+#include "edmd/md.hpp"
 #include "jam/jam.h"
 
 struct jam_system {
@@ -17,8 +19,18 @@ struct jam_system {
   const jam::CrunchStep *step = nullptr;  // of the crunch that runs
   jam::Monitor monitor;
   std::atomic<bool> busy{false};
+  jam::StagePtr paused;                     // a stage of molecular dynamics that was stopped early, to go on with
+  const jam::Stage *live = nullptr;         // the one that runs now, while callbacks are called
+  std::unique_ptr<jam::Observer> observer;  // what was observed
+  bool observing = false;                   // and still is
+  double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: note_diameters()
+  bool monodisperse = true;
 
-  // Moves a verb's result into the view buffers without changing their addresses. Never throws.
+  // Copies positions, diameters and velocities into the view buffers, whose addresses stay. Never throws.
+  void show(const jam::Packing &state) noexcept;
+  // What jam_info tells of the diameters, once for each change of them.
+  void note_diameters() noexcept;
+  // The same as show, for a verb's result: a stage that waits has lost its packing.
   void commit(const jam::Packing &result) noexcept;
   void drop_results() noexcept { has_report = has_history = false; }
 };

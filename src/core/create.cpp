@@ -19,6 +19,7 @@ void check_options(const jam_create_options &o) {
   if (o.overlap != JAM_OVERLAP_REFUSE && o.overlap != JAM_OVERLAP_SHRINK)
     fail(JAM_E_ARGUMENT, "overlap is %d, not a jam_overlap_policy", o.overlap);
   if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK) fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
+  if (o.masses != JAM_MASSES_EQUAL && o.masses != JAM_MASSES_VOLUME) fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
   if (o.model == JAM_MODEL_MK && !(o.mk_zeta >= 0.0)) fail(JAM_E_ARGUMENT, "mk_zeta is %g, it must be >= 0", o.mk_zeta);
 }
 
@@ -200,6 +201,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   p.seed = o.seed;
   p.model = o.model;
   p.mk_zeta = o.mk_zeta;
+  p.masses = o.masses;
   p.diameter = take_diameters(n, diameters, diameters_len);
   if (positions_len) {
     p.position.resize(n * o.dim);

@@ -23,6 +23,15 @@ double diameter_mean(const Packing &p) {
 
 double diameter_max(const Packing &p) { return *std::max_element(p.diameter.begin(), p.diameter.end()); }
 
+std::vector<double> sphere_masses(const Packing &p) {
+  std::vector<double> mass;
+  if (p.masses != JAM_MASSES_VOLUME) return mass;
+  double sum = 0.0;
+  for (double s : p.diameter) mass.push_back(std::pow(s / p.box, p.dim)), sum += mass.back();
+  for (double &m : mass) m *= static_cast<double>(p.n()) / sum;
+  return mass;
+}
+
 double wrap(double x, double box) {
   if (x >= 0.0 && x < box) return x;
   x -= box * std::floor(x / box);

@@ -19,6 +19,7 @@ struct Packing {
   double box = 1.0;
   int64_t seed = 1;
   int32_t model = JAM_MODEL_EUCLID;
+  int32_t masses = JAM_MASSES_EQUAL;
   double mk_zeta = std::numeric_limits<double>::infinity();
   std::vector<MkRedrawn> mk_redrawn;  // sorted; all other pairs have attempt 0 (core/mk.hpp)
   std::vector<double> position;  // (n, dim), in [0, box)
@@ -35,6 +36,8 @@ double unit_sphere_volume(int dim);
 double packing_fraction(const Packing &p);
 double diameter_mean(const Packing &p);
 double diameter_max(const Packing &p);
+// Mass of each sphere, mean 1; empty when all are equal.
+std::vector<double> sphere_masses(const Packing &p);
 // Puts x into [0, box), also for values like -1e-20 that would round up to box.
 double wrap(double x, double box);
 

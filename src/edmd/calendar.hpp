@@ -1,10 +1,13 @@
 // The event calendar: one event per sphere, sorted into buckets of equal time width; only the bucket that is being worked
 // on is a heap. Insert, move and pop cost O(1) as long as the width suits the rate of events (Paul, J. Comput. Phys. 221,
-// 615 (2007)); with a bad width the heap still gives O(log n).
+// 615 (2007)); with a bad width the heap still gives O(log n). Of events at one time the sphere with the lower number comes
+// first, so that the order follows from the times alone and need not be kept in a checkpoint.
 #pragma once
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "core/archive.hpp"
 
 namespace jam {
 
@@ -56,8 +59,28 @@ class Calendar {
   double horizon() const { return inverse_ > 0.0 ? start_ + static_cast<double>(last_bucket()) / inverse_ : never; }
   size_t buckets() const { return heads_.size() - 1; }
 
+  void archive(Archive &a) {
+    const size_t n = event_.size();
+    a(event_);
+    a(start_);
+    a(inverse_);
+    a(current_);
+    if (!a.reading()) return;
+    Archive::check(event_.size() == n && current_ >= 0 && current_ <= last_bucket() && inverse_ >= 0.0 && inverse_ < never);
+    for (int32_t &h : heads_) h = -1;
+    heap_.clear();
+    for (int32_t i = 0; i < static_cast<int32_t>(n); ++i) {
+      Archive::check(event_[i].partner >= -1 && event_[i].partner < static_cast<int32_t>(n) && (event_[i].time - start_) * inverse_ > -1e6);
+      event_[i].where = Event::nowhere;
+      insert(i);
+    }
+  }
+
  private:
   static constexpr size_t buckets_per_sphere = 6;
+  bool before(int32_t i, int32_t j) const {
+    return event_[i].time < event_[j].time || (event_[i].time == event_[j].time && i < j);
+  }
   // The last head collects everything beyond the horizon.
   int32_t last_bucket() const { return static_cast<int32_t>(heads_.size()) - 1; }
 
@@ -93,7 +116,7 @@ class Calendar {
   void sift_up(size_t slot, int32_t i) {
     while (slot > 0) {
       const size_t parent = (slot - 1) / 2;
-      if (!(event_[i].time < event_[heap_[parent]].time)) break;
+      if (!before(i, heap_[parent])) break;
       place(slot, heap_[parent]);
       slot = parent;
     }
@@ -101,8 +124,8 @@ class Calendar {
   }
   void sift_down(size_t slot, int32_t i) {
     for (size_t child; (child = 2 * slot + 1) < heap_.size(); slot = child) {
-      if (child + 1 < heap_.size() && event_[heap_[child + 1]].time < event_[heap_[child]].time) ++child;
-      if (!(event_[heap_[child]].time < event_[i].time)) break;
+      if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
+      if (!before(heap_[child], i)) break;
       place(slot, heap_[child]);
     }
     place(slot, i);
@@ -111,7 +134,7 @@ class Calendar {
     const int32_t moved = heap_.back();
     heap_.pop_back();
     if (slot == heap_.size()) return;
-    if (slot > 0 && event_[moved].time < event_[heap_[(slot - 1) / 2]].time) sift_up(slot, moved);
+    if (slot > 0 && before(moved, heap_[(slot - 1) / 2])) sift_up(slot, moved);
     else sift_down(slot, moved);
   }
 

@@ -20,15 +20,17 @@
 #include <memory>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "core/mk.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "edmd/calendar.hpp"
+#include "edmd/observer.hpp"
 
 namespace jam {
 
 // Why Engine::advance came back.
-enum class Halt { window, packing_fraction, box_full, stalled, cancelled, wall_time, needs_images };
+enum class Halt { window, packing_fraction, time, box_full, stalled, cancelled, wall_time, needs_images };
 
 // Sums since the last reset_sums; all in box units and masses of 1.
 struct MdSums {
@@ -46,35 +48,56 @@ class EngineBase {
   virtual Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) = 0;
   // Moves all spheres to the present and scales velocities to kT/m = 1.
   virtual void thermalise() = 0;
-  virtual void write_state(Packing &p) = 0;  // positions, velocities, diameters (when growing) of one moment
+  // Positions, velocities, diameters (when growing) of this moment; the run is not disturbed.
+  virtual void write_state(Packing &p) const = 0;
+  virtual void set_growth(double growth) = 0;
+  virtual void set_time_limit(double left) = 0;  // Halt::time after so much more time
+  virtual double growth() const = 0;             // d<sigma>/dt now
+  virtual double elapsed() const = 0;            // since construction
+  virtual bool with_images() const = 0;
+  // From now on (or, with nullptr, no more) collisions and places of lists are told to it. Not part of the archive.
+  virtual void observe(Observer *observer) = 0;
+  virtual void displacements(std::vector<double> &out) const = 0;  // user's order, unit box, since observe()
+  virtual void archive(Archive &a) = 0;          // everything: the run goes on to the same bits
   virtual double twice_kinetic() const = 0;
   virtual double packing_fraction() const = 0;
   virtual double mean_diameter() const = 0;
-  virtual double worst_overlap() = 0;  // largest -h over all listed pairs, now
+  virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, now
   MdSums sums;
   double max_overlap = 0.0;
 };
 
 struct EngineOptions {
-  double growth = 0.0;                // G
-  double target_fraction = never;     // stop exactly there
+  double growth = 0.0;             // G
+  double target_fraction = never;  // stop exactly there
+  int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
 };
 
 // Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
 // Mari-Kurchan model.
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o);
+// One that goes on where another was archived; p is the packing that it was made from.
+std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from);
 
 template <int D, bool Shift>
 class Engine final : public EngineBase {
  public:
-  Engine(const Packing &p, const EngineOptions &o);
+  Engine(const Packing &p, const EngineOptions &o, Archive *from = nullptr);
   Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) override;
   void thermalise() override;
-  void write_state(Packing &p) override;
+  void write_state(Packing &p) const override;
+  void set_growth(double growth) override;
+  void set_time_limit(double left) override { time_end_ = now_ + left; }
+  double growth() const override { return rate_ * 2.0 * mean_radius() * unit; }
+  double elapsed() const override { return sums.time + now_; }
+  bool with_images() const override { return Shift; }
+  void observe(Observer *observer) override;
+  void displacements(std::vector<double> &out) const override;
+  void archive(Archive &a) override;
   double twice_kinetic() const override { return twice_kinetic_; }
   double packing_fraction() const override;
   double mean_diameter() const override { return 2.0 * mean_radius() * unit * (1.0 + rate_ * now_); }
-  double worst_overlap() override;
+  double worst_overlap() const override;
 
   // Whether lists without image shifts can hold for spheres of this diameter, unit box.
   static bool fits(double sigma_max) { return sigma_max * (1.0 + 2.0 * smallest_shell + smallest_margin) < 0.4999; }
@@ -117,7 +140,13 @@ class Engine final : public EngineBase {
   void refresh(double velocity_factor, bool lists);
   bool tune_shell();
   void take_kinetic();
+  void note_path(int32_t i) const;
+  void start_rate(double rate);
   double mean_radius() const;
+
+  // -- archive, engine_archive.hpp
+  void check_archive() const;
+  void check_cells() const;
 
   // -- lists, engine_lists.hpp
   void choose_cells();
@@ -158,8 +187,12 @@ class Engine final : public EngineBase {
 
   double now_ = 0.0;        // relative to the origin
   double rate_ = 0.0;       // growth of radii: R(t) = R (1 + rate t)
+  double relative_rate_ = 0.0;  // rate_ at each step of a constant relative rate; 0: the diameters grow linearly
   std::vector<double> left_over_;  // of radii, less than one unit
-  double lists_end_ = never, fraction_time_ = never, full_time_ = never;  // when something special happens
+  std::vector<double> mass_;       // empty: all 1
+  Observer *observer_ = nullptr;
+  // When something special happens.
+  double lists_end_ = never, fraction_time_ = never, full_time_ = never, time_end_ = never, step_end_ = never;
   double target_radius_ = 0.0;  // of sphere 0 at the target packing fraction
   double kinetic_time_ = 0.0, twice_kinetic_ = 0.0;
   bool wants_images_ = false;

@@ -125,18 +125,30 @@ void Engine<D, Shift>::collide(int32_t i, int32_t k) {
   double push = growth - vn;
   if (push <= 0.0) return;  // a grazing pair that rounding has let go
   push = std::max(push, 1e-14 * scale);  // never so little that the sum is lost: the pair would collide for ever
-  for (int c = 0; c < D; ++c) {
-    const double dv = push * r[c] * inverse;
-    a.v[c] += dv;
-    b.v[c] -= dv;
+  double twice_reduced = 1.0;  // mass of the pair
+  if (mass_.empty()) {
+    for (int c = 0; c < D; ++c) {
+      const double dv = push * r[c] * inverse;
+      a.v[c] += dv;
+      b.v[c] -= dv;
+    }
+  } else {
+    const double share_a = 2.0 * mass_[k] / (mass_[i] + mass_[k]), share_b = 2.0 - share_a;
+    twice_reduced = mass_[i] * share_a;
+    for (int c = 0; c < D; ++c) {
+      const double dv = push * r[c] * inverse;
+      a.v[c] += share_a * dv;
+      b.v[c] -= share_b * dv;
+    }
   }
   ++calendar_[i].count;
   ++calendar_[k].count;
-  sums.virial -= rv * unit * unit;
+  sums.virial -= twice_reduced * rv * unit * unit;
   sums.action += twice_kinetic_ * (now_ - kinetic_time_);
   kinetic_time_ = now_;
-  twice_kinetic_ += 2.0 * push * growth * unit * unit;
+  twice_kinetic_ += twice_reduced * 2.0 * push * growth * unit * unit;
   ++sums.collisions;
+  if (observer_) observer_->collision(user_[i], user_[k], -twice_reduced * vn * unit);
 }
 
 template <int D, bool Shift>
@@ -193,7 +205,7 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
     ++sums.events;
     const int32_t i = calendar_.top();
     const double t = i < 0 ? never : calendar_[i].time;
-    const double special = std::min(lists_end_, std::min(fraction_time_, full_time_));
+    const double special = std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
     // Also after many events: when they come faster and faster, times must stay small to be sharp.
     if ((i < 0 && !(special < calendar_.horizon())) || sums.events > rebase_at_) {
       if (calendar_.horizon() == never) return Halt::stalled;  // nothing will ever happen
@@ -206,10 +218,15 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
       continue;
     }
     if (special == never) return Halt::stalled;
+    if (special == time_end_) {  // a pause must leave no trace: now_ stays at the last event
+      --sums.events;
+      return Halt::time;
+    }
     now_ = std::max(now_, special);
     if (special == fraction_time_) return Halt::packing_fraction;
     if (special == full_time_) return Halt::box_full;
-    refresh(1.0, true);
+    if (special == step_end_) set_growth(relative_rate_ * 2.0 * mean_radius() * unit * (1.0 + rate_ * now_));
+    else refresh(1.0, true);
     if (wants_images_) return Halt::needs_images;
   }
   return Halt::window;

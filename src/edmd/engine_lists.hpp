@@ -60,6 +60,7 @@ void Engine<D, Shift>::build_lists() {
   rho_max_ = 0.0;
   for (int32_t i = 0; i < n_; ++i) {
     Body &b = body_[i];
+    if (observer_) note_path(i);
     for (int c = 0; c < D; ++c) {
       if (Shift) b.x[c] &= (uint64_t{1} << 61) - 1;
       centre_[i][c] = b.x[c];
@@ -224,6 +225,7 @@ template <int D, bool Shift>
 void Engine<D, Shift>::recentre(int32_t i) {
   for (int32_t e = 0; e < neighbours_[i]; ++e) forget(i, neighbour_[static_cast<size_t>(i) * capacity_ + e]);
   neighbours_[i] = 0;
+  if (observer_) note_path(i);
   Body &b = body_[i];
   Place place;
   for (int c = 0; c < D; ++c) {

@@ -22,9 +22,6 @@ void Engine<D, Shift>::take_redrawn() {
   // Sorted by (i, j): for each sphere the partners below it come first, in order, then those above.
   for (const MkRedrawn &r : quenched_->redrawn()) redrawn_[at[r.j]++] = {r.i, r.attempt};
   for (const MkRedrawn &r : quenched_->redrawn()) redrawn_[at[r.i]++] = {r.j, r.attempt};
-  outer_.resize(n);
-  outer_centre_.resize(n);
-  outer_reach_.assign(n, 0.0);
 }
 
 template <int D, bool Shift>
@@ -68,6 +65,9 @@ void Engine<D, Shift>::build_outer() {
   for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
   // Wide enough that a caged sphere never leaves it; the allowance for growth and for wider shells is a few per cent of sigma.
   outer_safe_ = 0.5 * largest;
+  outer_.resize(body_.size());
+  outer_centre_.resize(body_.size());
+  outer_reach_.resize(body_.size());
   for (int32_t i = 0; i < n_; ++i) {
     outer_centre_[i] = centre_[i];
     outer_reach_[i] = 1.1 * rho_[i];
@@ -85,6 +85,7 @@ void Engine<D, Shift>::build_outer() {
 // After the lists' places and reaches have changed: outer lists that no longer hold them are made anew.
 template <int D, bool Shift>
 void Engine<D, Shift>::check_outer() {
+  if (outer_.empty()) return build_outer();
   for (int32_t i = 0; i < n_; ++i)
     if (rho_[i] > outer_reach_[i]) return build_outer();
   for (int32_t i = 0; i < n_; ++i)

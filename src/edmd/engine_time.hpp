@@ -12,13 +12,17 @@ namespace jam {
 std::vector<int32_t> curve_order(const Packing &p);
 
 template <int D, bool Shift>
-Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o)
+Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from)
     : n_(static_cast<int32_t>(p.n())), options_(o), box_(p.box), body_(p.n()), calendar_(p.n()), user_(curve_order(p)),
-      left_over_(p.n(), 0.0), centre_(p.n()), rho_(p.n()), safe_(p.n()), neighbours_(p.n(), 0) {
+      left_over_(p.n(), 0.0), mass_(sphere_masses(p)), centre_(p.n()), rho_(p.n()), safe_(p.n()), neighbours_(p.n(), 0) {
   const bool mk = Shift && p.model == JAM_MODEL_MK;
   if (mk) {
     quenched_ = std::make_unique<MkShifts>(p);
     take_redrawn();
+  }
+  if (from) {
+    archive(*from);
+    return;
   }
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
@@ -30,10 +34,15 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o)
     b.time = 0.0;
     b.radius = std::llrint(0.5 * p.diameter[u] / p.box * scale);
   }
+  if (!mass_.empty()) {
+    std::vector<double> sorted(p.n());
+    for (int32_t i = 0; i < n_; ++i) sorted[i] = mass_[user_[i]];
+    mass_.swap(sorted);
+  }
   const double fraction = packing_fraction();
   shell_ = mk ? 0.2 : std::min(0.3, std::max(0.06, 0.4 - 0.6 * fraction));
   if (o.growth > 0.0) {
-    rate_ = o.growth * scale / (2.0 * mean_radius());
+    start_rate(o.growth * scale / (2.0 * mean_radius()));
     double largest = 0.0;
     for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
     full_time_ = (0.5 * scale / largest - 1.0) / rate_;  // a sphere touches its own image
@@ -43,6 +52,28 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o)
     }
   }
   refresh(1.0, true);
+}
+
+// At an origin of time.
+template <int D, bool Shift>
+void Engine<D, Shift>::start_rate(double rate) {
+  rate_ = rate;
+  if (!options_.relative) return;
+  relative_rate_ = rate;
+  step_end_ = 0.005 / rate;  // linear pieces of half a per cent: the mean relative rate is a quarter of a per cent low
+}
+
+// Lists stay, as their ends move with the rate; all events are predicted anew.
+template <int D, bool Shift>
+void Engine<D, Shift>::set_growth(double growth) {
+  for (Body &b : body_) move(b);
+  shift_origin();
+  const double rate = growth / (2.0 * mean_radius() * unit), slower = rate_ / rate;
+  lists_end_ *= slower;
+  full_time_ *= slower;
+  if (fraction_time_ < never) fraction_time_ *= slower;
+  start_rate(rate);
+  refresh(1.0, false);
 }
 
 template <int D, bool Shift>
@@ -82,6 +113,8 @@ void Engine<D, Shift>::shift_origin() {
   kinetic_time_ = 0.0;
   lists_end_ -= t;
   full_time_ -= t;
+  time_end_ -= t;
+  step_end_ -= t;
   rate_ /= 1.0 + factor;
   // Anew from the radii, as differences of times would pile up errors.
   if (target_radius_ > 0.0) {
@@ -141,8 +174,10 @@ void Engine<D, Shift>::refresh(double velocity_factor, bool lists) {
 template <int D, bool Shift>
 void Engine<D, Shift>::take_kinetic() {
   double sum = 0.0;
-  for (const Body &b : body_)
-    for (int c = 0; c < D; ++c) sum += (b.v[c] * unit) * (b.v[c] * unit);
+  for (int32_t i = 0; i < n_; ++i) {
+    const double mass = mass_.empty() ? 1.0 : mass_[i];
+    for (int c = 0; c < D; ++c) sum += mass * (body_[i].v[c] * unit) * (body_[i].v[c] * unit);
+  }
   twice_kinetic_ = sum;
 }
 
@@ -175,7 +210,7 @@ void Engine<D, Shift>::thermalise() {
 }
 
 template <int D, bool Shift>
-double Engine<D, Shift>::worst_overlap() {
+double Engine<D, Shift>::worst_overlap() const {
   double worst = 0.0;
   for (int32_t i = 0; i < n_; ++i) {
     for (int32_t e = 0; e < neighbours_[i]; ++e) {
@@ -195,18 +230,50 @@ double Engine<D, Shift>::worst_overlap() {
 }
 
 template <int D, bool Shift>
-void Engine<D, Shift>::write_state(Packing &p) {
-  for (Body &b : body_) move(b);
-  shift_origin();
+void Engine<D, Shift>::write_state(Packing &p) const {
+  const double factor = rate_ * now_;
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
     const Body &b = body_[i];
     for (int c = 0; c < D; ++c) {
-      const uint64_t x = Shift ? b.x[c] & ((uint64_t{1} << 61) - 1) : b.x[c];
+      uint64_t x = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now_ - b.time)));
+      if (Shift) x &= (uint64_t{1} << 61) - 1;
       p.position[u * D + c] = wrap(static_cast<double>(x) * unit * box_, box_);
       p.velocity[u * D + c] = b.v[c] * unit;
     }
-    if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(b.radius) * box_;
+    const int64_t radius = b.radius + std::llrint(static_cast<double>(b.radius) * factor + left_over_[i]);
+    if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(radius) * box_;
+  }
+}
+
+// Tells the observer the way of sphere i since its list was made, before that place moves; no way is half a box long.
+template <int D, bool Shift>
+void Engine<D, Shift>::note_path(int32_t i) const {
+  double *travel = observer_->travel(user_[i]);
+  const Body &b = body_[i];
+  for (int c = 0; c < D; ++c) travel[c] += (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::observe(Observer *observer) {
+  if (observer_)
+    for (int32_t i = 0; i < n_; ++i) note_path(i);
+  observer_ = observer;
+  if (!observer) return;
+  for (int32_t i = 0; i < n_; ++i) {
+    double *travel = observer->travel(user_[i]);
+    const Body &b = body_[i];
+    for (int c = 0; c < D; ++c) travel[c] -= (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+  }
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::displacements(std::vector<double> &out) const {
+  for (int32_t i = 0; i < n_; ++i) {
+    const size_t u = static_cast<size_t>(user_[i]);
+    const Body &b = body_[i];
+    for (int c = 0; c < D; ++c)
+      out[u * D + c] = observer_->travel(user_[i])[c] + (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
   }
 }
 

@@ -13,12 +13,12 @@
 namespace jam {
 namespace {
 
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '1'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '2'};
 
 struct Header {
   char magic[8];
-  int64_t n, seed, redrawn;
-  int32_t dim, model, has_velocity, reserved;
+  int64_t n, seed, redrawn, stage;
+  int32_t dim, model, has_velocity, masses;
   double box, mk_zeta, pressure;
 };
 
@@ -55,13 +55,15 @@ std::string slurp(const char *path) {
 
 }  // namespace
 
-void write_checkpoint(const Packing &p, const char *path) {
+void write_checkpoint(const Packing &p, const std::string &stage, const char *path) {
   OutputFile file(path);
   Header h{};
   std::memcpy(h.magic, magic, sizeof magic);
   h.n = static_cast<int64_t>(p.n());
   h.seed = p.seed;
   h.redrawn = static_cast<int64_t>(p.mk_redrawn.size());
+  h.stage = static_cast<int64_t>(stage.size());
+  h.masses = p.masses;
   h.dim = p.dim;
   h.model = p.model;
   h.has_velocity = p.has_velocity;
@@ -74,12 +76,13 @@ void write_checkpoint(const Packing &p, const char *path) {
   put(text, p.diameter);
   put(text, p.velocity);
   put(text, p.mk_redrawn);
+  text += stage;
   const uint64_t sum = checksum(text.data(), text.size());
   text.append(reinterpret_cast<const char *>(&sum), sizeof sum);
   file.commit();
 }
 
-Packing read_checkpoint(const char *path) {
+Packing read_checkpoint(const char *path, std::string &stage) {
   const std::string all = slurp(path);
   Header h{};
   if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0) fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
@@ -88,14 +91,16 @@ Packing read_checkpoint(const char *path) {
   std::memcpy(&sum, all.data() + all.size() - 8, 8);
   if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);
   const size_t room = all.size() - sizeof h - 8;
-  if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 || static_cast<size_t>(h.redrawn) > room ||
-      room != static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) + static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
+  if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 || static_cast<size_t>(h.redrawn) > room || h.stage < 0 ||
+      static_cast<size_t>(h.stage) > room || static_cast<size_t>(h.n) > room ||
+      room - static_cast<size_t>(h.stage) != static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) + static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
     fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(), static_cast<long long>(h.n));
   Packing p;
   p.dim = h.dim;
   p.box = h.box;
   p.seed = h.seed;
   p.model = h.model;
+  p.masses = h.masses;
   p.mk_zeta = h.mk_zeta;
   p.pressure = h.pressure;
   p.has_velocity = h.has_velocity != 0;
@@ -105,10 +110,17 @@ Packing read_checkpoint(const char *path) {
   take(at, p.diameter, n);
   take(at, p.velocity, n * d);
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
-  bool good = h.box > 0.0 && std::isfinite(h.box) && (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) && !(h.mk_zeta < 0.0);
+  stage.assign(at, static_cast<size_t>(h.stage));
+  bool good = h.box > 0.0 && std::isfinite(h.box) && (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
+              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
   for (double x : p.position) good = good && x >= 0.0 && x < h.box;
   for (double s : p.diameter) good = good && s > 0.0 && s <= h.box;
   for (double v : p.velocity) good = good && std::isfinite(v);
+  const MkRedrawn *last = nullptr;
+  for (const MkRedrawn &r : p.mk_redrawn) {
+    good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 && (!last || last->i < r.i || (last->i == r.i && last->j < r.j));
+    last = &r;
+  }
   if (!good) fail(JAM_E_FORMAT, "%s holds values that no packing has", path);
   return p;
 }

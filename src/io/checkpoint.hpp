@@ -1,10 +1,13 @@
 // The whole state of a packing in a binary file.
 #pragma once
+#include <string>
+
 #include "core/packing.hpp"
 
 namespace jam {
 
-void write_checkpoint(const Packing &p, const char *path);
-Packing read_checkpoint(const char *path);
+// stage: bytes of a stage that waits to go on, or nothing.
+void write_checkpoint(const Packing &p, const std::string &stage, const char *path);
+Packing read_checkpoint(const char *path, std::string &stage);
 
 }  // namespace jam

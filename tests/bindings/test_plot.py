@@ -57,7 +57,7 @@ class Pictures(unittest.TestCase):
         edges, values = ax.patches[0].get_data().edges, ax.patches[0].get_data().values
         self.assertAlmostEqual((values * np.diff(edges)).sum(), 1 - 2 / len(modes), 6)  # all but the translations
         self.assertGreater(len(jam.plot.convergence(self.flat).lines), 0)
-        record = lambda phi, p: jam.Progress(2, phi, p, 0.0, 0.0, 0.0, 0.0, 10, 0, 0)  # noqa: E731
+        record = lambda phi, p: jam.Progress(2, phi, p, 0.0, 0.0, 0.0, 0.0, 10, 0, 0, 0)  # noqa: E731
         ax = jam.plot.trace([record(0.3, 5.0), record(0.5, 20.0), record(0.5, float("nan"))])
         self.assertEqual(list(ax.lines[0].get_ydata()), [5.0, 20.0])
 

@@ -90,6 +90,9 @@ SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
     "compare": {"out": lambda m, d: (m // d, d)},
     "gaps": {"pair": lambda m, d: (m, 2)},
     "sphere_structure": {"c": lambda m, d: (m, d)},
+    "observed_spheres": {"displacement": lambda m, d: (m, d)},
+    "observed_pairs": {"pair": lambda m, d: (m, 2)},
+    "observed_gaps": {"edge": lambda m, d: (m + 1 if m else 0,)},
 }
 INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
 

@@ -50,6 +50,7 @@ class StopReason(IntEnum):
     LP_LIMIT = 9  # crunch: max_lps came first
     SOLVER = 10  # crunch: no LP answer passed the checks
     UNJAMMED = 11  # crunch: converged without a rigid network
+    TIME = 12  # MD: its simulated time is over
 
 
 class OverlapPolicy(IntEnum):
@@ -62,6 +63,12 @@ class Model(IntEnum):
     """Pair distance. @since 0.1"""
     EUCLID = 0  # |r_i - r_j|, nearest images
     MK = 1  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts
+
+
+class Masses(IntEnum):
+    """Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1"""
+    EQUAL = 0  # all 1
+    VOLUME = 1  # as the volumes, sigma_i^d
 
 
 class Phase(IntEnum):
@@ -86,6 +93,12 @@ class Format(IntEnum):
     AUTO = 0  # by name: .xyz and .extxyz are XYZ, all else PLAIN
     PLAIN = 1  # line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more column; then a position a line, 17 digits; box side after line 3's value when it is not 1: `<diameter> box <L>`
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
+
+
+class GrowthLaw(IntEnum):
+    """How the spheres grow. @since 0.1"""
+    DIAMETER = 0  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
+    DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a per cent of sigma); d times it is the relative rate of density. The same number at every n
 
 
 class EosForm(IntEnum):
@@ -195,7 +208,9 @@ class Info:
     diameter_mean: mean diameter, unit of box
     pressure: reduced pressure p last measured by MD, NaN before
     model: jam_model
-    monodisperse: 1 when all diameters are equal"""
+    monodisperse: 1 when all diameters are equal
+    masses: jam_masses
+    paused: jam_phase of the MD stage that was stopped early and can be resumed, or 0"""
     dim: int
     n: int
     seed: int
@@ -205,6 +220,8 @@ class Info:
     pressure: float
     model: Model
     monodisperse: int
+    masses: Masses
+    paused: Phase
 
 
 @dataclass(frozen=True, repr=False)
@@ -220,7 +237,8 @@ class Progress:
     fraction: 0..1 where known, else NaN
     collisions: MD: so far in this call
     steps: crunch: LPs so far; analysis: items done
-    factorisations: crunch: so far"""
+    factorisations: crunch: so far
+    snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report"""
     phase: Phase
     packing_fraction: float
     pressure: float
@@ -231,6 +249,7 @@ class Progress:
     collisions: int
     steps: int
     factorisations: int
+    snapshot: int
 
 
 @dataclass(frozen=True, repr=False)
@@ -247,7 +266,8 @@ class MdReport:
     time: simulated, unit box / sqrt(kT/m)
     energy_drift: jam_run: |K_end/K_start - 1|
     max_overlap: largest -h seen at the end and at list updates, >= 0
-    seconds: wall time"""
+    seconds: wall time
+    growth_rate: d<sigma>/dt over sqrt(kT/m) at the end"""
     stop_reason: StopReason
     collisions: int
     events: int
@@ -259,6 +279,7 @@ class MdReport:
     energy_drift: float
     max_overlap: float
     seconds: float
+    growth_rate: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -460,17 +481,35 @@ OPTIONS = {
         "overlap": ("OverlapPolicy", 'jam_overlap_policy for given positions, default REFUSE'),
         "model": ("Model", 'jam_model, default EUCLID'),
         "mk_zeta": ("float", 'MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted'),
+        "masses": ("Masses", 'jam_masses, default EQUAL'),
     },
     "jam_run_options": {
-        "collisions_per_particle": ("float", 'to make, > 0, default 100'),
-        "wall_time": ("float", 'seconds, > 0, default infinity'),
+        "resume": ("int", '1: go on with the run that stopped early; default 0'),
+        "collisions_per_particle": ("float", 'to make since the run began, > 0, default 100'),
+        "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
+        "time": ("float", 'to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity'),
     },
     "jam_compress_options": {
+        "resume": ("int", '1: go on with the stage that stopped early, of which all but the limits is kept; default 0'),
         "growth_rate": ("float", 'G > 0, default 1e-2'),
         "pressure": ("float", 'target reduced pressure, > 1, default 500'),
         "packing_fraction": ("float", 'target, > 0, default infinity'),
-        "collisions_per_particle": ("float", 'limit, > 0, default infinity'),
-        "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
+        "collisions_per_particle": ("float", 'limit since the stage began, > 0, default infinity'),
+        "wall_time": ("float", 'limit in seconds of this call, > 0, default infinity'),
+        "time": ("float", 'limit of simulated time since the stage began, > 0, default infinity'),
+        "growth_rate_end": ("float", 'quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant'),
+        "growth_law": ("GrowthLaw", 'jam_growth_law, default DIAMETER'),
+    },
+    "jam_observe_options": {
+        "collisions": ("int", '1: collisions of each sphere, and collisions and momentum of each pair; default 0'),
+        "gap_bins": ("int", 'bins of the gap histogram, 0 (default: none) or >= 2'),
+        "r_bins": ("int", 'bins of g(r), default 0: none'),
+        "sample_every": ("float", 'collisions per particle between samples of the series, gaps and g(r), > 0, default 10'),
+        "gap_min": ("float", 'the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios'),
+        "gap_max": ("float", 'up to here, in (gap_min, 10], default 1'),
+        "r_max": ("float", 'of g(r), mean diameters, > 0, default 4'),
+        "snapshot_every": ("float", 'collisions per particle before the first snapshot; 0, the default: none'),
+        "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
     },
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM'),
@@ -545,6 +584,13 @@ CALLS = {
     "jam_run": (True, (("o", "struct_in", "jam_run_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_compress": (True, (("o", "struct_in", "jam_compress_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_checkpoint_write": (True, (("path", "string", "char"),)),
+    "jam_observe": (True, (("o", "struct_in", "jam_observe_options"),)),
+    "jam_observe_stop": (True, ()),
+    "jam_observed_series": (True, (("time", "array_out", "double"), ("time_len", "len", "size_t"), ("collisions", "array_out", "double"), ("collisions_len", "len", "size_t"), ("fraction", "array_out", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_out", "double"), ("pressure_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("msd", "array_out", "double"), ("msd_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_gaps": (True, (("edge", "array_out", "double"), ("edge_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_report"))),

@@ -17,10 +17,61 @@ class Methods:
         raise NotImplementedError
 
     def checkpoint_write(self, path: str) -> None:
-        """Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
-        a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+        """Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
+        or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
+        goes on from it makes the same bits as one that never stopped there. Threads: const.
         Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
+
+    def observe(self, *, collisions: int | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
+        """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
+        Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
+        present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
+        Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+
+        Options:
+        collisions: 1: collisions of each sphere, and collisions and momentum of each pair; default 0
+        gap_bins: bins of the gap histogram, 0 (default: none) or >= 2
+        r_bins: bins of g(r), default 0: none
+        sample_every: collisions per particle between samples of the series, gaps and g(r), > 0, default 10
+        gap_min: the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
+        gap_max: up to here, in (gap_min, 10], default 1
+        r_max: of g(r), mean diameters, > 0, default 4
+        snapshot_every: collisions per particle before the first snapshot; 0, the default: none
+        snapshot_factor: each interval between snapshots is so many times the one before, >= 1, default 1"""
+        return self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
+
+    def observe_stop(self, *, progress: Progressing = None) -> None:
+        """Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"""
+        return self.call('observe_stop', progress=progress)
+
+    def observed_series(self) -> ObservedSeriesResult:
+        """Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
+        its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
+        length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"""
+        return self.call('observed_series')
+
+    def observed_spheres(self) -> ObservedSpheresResult:
+        """Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
+        0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        return self.call('observed_spheres')
+
+    def observed_pairs(self) -> ObservedPairsResult:
+        """Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+        sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
+        be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        return self.call('observed_pairs')
+
+    def observed_gaps(self) -> ObservedGapsResult:
+        """Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
+        h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
+        0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        return self.call('observed_gaps')
+
+    def observed_correlation(self) -> ObservedCorrelationResult:
+        """g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+        Errors: as jam_observed_series. @since 0.1"""
+        return self.call('observed_correlation')
 
     def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None) -> Estimate:
         """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
@@ -237,6 +288,48 @@ class Methods:
         nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
         Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
         return self.call('compare', other)
+
+
+class ObservedSeriesResult(NamedTuple):
+    """What observed_series returns."""
+
+    time: np.ndarray
+    collisions: np.ndarray
+    fraction: np.ndarray
+    pressure: np.ndarray
+    error: np.ndarray
+    msd: np.ndarray
+
+
+class ObservedSpheresResult(NamedTuple):
+    """What observed_spheres returns."""
+
+    collisions: np.ndarray
+    displacement: np.ndarray
+
+
+class ObservedPairsResult(NamedTuple):
+    """What observed_pairs returns."""
+
+    pair: np.ndarray
+    collisions: np.ndarray
+    momentum: np.ndarray
+    time: float
+
+
+class ObservedGapsResult(NamedTuple):
+    """What observed_gaps returns."""
+
+    edge: np.ndarray
+    density: np.ndarray
+    error: np.ndarray
+
+
+class ObservedCorrelationResult(NamedTuple):
+    """What observed_correlation returns."""
+
+    r: np.ndarray
+    g: np.ndarray
 
 
 class ContactCandidatesResult(NamedTuple):

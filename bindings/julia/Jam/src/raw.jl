@@ -49,6 +49,7 @@ const JAM_STOP_CONVERGED = Int32(8)  # crunch: both tolerances met, certificate 
 const JAM_STOP_LP_LIMIT = Int32(9)  # crunch: max_lps came first
 const JAM_STOP_SOLVER = Int32(10)  # crunch: no LP answer passed the checks
 const JAM_STOP_UNJAMMED = Int32(11)  # crunch: converged without a rigid network
+const JAM_STOP_TIME = Int32(12)  # MD: its simulated time is over
 
 # jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
@@ -57,6 +58,10 @@ const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters until the worst pair 
 # jam_model: Pair distance. @since 0.1
 const JAM_MODEL_EUCLID = Int32(0)  # |r_i - r_j|, nearest images
 const JAM_MODEL_MK = Int32(1)  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts
+
+# jam_masses: Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1
+const JAM_MASSES_EQUAL = Int32(0)  # all 1
+const JAM_MASSES_VOLUME = Int32(1)  # as the volumes, sigma_i^d
 
 # jam_phase: Which part reports progress. @since 0.1
 const JAM_PHASE_RUN = Int32(1)  # NVE molecular dynamics
@@ -75,6 +80,10 @@ const JAM_LOG_DEBUG = Int32(3)  # solver detail
 const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz and .extxyz are XYZ, all else PLAIN
 const JAM_FORMAT_PLAIN = Int32(1)  # line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more column; then a position a line, 17 digits; box side after line 3's value when it is not 1: `<diameter> box <L>`
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
+
+# jam_growth_law: How the spheres grow. @since 0.1
+const JAM_GROWTH_DIAMETER = Int32(0)  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
+const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a per cent of sigma); d times it is the relative rate of density. The same number at every n
 
 # jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
 const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
@@ -163,7 +172,9 @@ mutable struct jam_create_options
     overlap::Int32  # jam_overlap_policy for given positions, default REFUSE
     model::Int32  # jam_model, default EUCLID
     mk_zeta::Cdouble  # MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted
-    jam_create_options() = new(56, 0, 0, 0, 0, 0, 0, 0, 0)
+    masses::Int32  # jam_masses, default EQUAL
+    reserved::Int32  # 0
+    jam_create_options() = new(64, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -180,7 +191,9 @@ mutable struct jam_info
     pressure::Cdouble  # reduced pressure p last measured by MD, NaN before
     model::Int32  # jam_model
     monodisperse::Int32  # 1 when all diameters are equal
-    jam_info() = new(64, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    masses::Int32  # jam_masses
+    paused::Int32  # jam_phase of the MD stage that was stopped early and can be resumed, or 0
+    jam_info() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -198,7 +211,8 @@ mutable struct jam_progress
     collisions::Int64  # MD: so far in this call
     steps::Int64  # crunch: LPs so far; analysis: items done
     factorisations::Int64  # crunch: so far
-    jam_progress() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    jam_progress() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -206,10 +220,11 @@ Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1
 """
 mutable struct jam_run_options
     struct_size::UInt32  # sizeof(jam_run_options)
-    reserved::Int32  # 0
-    collisions_per_particle::Cdouble  # to make, > 0, default 100
-    wall_time::Cdouble  # seconds, > 0, default infinity
-    jam_run_options() = new(24, 0, 0, 0)
+    resume::Int32  # 1: go on with the run that stopped early; default 0
+    collisions_per_particle::Cdouble  # to make since the run began, > 0, default 100
+    wall_time::Cdouble  # seconds of this call, > 0, default infinity
+    time::Cdouble  # to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity
+    jam_run_options() = new(32, 0, 0, 0, 0)
 end
 
 """
@@ -217,13 +232,17 @@ One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it
 """
 mutable struct jam_compress_options
     struct_size::UInt32  # sizeof(jam_compress_options)
-    reserved::Int32  # 0
+    resume::Int32  # 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
     growth_rate::Cdouble  # G > 0, default 1e-2
     pressure::Cdouble  # target reduced pressure, > 1, default 500
     packing_fraction::Cdouble  # target, > 0, default infinity
-    collisions_per_particle::Cdouble  # limit, > 0, default infinity
-    wall_time::Cdouble  # limit in seconds, > 0, default infinity
-    jam_compress_options() = new(48, 0, 0, 0, 0, 0, 0)
+    collisions_per_particle::Cdouble  # limit since the stage began, > 0, default infinity
+    wall_time::Cdouble  # limit in seconds of this call, > 0, default infinity
+    time::Cdouble  # limit of simulated time since the stage began, > 0, default infinity
+    growth_rate_end::Cdouble  # quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
+    growth_law::Int32  # jam_growth_law, default DIAMETER
+    reserved::Int32  # 0
+    jam_compress_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -242,7 +261,25 @@ mutable struct jam_md_report
     energy_drift::Cdouble  # jam_run: |K_end/K_start - 1|
     max_overlap::Cdouble  # largest -h seen at the end and at list updates, >= 0
     seconds::Cdouble  # wall time
-    jam_md_report() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    growth_rate::Cdouble  # d<sigma>/dt over sqrt(kT/m) at the end
+    jam_md_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What jam_observe records. @since 0.1
+"""
+mutable struct jam_observe_options
+    struct_size::UInt32  # sizeof(jam_observe_options)
+    collisions::Int32  # 1: collisions of each sphere, and collisions and momentum of each pair; default 0
+    gap_bins::Int32  # bins of the gap histogram, 0 (default: none) or >= 2
+    r_bins::Int32  # bins of g(r), default 0: none
+    sample_every::Cdouble  # collisions per particle between samples of the series, gaps and g(r), > 0, default 10
+    gap_min::Cdouble  # the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
+    gap_max::Cdouble  # up to here, in (gap_min, 10], default 1
+    r_max::Cdouble  # of g(r), mean diameters, > 0, default 4
+    snapshot_every::Cdouble  # collisions per particle before the first snapshot; 0, the default: none
+    snapshot_factor::Cdouble  # each interval between snapshots is so many times the one before, >= 1, default 1
+    jam_observe_options() = new(64, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -628,7 +665,10 @@ end
 
 """
 Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL.
+drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
+JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
+or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
+none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
 JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
@@ -642,15 +682,18 @@ Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs 
 that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Threads: alone. @since 0.1
+JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
+with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
+alone. @since 0.1
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
 end
 
 """
-Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model; not the contact network) to
-a binary file, beside and renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const.
+Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
+or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
+goes on from it makes the same bits as one that never stopped there. Threads: const.
 Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_write(sys, path)
@@ -663,6 +706,73 @@ JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_read(path, out)
     return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_observe_options_init(o, size)
+    return ccall((:jam_observe_options_init, libjam), Int32, (Ref{jam_observe_options}, Csize_t), _ref(jam_observe_options, o), size)
+end
+
+"""
+From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
+Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
+present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
+Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+"""
+function jam_observe(sys, o)
+    return ccall((:jam_observe, libjam), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
+end
+
+"""
+Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+"""
+function jam_observe_stop(sys)
+    return ccall((:jam_observe_stop, libjam), Int32, (Ptr{Cvoid},), sys)
+end
+
+"""
+Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
+its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
+length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+"""
+function jam_observed_series(sys, time, time_len, collisions, collisions_len, fraction, fraction_len, pressure, pressure_len, error, error_len, msd, msd_len, needed)
+    return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(time), time_len, _ptr(collisions), collisions_len, _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ptr(error), error_len, _ptr(msd), msd_len, _ref(Csize_t, needed))
+end
+
+"""
+Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
+0. Threads: const. Errors: as jam_observed_series. @since 0.1
+"""
+function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, needed)
+    return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, needed))
+end
+
+"""
+Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
+be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+"""
+function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, needed)
+    return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, needed))
+end
+
+"""
+Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
+h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
+0. Threads: const. Errors: as jam_observed_series. @since 0.1
+"""
+function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, needed)
+    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
+end
+
+"""
+g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+Errors: as jam_observed_series. @since 0.1
+"""
+function jam_observed_correlation(sys, r, r_len, g, g_len, needed)
+    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, needed))
 end
 
 """

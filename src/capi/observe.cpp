@@ -1,0 +1,155 @@
+// Header section "molecular dynamics": what is recorded while it runs.
+#include <memory>
+
+#include "capi/guard.hpp"
+
+using namespace jam;
+
+namespace {
+
+template <class F>
+jam_status with_observer(const jam_system *sys, F &&f) noexcept {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!sys->observer) fail(JAM_E_STATE, "nothing was observed: call jam_observe first");
+    return f(*sys->observer);
+  });
+}
+
+// One of several arrays of a call: NULL leaves it out.
+template <class T>
+void give(const std::vector<T> &data, T *out, size_t out_len) {
+  if (out || out_len) give_array(data.data(), data.size(), out, out_len, nullptr);
+}
+template <class T>
+void check_room(const char *name, size_t count, const T *out, size_t out_len) {
+  if (!out && out_len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, out_len);
+  if (out && out_len < count) fail(JAM_E_BUFFER, "%s holds %zu elements, %zu are needed", name, out_len, count);
+}
+
+std::vector<double> column(const std::vector<Sample> &samples, double Sample::*member) {
+  std::vector<double> out;
+  for (const Sample &s : samples) out.push_back(s.*member);
+  return out;
+}
+
+std::vector<double> means(const Histogram &h) {
+  std::vector<double> out;
+  for (size_t k = 0; k < h.bins(); ++k) out.push_back(h.mean(k));
+  return out;
+}
+std::vector<double> errors(const Histogram &h) {
+  std::vector<double> out;
+  for (size_t k = 0; k < h.bins(); ++k) out.push_back(h.error(k));
+  return out;
+}
+
+}  // namespace
+
+extern "C" {
+
+jam_status jam_observe_options_init(jam_observe_options *o, size_t size) { return init_options(o, size, default_observe_options()); }
+
+jam_status jam_observe(jam_system *sys, const jam_observe_options *o) {
+  return guard_set(sys, [&]() -> jam_status {
+    jam_observe_options full = default_observe_options();
+    take_options(o, full);
+    check_observe_options(full);
+    sys->observer = std::make_unique<Observer>(sys->packing, full);
+    sys->observing = true;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_observe_stop(jam_system *sys) {
+  return guard_set(sys, [&]() -> jam_status {
+    sys->observing = false;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions, size_t collisions_len,
+                               double *fraction, size_t fraction_len, double *pressure, size_t pressure_len, double *error,
+                               size_t error_len, double *msd, size_t msd_len, size_t *needed) {
+  return with_observer(sys, [&](const Observer &o) -> jam_status {
+    const struct {
+      const char *name;
+      double Sample::*member;
+      double *out;
+      size_t len;
+    } columns[] = {{"time", &Sample::time, time, time_len},
+                   {"collisions", &Sample::collisions, collisions, collisions_len},
+                   {"fraction", &Sample::packing_fraction, fraction, fraction_len},
+                   {"pressure", &Sample::pressure, pressure, pressure_len},
+                   {"error", &Sample::error, error, error_len},
+                   {"msd", &Sample::displacement2, msd, msd_len}};
+    if (needed) *needed = o.samples().size();
+    for (const auto &c : columns) check_room(c.name, o.samples().size(), c.out, c.len);
+    for (const auto &c : columns) give(column(o.samples(), c.member), c.out, c.len);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len, double *displacement,
+                                size_t displacement_len, size_t *needed) {
+  return with_observer(sys, [&](const Observer &o) -> jam_status {
+    if (needed) *needed = sys->packing.n();
+    if (collisions && o.collisions().empty()) fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
+    check_room("collisions", o.collisions().size(), collisions, collisions_len);
+    check_room("displacement", o.travelled().size(), displacement, displacement_len);
+    give(o.collisions(), collisions, collisions_len);
+    std::vector<double> way = o.travelled();
+    for (double &x : way) x *= sys->packing.box;
+    give(way, displacement, displacement_len);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions, size_t collisions_len,
+                              double *momentum, size_t momentum_len, double *time, size_t *needed) {
+  return with_observer(sys, [&](const Observer &o) -> jam_status {
+    if (o.collisions().empty()) fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
+    const std::vector<PairSums::Slot> slots = o.pairs().sorted();
+    if (needed) *needed = slots.size();
+    check_room("pair", 2 * slots.size(), pair, pair_len);
+    check_room("collisions", slots.size(), collisions, collisions_len);
+    check_room("momentum", slots.size(), momentum, momentum_len);
+    for (size_t k = 0; k < slots.size(); ++k) {
+      if (pair) pair[2 * k] = static_cast<int32_t>(slots[k].key >> 32), pair[2 * k + 1] = static_cast<int32_t>(slots[k].key & 0xffffffffu);
+      if (collisions) collisions[k] = slots[k].collisions;
+      if (momentum) momentum[k] = slots[k].momentum;
+    }
+    if (time) *time = o.time;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density, size_t density_len,
+                             double *error, size_t error_len, size_t *needed) {
+  return with_observer(sys, [&](const Observer &o) -> jam_status {
+    const Histogram &h = o.gaps();
+    if (needed) *needed = h.bins();
+    check_room("edge", h.edge.size(), edge, edge_len);
+    check_room("density", h.bins(), density, density_len);
+    check_room("error", h.bins(), error, error_len);
+    give(h.edge, edge, edge_len);
+    give(means(h), density, density_len);
+    give(errors(h), error, error_len);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len, size_t *needed) {
+  return with_observer(sys, [&](const Observer &o) -> jam_status {
+    const Histogram &h = o.correlation();
+    if (needed) *needed = h.bins();
+    check_room("r", h.bins(), r, r_len);
+    check_room("g", h.bins(), g, g_len);
+    std::vector<double> middle;
+    for (size_t k = 0; k < h.bins(); ++k) middle.push_back(0.5 * (h.edge[k] + h.edge[k + 1]));
+    give(middle, r, r_len);
+    give(means(h), g, g_len);
+    return JAM_OK;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,58 @@
+// A flat run of bytes that objects write themselves to and read themselves from by one and the same function:
+//   void archive(Archive &a) { a(x); a(list); }
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace jam {
+
+class Archive {
+ public:
+  Archive() = default;  // to write
+  explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reading_(true) {}
+  bool reading() const { return reading_; }
+  const std::string &bytes() const { return bytes_; }
+
+  template <class T>
+  void operator()(T &x) {
+    static_assert(std::is_trivially_copyable<T>::value, "only plain data");
+    raw(&x, sizeof x);
+  }
+  template <class T>
+  void operator()(std::vector<T> &v) {
+    uint64_t count = v.size();
+    raw(&count, sizeof count);
+    if (reading_) {
+      check(count <= (bytes_.size() - at_) / sizeof(T));
+      v.resize(count);
+    }
+    if (count) raw(v.data(), count * sizeof(T));
+  }
+  // What is read may come from a damaged file: nothing of it is used unchecked.
+  static void check(bool good) {
+    if (!good) fail(JAM_E_FORMAT, "the stage kept in the checkpoint does not make sense");
+  }
+  void end() const { check(!reading_ || at_ == bytes_.size()); }
+
+ private:
+  void raw(void *x, size_t size) {
+    if (!reading_) {
+      bytes_.append(static_cast<const char *>(x), size);
+      return;
+    }
+    check(size <= bytes_.size() - at_);
+    std::memcpy(x, bytes_.data() + at_, size);
+    at_ += size;
+  }
+  std::string bytes_;
+  size_t at_ = 0;
+  bool reading_ = false;
+};
+
+}  // namespace jam

@@ -1,0 +1,266 @@
+/* What jam_observe records: consistent with itself, with the run, and without a trace in the dynamics. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { N = 500 };
+
+static jam_system *fluid(double fraction) {
+  jam_create_options o;
+  jam_compress_options c;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = N;
+  o.box = 2.0;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 0.05;
+  c.pressure = 1e12;
+  c.packing_fraction = fraction;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  return sys;
+}
+
+static jam_md_report run(jam_system *sys, double collisions) {
+  jam_run_options r;
+  jam_md_report report;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = collisions;
+  report.struct_size = sizeof report;
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  return report;
+}
+
+static void copy_positions(const jam_system *sys, double *out) {
+  const double *x;
+  size_t len;
+  jam_positions_view(sys, &x, &len);
+  memcpy(out, x, len * sizeof *x);
+}
+
+static void series_pairs_and_ways(void **state) {
+  jam_system *sys = fluid(0.25), *bare = NULL;
+  jam_observe_options o;
+  jam_md_report report, second;
+  static double start[3 * N], end[3 * N], way[3 * N], time[100], count[100], pressure[100], error[100], msd[100];
+  static int64_t collisions[N];
+  const double *d, *v;
+  double mean = 0, total_time, virial = 0, square = 0, furthest = 0, twice_kinetic = 0;
+  int64_t sum = 0, sum_pairs = 0, *pair_collisions;
+  int32_t *pair;
+  double *momentum;
+  size_t needed, k, len;
+  (void)state;
+  assert_int_equal(jam_copy(sys, &bare), JAM_OK);
+  assert_int_equal(jam_observe_options_init(&o, sizeof o), JAM_OK);
+  o.collisions = 1;
+  copy_positions(sys, start);
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  report = run(sys, 400);
+  second = run(sys, 400); /* observations go on over calls */
+  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 80);
+  assert_int_equal(jam_observed_series(sys, time, 79, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_BUFFER);
+  assert_int_equal(jam_observed_series(sys, time, 100, count, 100, NULL, 0, pressure, 100, error, 100, msd, 100, &needed), JAM_OK);
+  for (k = 0; k < needed; ++k) {
+    assert_true(fabs(count[k] - 10.0 * (double)(k + 1)) < 1e-9);
+    assert_true(time[k] > (k ? time[k - 1] : 0.0) && error[k] > 0.0);
+    mean += pressure[k] / 80.0;
+  }
+  /* Samples of equal collisions, not equal time: the mean is the run's within the noise, 0.2 per cent. */
+  assert_true(fabs(mean / report.pressure - 1.0) < 0.02);
+  assert_int_equal(jam_observed_spheres(sys, collisions, N, way, 3 * N, &needed), JAM_OK);
+  assert_int_equal(needed, N);
+  copy_positions(sys, end);
+  for (k = 0; k < 3 * N; ++k) { /* the unwrapped way leads from start to end */
+    const double boxes = (end[k] - start[k] - way[k]) / 2.0;
+    assert_true(fabs(boxes - round(boxes)) < 1e-9);
+    square += way[k] * way[k] / N;
+    furthest = fmax(furthest, fabs(way[k]));
+  }
+  assert_true(furthest > 1.5); /* more than half the box: the sum over images matters */
+  assert_true(fabs(msd[79] / square - 1.0) < 1e-9);
+  for (k = 0; k < N; ++k) sum += collisions[k];
+  assert_int_equal(sum, 800 * N);
+  assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, &total_time, &needed), JAM_OK);
+  pair = malloc(2 * needed * sizeof *pair), momentum = malloc(needed * sizeof *momentum), pair_collisions = malloc(needed * sizeof *pair_collisions);
+  assert_int_equal(jam_observed_pairs(sys, pair, 2 * needed, pair_collisions, needed, momentum, needed, &total_time, &needed), JAM_OK);
+  jam_diameters_view(sys, &d, &len);
+  for (k = 0; k < needed; ++k) {
+    assert_true(pair[2 * k] >= 0 && pair[2 * k] < pair[2 * k + 1] && pair[2 * k + 1] < N && momentum[k] > 0.0);
+    if (k) assert_true(pair[2 * k] > pair[2 * k - 2] || pair[2 * k + 1] > pair[2 * k - 1]);
+    virial += momentum[k] * d[0] / 2.0; /* in units of the box */
+    sum_pairs += pair_collisions[k];
+  }
+  assert_int_equal(sum_pairs, 400 * N);
+  /* p = 1 + sum sigma |dp| / (2 K t): exactly what the two reports say. */
+  jam_velocities_view(sys, &v, &len);
+  for (k = 0; k < len; ++k) twice_kinetic += v[k] * v[k];
+  mean = (report.pressure * report.time + second.pressure * second.time) / (report.time + second.time);
+  assert_true(fabs((1.0 + virial / (twice_kinetic * total_time)) / mean - 1.0) < 1e-9);
+  assert_true(fabs(time[79] / total_time - 1.0) < 1e-6);
+  free(pair), free(momentum), free(pair_collisions);
+  run(bare, 400), run(bare, 400);
+  copy_positions(bare, start);
+  assert_memory_equal(start, end, sizeof start);
+  assert_int_equal(jam_observe_stop(sys), JAM_OK);
+  run(sys, 100);
+  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 80); /* stopped, and still there */
+  jam_destroy(sys);
+  jam_destroy(bare);
+}
+
+static void histograms(void **state) {
+  jam_system *sys = fluid(0.3);
+  jam_observe_options o;
+  double edge[22], density[21], error[21], r[50], g[50], contact;
+  size_t needed, k;
+  (void)state;
+  jam_observe_options_init(&o, sizeof o);
+  o.gap_bins = 21;
+  o.gap_min = 0.01;
+  o.gap_max = 0.3;
+  o.r_bins = 50;
+  o.r_max = 5.0;
+  o.sample_every = 5.0;
+  run(sys, 50);
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  contact = (run(sys, 1000).pressure - 1.0) / (4.0 * 0.3);
+  assert_int_equal(jam_observed_gaps(sys, edge, 22, density, 21, error, 21, &needed), JAM_OK);
+  assert_int_equal(needed, 21);
+  assert_true(edge[0] == 0.0 && fabs(edge[1] - 0.01) < 1e-15 && fabs(edge[21] - 0.3) < 1e-12);
+  print_message("g(sigma) by pressure %.3f, in [0, 0.01] %.3f(%.3f), at 0.3 %.3f\n", contact, density[0], error[0], density[20]);
+  /* g falls by about 2 per cent over the first bin. */
+  assert_true(fabs(density[0] / contact - 0.98) < 0.02 + 3.0 * error[0] / contact);
+  assert_true(density[20] < 0.75 * density[0]);
+  assert_int_equal(jam_observed_correlation(sys, r, 50, g, 50, &needed), JAM_OK);
+  assert_int_equal(needed, 50);
+  for (k = 0; k < 50; ++k) {
+    assert_true(fabs(r[k] - 0.1 * ((double)k + 0.5)) < 1e-12);
+    if (r[k] < 0.9) assert_true(g[k] == 0.0);
+    if (r[k] > 3.0) assert_true(fabs(g[k] - 1.0) < 0.05);
+  }
+  /* Both histograms of the same pairs: g of the first full bin beyond contact between the values of its ends. */
+  assert_true(g[10] > density[10] * 0.9 && g[10] < density[0]);
+  jam_destroy(sys);
+}
+
+struct seen {
+  const jam_system *sys;
+  int64_t count, at[40];
+  double first[3 * N];
+};
+
+static int32_t look(const jam_progress *p, void *user) {
+  struct seen *s = user;
+  const double *x;
+  size_t len, needed;
+  double g[20];
+  if (!p->snapshot) return 0;
+  assert_int_equal(p->snapshot, s->count + 1);
+  s->at[s->count++] = p->collisions;
+  jam_positions_view(s->sys, &x, &len);
+  assert_int_equal(jam_pair_correlation(s->sys, NULL, 0, -1, -1, 2.0, 20, g, 20, &needed), JAM_OK);
+  assert_true(g[3] == 0.0 && g[11] > 1.0); /* no overlap in the state shown */
+  if (s->count > 1) assert_memory_not_equal(x, s->first, sizeof s->first);
+  memcpy(s->first, x, sizeof s->first);
+  return s->count == 20;
+}
+
+static void snapshots(void **state) {
+  jam_system *sys = fluid(0.45), *bare = NULL;
+  jam_observe_options o;
+  struct seen s;
+  double a[3 * N], b[3 * N];
+  int64_t k;
+  (void)state;
+  jam_copy(sys, &bare);
+  jam_observe_options_init(&o, sizeof o);
+  o.sample_every = INFINITY;
+  o.snapshot_every = 1.0;
+  o.snapshot_factor = 2.0;
+  memset(&s, 0, sizeof s);
+  s.sys = sys;
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  jam_set_progress(sys, look, &s);
+  run(sys, 100);
+  run(bare, 100);
+  assert_int_equal(s.count, 6); /* 1, 3, 7, 15, 31, 63 */
+  for (k = 0; k < 6; ++k) assert_int_equal(s.at[k], ((2 << k) - 1) * N / 2);
+  copy_positions(sys, a);
+  copy_positions(bare, b);
+  assert_memory_equal(a, b, sizeof a);
+  o.snapshot_factor = 1.0;
+  s.count = 0;
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  {
+    jam_run_options r;
+    jam_run_options_init(&r, sizeof r);
+    assert_int_equal(jam_run(sys, &r, NULL), JAM_CANCELLED); /* by the 20th */
+    assert_int_equal(s.count, 20);
+    copy_positions(sys, a);
+    assert_memory_equal(a, s.first, sizeof a);
+    r.resume = 1;
+    jam_set_progress(sys, NULL, NULL);
+    assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
+    run(bare, 100);
+    copy_positions(sys, a);
+    copy_positions(bare, b);
+    assert_memory_equal(a, b, sizeof a);
+  }
+  jam_destroy(sys);
+  jam_destroy(bare);
+}
+
+static void refuses(void **state) {
+  jam_create_options c;
+  jam_observe_options o;
+  jam_system *sys = NULL;
+  int64_t collisions[8];
+  double x[8];
+  size_t needed = 77;
+  int k;
+  (void)state;
+  jam_create_options_init(&c, sizeof c);
+  c.n = 8;
+  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(needed, 77);
+  assert_int_equal(jam_observe_options_init(&o, 3), JAM_E_STRUCT_SIZE);
+  for (k = 0; k < 9; ++k) {
+    jam_observe_options_init(&o, sizeof o);
+    if (k == 0) o.collisions = 2;
+    if (k == 1) o.gap_bins = 1;
+    if (k == 2) o.r_bins = -1;
+    if (k == 3) o.sample_every = 0;
+    if (k == 4) o.gap_min = 0;
+    if (k == 5) o.gap_max = NAN;
+    if (k == 6) o.r_max = -1;
+    if (k == 7) o.snapshot_every = -1;
+    if (k == 8) o.snapshot_factor = 0.5;
+    assert_int_equal(jam_observe(sys, &o), JAM_E_ARGUMENT);
+  }
+  assert_int_equal(jam_observe(sys, NULL), JAM_OK); /* the series alone */
+  assert_int_equal(jam_observed_spheres(sys, collisions, 8, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, x, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 0);
+  assert_int_equal(jam_observed_series(sys, NULL, 4, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_NULL);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(series_pairs_and_ways), cmocka_unit_test(histograms), cmocka_unit_test(snapshots),
+                                     cmocka_unit_test(refuses)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,294 @@
+/* Stages that stop early, by any reason, and go on, in the same process or from a file: the same bits as one that ran through. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char *path = "md_resume_checkpoint.bin";
+
+static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n;
+  o.dim = dim;
+  o.model = model;
+  o.packing_fraction = fraction;
+  o.masses = dim == 2 ? JAM_MASSES_VOLUME : JAM_MASSES_EQUAL;
+  if (dim == 2) {
+    double diameters[200];
+    int64_t k;
+    for (k = 0; k < n; ++k) diameters[k] = k % 2 ? 1.0 : 1.4;
+    assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  } else {
+    assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  }
+  return sys;
+}
+
+static void same(const jam_system *a, const jam_system *b) {
+  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view, jam_velocities_view};
+  int k;
+  for (k = 0; k < 3; ++k) {
+    const double *x, *y;
+    size_t n, m;
+    views[k](a, &x, &n);
+    views[k](b, &y, &m);
+    assert_int_equal(n, m);
+    assert_memory_equal(x, y, n * sizeof(double));
+  }
+}
+
+static void from_file(jam_system **sys) {
+  jam_system *again = NULL;
+  jam_info info;
+  assert_int_equal(jam_checkpoint_write(*sys, path), JAM_OK);
+  jam_destroy(*sys);
+  if (jam_checkpoint_read(path, &again) < 0) print_error("%s\n", jam_last_error());
+  assert_non_null(again);
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(again, &info), JAM_OK);
+  assert_true(info.paused != 0);
+  *sys = again;
+}
+
+static int32_t after(const jam_progress *p, void *user) {
+  int64_t *left = user;
+  (void)p;
+  return --*left < 0;
+}
+
+/* Euclidean with lists, with images (few spheres), Mari-Kurchan, mixture with masses; diameter and density rates; slowing down. */
+static const struct {
+  int32_t model, dim;
+  int64_t n;
+  double fraction, growth, end, pressure;
+  int32_t law;
+} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.3, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER}, {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
+             {JAM_MODEL_MK, 3, 100, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER},   {JAM_MODEL_EUCLID, 2, 120, 0.4, 2e-2, 2e-3, 1e4, JAM_GROWTH_DENSITY}};
+enum { CASES = sizeof cases / sizeof cases[0] };
+
+static jam_compress_options options_of(int k) {
+  jam_compress_options c;
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = cases[k].growth;
+  c.growth_rate_end = cases[k].end;
+  c.pressure = cases[k].pressure;
+  c.growth_law = cases[k].law;
+  return c;
+}
+
+static void growth_goes_on_to_the_same_bits(void **state) {
+  int k, with_file;
+  (void)state;
+  for (k = 0; k < CASES; ++k) {
+    jam_system *whole = make(cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
+    jam_compress_options c = options_of(k);
+    jam_md_report report, part;
+    report.struct_size = part.struct_size = sizeof report;
+    assert_int_equal(jam_compress(whole, &c, &report), JAM_OK);
+    for (with_file = 0; with_file < 2; ++with_file) {
+      jam_system *sys = make(cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
+      jam_status status;
+      int64_t collisions = 0;
+      int stops = 0, left = 12;
+      c = options_of(k);
+      do { /* at first a limit on collisions that grows, not by whole windows, or on time; then none */
+        if (--left > 0 && left % 3) c.collisions_per_particle = 0.7 + 7.3 * stops * stops;
+        else if (left > 0) c.collisions_per_particle = INFINITY, c.time = report.time * 0.08 * (stops + 1);
+        else c.collisions_per_particle = c.time = INFINITY;
+        status = jam_compress(sys, &c, &part);
+        collisions += part.collisions;
+        c.resume = 1;
+        if (status == JAM_LIMIT && with_file) from_file(&sys);
+        ++stops;
+        if (left > 0 && left % 3 == 0) c.time = INFINITY;
+      } while (status == JAM_LIMIT);
+      assert_int_equal(status, JAM_OK);
+      assert_true(stops > 5);
+      print_message("case %d, file %d: %d stops, %lld collisions of %lld\n", k, with_file, stops, (long long)collisions, (long long)report.collisions);
+      same(whole, sys);
+      assert_true(part.pressure == report.pressure && part.packing_fraction == report.packing_fraction);
+      assert_int_equal(collisions, report.collisions);
+      jam_destroy(sys);
+    }
+    jam_destroy(whole);
+  }
+  remove(path);
+}
+
+static void cancelled_runs_go_on_to_the_same_bits(void **state) {
+  jam_system *whole = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *copy = NULL;
+  jam_run_options r;
+  jam_status status;
+  int64_t left;
+  int stops = 0;
+  (void)state;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = 4000.0;
+  assert_int_equal(jam_run(whole, &r, NULL), JAM_OK);
+  do { /* the callback comes every 0.05 s: wherever the run is then */
+    left = 0;
+    if (stops < 4) jam_set_progress(sys, after, &left);
+    else jam_set_progress(sys, NULL, NULL);
+    status = jam_run(sys, &r, NULL);
+    r.resume = 1;
+    if (status == JAM_CANCELLED && stops == 2) { /* a copy has the stage too */
+      assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+      jam_destroy(sys);
+      sys = copy;
+    }
+    if (status == JAM_CANCELLED) from_file(&sys);
+    ++stops;
+  } while (status == JAM_CANCELLED);
+  assert_int_equal(status, JAM_OK);
+  assert_true(stops >= 3);
+  same(whole, sys);
+  jam_destroy(whole);
+  jam_destroy(sys);
+  remove(path);
+}
+
+struct writer {
+  const jam_system *sys;
+  int written;
+};
+
+static int32_t write_once(const jam_progress *p, void *user) {
+  struct writer *w = user;
+  if (p->fraction > 0.2 && !w->written) {
+    assert_int_equal(jam_checkpoint_write(w->sys, path), JAM_OK);
+    w->written = 1;
+  }
+  return 0;
+}
+
+/* A checkpoint written by the callback, while the run goes on, leads to the same end. */
+static void checkpoint_from_the_callback(void **state) {
+  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 500, 0.3), *again = NULL;
+  struct writer w = {sys, 0};
+  jam_run_options r;
+  (void)state;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = 6000.0;
+  jam_set_progress(sys, write_once, &w);
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
+  assert_true(w.written);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  r.resume = 1;
+  assert_int_equal(jam_run(again, &r, NULL), JAM_OK);
+  same(sys, again);
+  jam_destroy(sys);
+  jam_destroy(again);
+  remove(path);
+}
+
+static int32_t paused(const jam_system *sys) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  return info.paused;
+}
+
+static void what_cannot_go_on(void **state) {
+  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 100, 0.3);
+  jam_run_options r;
+  jam_compress_options c;
+  const double *v;
+  size_t len;
+  double other[300];
+  (void)state;
+  jam_run_options_init(&r, sizeof r);
+  jam_compress_options_init(&c, sizeof c);
+  r.resume = c.resume = 1;
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STATE);
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_STATE);
+  c.resume = 0;
+  c.collisions_per_particle = 3;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STATE); /* the other verb */
+  assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
+  jam_velocities_view(sys, &v, &len);
+  memcpy(other, v, sizeof other);
+  assert_int_equal(jam_set_velocities(sys, other, len), JAM_OK); /* re-aimed: another future */
+  assert_int_equal(paused(sys), 0);
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
+  assert_int_equal(paused(sys), 0);
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  r.resume = 0;
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
+  assert_int_equal(paused(sys), 0);
+  r.resume = 2;
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_E_ARGUMENT);
+  jam_destroy(sys);
+}
+
+/* Any byte of the stage may be damaged and the checksum made right again: an error or a run, never a crash or an endless loop. */
+static uint64_t mix64(uint64_t x) {
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+static void damaged_stage(void **state) {
+  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 60, 0.3), *out = NULL;
+  static unsigned char data[200000];
+  jam_compress_options c;
+  size_t size, k, at;
+  int refused = 0;
+  FILE *f;
+  (void)state;
+  jam_compress_options_init(&c, sizeof c);
+  c.collisions_per_particle = 20;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  jam_destroy(sys);
+  f = fopen(path, "rb");
+  size = fread(data, 1, sizeof data, f);
+  fclose(f);
+  print_message("%d bytes\n", (int)size);
+  assert_true(size > 9000 && size < sizeof data);
+  for (at = 60 * 7 * 8 + 100; at + 8 < size; at += 211) {
+    const unsigned char was = data[at];
+    uint64_t sum = 0x6a616d, word;
+    data[at] ^= (unsigned char)(1u << at % 8);
+    for (k = 0; k < size - 8; k += 8) {
+      word = 0;
+      memcpy(&word, data + k, size - 8 - k < 8 ? size - 8 - k : 8);
+      sum = mix64(sum ^ word);
+    }
+    f = fopen(path, "wb");
+    fwrite(data, 1, size - 8, f);
+    fwrite(&sum, 1, 8, f);
+    fclose(f);
+    data[at] = was;
+    if (jam_checkpoint_read(path, &out) < 0) {
+      ++refused;
+      continue;
+    }
+    c.resume = 1;
+    c.collisions_per_particle = 25;
+    c.wall_time = 0.2;
+    jam_compress(out, &c, NULL);
+    jam_destroy(out);
+    out = NULL;
+  }
+  assert_true(refused > 5);
+  remove(path);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_goes_on_to_the_same_bits), cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
+                                     cmocka_unit_test(checkpoint_from_the_callback), cmocka_unit_test(what_cannot_go_on),
+                                     cmocka_unit_test(damaged_stage)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

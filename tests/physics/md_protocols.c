@@ -1,0 +1,169 @@
+/* Growth laws, the quasi-static mode, limits of time, and masses by volume. */
+#include <jam/jam.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  double diameters[1000];
+  int64_t k;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n;
+  o.packing_fraction = fraction;
+  o.masses = masses;
+  o.box = box;
+  for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
+  assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_info info_of(const jam_system *sys) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  return info;
+}
+
+static void rates(void **state) {
+  const int64_t sizes[] = {100, 800};
+  int k;
+  (void)state;
+  for (k = 0; k < 2; ++k) {
+    jam_system *a = start(sizes[k], 0.2, 1.4, 0, 3.0), *b = start(sizes[k], 0.2, 1.4, 0, 3.0);
+    const double sigma = info_of(a).diameter_mean / 3.0;
+    jam_compress_options c;
+    jam_md_report report;
+    double rate;
+    report.struct_size = sizeof report;
+    jam_compress_options_init(&c, sizeof c);
+    c.growth_rate = 0.02;
+    c.packing_fraction = 0.5;
+    c.pressure = INFINITY;
+    assert_int_equal(jam_compress(a, &c, &report), JAM_OK);
+    rate = (info_of(a).diameter_mean / 3.0 - sigma) / report.time;
+    assert_true(fabs(rate / 0.02 - 1.0) < 1e-9 && fabs(report.growth_rate / 0.02 - 1.0) < 1e-9);
+    c.growth_law = JAM_GROWTH_DENSITY;
+    assert_int_equal(jam_compress(b, &c, &report), JAM_OK);
+    /* d ln phi / dt = 3 x 0.02 N^(1/3) at any N; half a per cent of steps make it a quarter low. */
+    rate = log(info_of(b).packing_fraction / 0.2) / report.time / 3.0 / cbrt((double)sizes[k]);
+    print_message("N %d: relative rate %.6f of 0.02\n", (int)sizes[k], rate);
+    assert_true(rate < 0.02 && rate > 0.02 * 0.995);
+    assert_true(fabs(info_of(b).packing_fraction - 0.5) < 1e-13);
+    jam_destroy(a);
+    jam_destroy(b);
+  }
+}
+
+/* The rate falls as a power of p: at the geometric middle of the pressures it is the geometric middle of the rates. */
+static void quasi_static(void **state) {
+  jam_system *sys = start(200, 0.2, 1.4, 0, 1.0), *fast = NULL;
+  jam_compress_options c;
+  jam_md_report report, half;
+  (void)state;
+  report.struct_size = half.struct_size = sizeof report;
+  jam_compress_options_init(&c, sizeof c);
+  c.pressure = 1e3;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  assert_int_equal(jam_copy(sys, &fast), JAM_OK);
+  c.pressure = 1e7;
+  assert_int_equal(jam_compress(fast, &c, &half), JAM_OK);
+  c.growth_rate_end = 1e-3;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+  print_message("growth rate at the end %.3g; %lld collisions, at a constant rate %lld\n", report.growth_rate, (long long)report.collisions, (long long)half.collisions);
+  assert_true(report.growth_rate < 1.1e-3 && report.growth_rate > 0.99e-3);
+  assert_true(report.pressure >= 1e7 && report.max_overlap < 1e-13);
+  /* ln p a collision goes as G: the mean of 1/G over ln p is (10 - 1) / ln 10 = 3.9 times that of the constant rate. */
+  assert_true((double)report.collisions / (double)half.collisions > 3.0 && (double)report.collisions / (double)half.collisions < 5.0);
+  c.growth_rate_end = 2e-2;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_E_ARGUMENT);
+  c.growth_rate_end = 1e-3;
+  c.pressure = INFINITY;
+  c.packing_fraction = 0.7;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_E_ARGUMENT);
+  c.growth_rate_end = 0;
+  c.growth_law = 7;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_E_ARGUMENT);
+  jam_destroy(sys);
+  jam_destroy(fast);
+}
+
+static void time_limits(void **state) {
+  jam_system *sys = start(200, 0.3, 1.0, 0, 1.0);
+  jam_run_options r;
+  jam_compress_options c;
+  jam_md_report report;
+  (void)state;
+  report.struct_size = sizeof report;
+  jam_run_options_init(&r, sizeof r);
+  r.collisions_per_particle = INFINITY;
+  r.time = 0.5;
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  assert_int_equal(report.stop_reason, JAM_STOP_TIME);
+  assert_true(report.time <= 0.5 && report.time > 0.499);
+  assert_string_equal(jam_stop_string(JAM_STOP_TIME), "time");
+  jam_compress_options_init(&c, sizeof c);
+  c.time = 0.25;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
+  assert_int_equal(report.stop_reason, JAM_STOP_TIME);
+  assert_true(report.time <= 0.25 && report.time > 0.249);
+  c.resume = 1;
+  assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT); /* the time of the stage is over */
+  assert_true(report.collisions == 0);
+  jam_destroy(sys);
+}
+
+/* Kinetic energy is shared alike, momentum and energy are kept, and the pressure does not know of masses. */
+static void masses_by_volume(void **state) {
+  double pressure[2], error[2];
+  int32_t masses;
+  (void)state;
+  for (masses = 0; masses < 2; ++masses) {
+    jam_system *sys = start(400, 0.35, 2.0, masses, 1.0);
+    jam_run_options r;
+    jam_md_report report;
+    const double *v, *d;
+    double large = 0, small = 0, momentum[3] = {0, 0, 0}, cubes = 0;
+    size_t len, n, k;
+    int sample;
+    report.struct_size = sizeof report;
+    jam_run_options_init(&r, sizeof r);
+    r.collisions_per_particle = 500;
+    assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
+    r.collisions_per_particle = 3000;
+    assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+    pressure[masses] = report.pressure;
+    error[masses] = report.pressure_error;
+    assert_true(report.energy_drift < 1e-11);
+    assert_int_equal(info_of(sys).masses, masses);
+    jam_diameters_view(sys, &d, &n);
+    for (k = 0; k < n; ++k) cubes += d[k] * d[k] * d[k] / (double)n;
+    r.collisions_per_particle = 10;
+    for (sample = 0; sample < 100; ++sample) {
+      assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
+      jam_velocities_view(sys, &v, &len);
+      for (k = 0; k < len; ++k) {
+        const double m = masses ? d[k / 3] * d[k / 3] * d[k / 3] / cubes : 1.0;
+        *(k / 3 % 2 ? &large : &small) += m * v[k] * v[k] / (200.0 * 3.0 * 100.0);
+        if (sample == 0) momentum[k % 3] += m * v[k];
+      }
+    }
+    for (k = 0; k < 3; ++k) assert_true(fabs(momentum[k]) < 1e-9);
+    print_message("masses %d: temperature of large spheres %.4f, of small ones %.4f, p %.3f(%.3f)\n", (int)masses, large, small, report.pressure, report.pressure_error);
+    /* 600 degrees of freedom each, some tens of independent samples: errors below one per cent. */
+    assert_true(fabs(large - 1.0) < 0.03 && fabs(small - 1.0) < 0.03);
+    jam_destroy(sys);
+  }
+  assert_true(fabs(pressure[1] / pressure[0] - 1.0) < 0.005 + 3.0 * (error[0] + error[1]) / pressure[0]);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(quasi_static), cmocka_unit_test(time_limits),
+                                     cmocka_unit_test(masses_by_volume)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

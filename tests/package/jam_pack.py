@@ -44,8 +44,14 @@ class JamPack(unittest.TestCase):
 
     def report(self, *args, status=0):
         done = run(*args, "--report", "-")
-        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
+        if status is not None:
+            self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
         return json.loads(done.stdout)
+
+    def refused(self, status, *args):
+        done = run(*args)
+        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
+        return done.stderr
 
     def test_help_and_version(self):
         done = run("--help")
@@ -224,6 +230,58 @@ class JamPack(unittest.TestCase):
         self.assertEqual(report["stop_reason"], "pressure")
         self.assertGreater(report["collisions"], 20 * 200 / 2)
         self.assertGreaterEqual(report["pressure"], 100)
+
+    def test_mari_kurchan(self):
+        report = self.report("--n", 200, "--plant", 1.5, "--growth", "1e-2:1e5")
+        self.assertTrue(report["jammed"])
+        self.assertEqual(report["contacts"], report["one_ss"])
+        self.assertTrue(1.8 < report["packing_fraction"] < 3.5, report["packing_fraction"])
+        one = self.report("--n", 100, "--model", "mk", "--zeta", 0, "--no-md", "--no-crunch", "--output", self.dir / "a.dat")
+        two = self.report("--n", 100, "--no-md", "--no-crunch", "--output", self.dir / "b.dat")
+        self.assertEqual(one["packing_fraction"], two["packing_fraction"])
+        self.assertEqual((self.dir / "a.dat").read_bytes(), (self.dir / "b.dat").read_bytes())  # no shift: the same start
+        self.refused(2, "--model", "potts")
+        self.refused(2, "--plant", "x")
+
+    def test_diameters(self):
+        job = ["--no-md", "--no-crunch", "--output", self.dir / "p.xyz"]
+        self.report("--n", 3000, "--diameters", "lognormal:0.3", "--phi0", 0.05, *job)
+        d = [2 * float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:]]
+        mean = sum(d) / len(d)
+        width = (sum((x - mean) ** 2 for x in d) / len(d)) ** 0.5 / mean
+        self.assertAlmostEqual(width, 0.3, delta=0.02)  # its standard error is 0.006
+        self.report("--n", 100, "--diameters", "bidisperse:1.4", *job)
+        d = sorted(float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:])
+        self.assertAlmostEqual(d[99] / d[0], 1.4, 12)
+        self.assertEqual(sum(x > d[0] * 1.1 for x in d), 50)
+        sizes = self.dir / "sizes.txt"
+        sizes.write_text("1 2\n3.5 1\n")
+        self.assertEqual(self.report("--diameters", sizes, *job)["n"], 4)
+        d = [float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:]]
+        self.assertAlmostEqual(d[2] / d[0], 3.5, 12)
+        self.refused(3, "--n", 5, "--diameters", sizes, *job)
+        sizes.write_text("1 2 -3\n")
+        self.assertIn("number 3", self.refused(3, "--diameters", sizes, *job))
+        self.refused(2, "--diameters", "lognormal:-1")
+        self.refused(3, "--diameters", self.dir / "none.txt")
+
+    def test_checkpoint_and_resume(self):
+        job = ["--n", 1000, "--growth", "1e-2:500", "--growth", "3e-3:1e5", "--no-crunch"]
+        self.report(*job, "--output", self.dir / "whole.dat")
+        kept = self.dir / "state.bin"
+        first = self.report(*job, "--checkpoint", kept, "--wall-time", 0.25, "--output", self.dir / "part.dat", status=1)
+        self.assertEqual(first["stop_reason"], "wall_time")
+        rounds = 0
+        while True:
+            report = self.report(*job, "--resume", kept, "--checkpoint", kept, "--wall-time", 0.6, "--output", self.dir / "part.dat",
+                                 status=None)
+            rounds += 1
+            if report["stop_reason"] == "pressure" and report["pressure"] > 9e4 or rounds > 100:
+                break
+        self.assertGreater(rounds, 1)
+        self.assertEqual((self.dir / "whole.dat").read_bytes(), (self.dir / "part.dat").read_bytes())
+        self.refused(3, "--resume", self.dir / "none.bin")
+        self.refused(2, "--resume", kept, "--input", self.dir / "part.dat")
 
     def test_start_only(self):
         report = self.report("--n", 50, "--phi0", 0.1, "--no-md", "--no-crunch", "--output", self.dir / "p.dat")

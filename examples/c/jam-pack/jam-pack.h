@@ -24,6 +24,9 @@ typedef struct options {
   const char *input, *output, *contacts, *report;
   int64_t modes; /* how many --spectrum writes, 0: all; -1: not given */
   const char *spectrum, *gaps, *structure;
+  int32_t model, n_given;
+  double zeta, lognormal;
+  const char *diameters_file, *checkpoint, *resume;
 } options;
 
 /* What the program has done, for the report and the summary. */
@@ -39,6 +42,10 @@ typedef struct outcome {
 
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
 int parse_options(int argc, char **argv, options *o);
+
+/* start.c: each returns 0 or -1, start after a message on stderr. */
+int start(const options *o, jam_system **sys);
+int take_diameters(const char *value, options *o);
 
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
 int check_writable(const char *path);

@@ -47,29 +47,6 @@ static int32_t show_progress(const jam_progress *p, void *user) {
 
 /* ---- the parts of the job; each returns the library's status */
 
-static jam_status start(const options *o, jam_system **sys) {
-  jam_create_options create;
-  double *diameters = NULL;
-  int64_t k;
-  jam_status status = jam_create_options_init(&create, sizeof create);
-  if (status < 0) return status;
-  create.seed = o->seed;
-  create.box = o->box;
-  create.overlap = o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE;
-  if (o->input) return jam_read(o->input, &create, sys);
-  create.n = o->n;
-  create.dim = o->dim;
-  create.packing_fraction = o->phi0;
-  if (o->ratio != 1) {
-    diameters = malloc((size_t)o->n * sizeof *diameters);
-    if (!diameters) return JAM_E_MEMORY;
-    for (k = 0; k < o->n; ++k) diameters[k] = k < o->n / 2 ? 1 : o->ratio;
-  }
-  status = jam_create(&create, NULL, 0, diameters, diameters ? (size_t)o->n : 0, sys);
-  free(diameters);
-  return status;
-}
-
 static void add_md(outcome *result, const jam_md_report *md) {
   result->has_md = 1;
   result->md_stop = md->stop_reason;
@@ -78,29 +55,62 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-static jam_status run_nve(jam_system *sys, double collisions, double wall_time, outcome *result) {
+/* With --checkpoint a stage runs in slices of a minute: they cost nothing, and a killed job goes on from the last one. */
+static double slice(const options *o, double deadline) {
+  const double left = deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3;
+  return o->checkpoint && left > 60 ? 60 : left;
+}
+
+static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status, const jam_md_report *md) {
+  if (o->checkpoint && status >= 0 && jam_checkpoint_write(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
+  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 && !interrupted;
+}
+
+static jam_status run_nve(jam_system *sys, const options *o, int32_t resume, double deadline, outcome *result) {
   jam_run_options run;
   jam_md_report md;
   jam_status status = jam_run_options_init(&run, sizeof run);
   md.struct_size = sizeof md;
-  run.collisions_per_particle = collisions;
-  run.wall_time = wall_time;
-  if (status >= 0) status = jam_run(sys, &run, &md);
-  if (status >= 0) add_md(result, &md);
+  run.collisions_per_particle = o->nve > 0 ? o->nve : run.collisions_per_particle;
+  run.resume = resume;
+  do {
+    run.wall_time = slice(o, deadline);
+    status = jam_run(sys, &run, &md);
+    if (status >= 0) add_md(result, &md);
+    run.resume = 1;
+  } while (goes_on(sys, o, deadline, status, &md));
   return status;
 }
 
-static jam_status run_stage(jam_system *sys, const stage *s, double wall_time, outcome *result) {
+/* s NULL: the stage of a checkpoint. */
+static jam_status run_stage(jam_system *sys, const options *o, const stage *s, double deadline, outcome *result) {
   jam_compress_options compress;
   jam_md_report md;
   jam_status status = jam_compress_options_init(&compress, sizeof compress);
   md.struct_size = sizeof md;
-  compress.growth_rate = s->growth;
-  compress.pressure = s->pressure;
-  compress.wall_time = wall_time;
-  if (status >= 0) status = jam_compress(sys, &compress, &md);
-  if (status >= 0) add_md(result, &md);
+  compress.resume = !s;
+  if (s) {
+    compress.growth_rate = s->growth;
+    compress.pressure = s->pressure;
+  }
+  do {
+    compress.wall_time = slice(o, deadline);
+    status = jam_compress(sys, &compress, &md);
+    if (status >= 0) add_md(result, &md);
+    compress.resume = 1;
+  } while (goes_on(sys, o, deadline, status, &md));
   return status;
+}
+
+/* What a checkpoint was in the middle of; then the stages that lead beyond its pressure are left. */
+static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, double deadline, outcome *result) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  t->stage = "resumed stage";
+  result->pressure = info.pressure;
+  if (info.paused == JAM_PHASE_RUN) return run_nve(sys, o, 1, deadline, result);
+  return info.paused ? run_stage(sys, o, NULL, deadline, result) : JAM_OK;
 }
 
 static jam_status run_crunch(jam_system *sys, const options *o, double wall_time, outcome *result) {
@@ -131,10 +141,13 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   int k;
 #define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
   t->stage = name;
-  if (o->nve > 0) status = run_nve(sys, o->nve, LEFT, result);
+  if (o->resume) status = finish_paused(sys, o, t, deadline, result);
+  else if (o->nve > 0) status = run_nve(sys, o, 0, deadline, result);
+  t->stage = name;
   for (k = 0; k < o->stage_count && !ends_job(status); ++k) {
+    if (o->resume && o->stages[k].pressure <= result->pressure) continue;
     snprintf(name, sizeof name, "growth %g", o->stages[k].growth);
-    status = run_stage(sys, &o->stages[k], LEFT, result);
+    status = run_stage(sys, o, &o->stages[k], deadline, result);
   }
   if (o->no_crunch || ends_job(status)) return status;
   if (result->has_md) keep(sys, o->output);
@@ -165,7 +178,7 @@ int main(int argc, char **argv) {
   outcome result;
   terminal t = {"start", seconds_now()};
   jam_system *sys = NULL;
-  jam_status status;
+  jam_status status = JAM_OK;
   int bad;
   const int parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
@@ -175,11 +188,7 @@ int main(int argc, char **argv) {
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
-  status = start(&o, &sys);
-  if (status < 0) {
-    complain("%s", jam_last_error()[0] ? jam_last_error() : jam_status_string(status));
-    return EXIT_FAILED;
-  }
+  if (start(&o, &sys)) return EXIT_FAILED;
   running = sys;
   if (!o.quiet && isatty(STDERR_FILENO)) jam_set_progress(sys, show_progress, &t);
   if (!interrupted) status = work(sys, &o, &t, &result);

@@ -19,6 +19,11 @@ static const char help[] =
     "  --phi0 F               packing fraction of the random start (0.2; halved for each\n"
     "                         dimension above 3)\n"
     "  --diameters-ratio R    half of the spheres are R times as large (1)\n"
+    "  --diameters WHAT       bidisperse:R as above; lognormal:S with S the standard deviation\n"
+    "                         over the mean; or a file of diameters, of which the ratios count\n"
+    "  --model euclid|mk      distance: Euclidean (default) or Mari-Kurchan\n"
+    "  --zeta Z               strength of the Mari-Kurchan shifts (infinite)\n"
+    "  --plant F              Mari-Kurchan start, planted in equilibrium at packing fraction F\n"
     "  --seed S               of all random numbers (1)\n"
     "  --input FILE           start from a file, plain or extended XYZ; molecular dynamics is\n"
     "                         then off unless --growth or --nve is given\n"
@@ -31,6 +36,9 @@ static const char help[] =
     "                         Default: 1e-2:500, then 3e-3 up to --pressure\n"
     "  --pressure P           target of stages without :P (1e7)\n"
     "  --no-md                none\n"
+    "  --checkpoint FILE      state of the dynamics, every minute and where they stop\n"
+    "  --resume FILE          go on from a checkpoint, to the same bits: the stage that was cut\n"
+    "                         off, then those stages whose pressure lies beyond\n"
     "Crunch\n"
     "  --lp ipm|clp           linear programs by interior point (default) or Clp's simplex\n"
     "  --threads T            1 or 2 (1; the same bits each time on 1)\n"
@@ -102,12 +110,21 @@ static int take_stage(const char *value, options *o) {
 static int take_value(const char *name, const char *value, options *o) {
   int64_t k = 0;
   int status = 0;
-  if (!strcmp(name, "--n")) status = take_integer(name, value, 1, INT32_MAX, &o->n);
+  if (!strcmp(name, "--n")) { status = take_integer(name, value, 1, INT32_MAX, &o->n); o->n_given = 1; }
   else if (!strcmp(name, "--seed")) status = take_integer(name, value, INT64_MIN, INT64_MAX, &o->seed);
   else if (!strcmp(name, "--dim")) { status = take_integer(name, value, 2, JAM_MAX_DIM, &k); o->dim = (int32_t)k; }
   else if (!strcmp(name, "--threads")) { status = take_integer(name, value, 1, 2, &k); o->threads = (int32_t)k; }
   else if (!strcmp(name, "--phi0")) status = take_number(name, value, &o->phi0, 0);
   else if (!strcmp(name, "--diameters-ratio")) status = take_number(name, value, &o->ratio, 0);
+  else if (!strcmp(name, "--diameters")) {
+    if (take_diameters(value, o)) status = bad_value(name, value, "lognormal:S or bidisperse:R with a finite number > 0, or a file");
+  } else if (!strcmp(name, "--model")) {
+    if (!strcmp(value, "mk")) o->model = JAM_MODEL_MK;
+    else if (strcmp(value, "euclid")) status = bad_value(name, value, "euclid or mk");
+  } else if (!strcmp(name, "--zeta")) { status = take_number(name, value, &o->zeta, 1); o->model = JAM_MODEL_MK; }
+  else if (!strcmp(name, "--plant")) { status = take_number(name, value, &o->phi0, 0); o->model = JAM_MODEL_MK; }
+  else if (!strcmp(name, "--checkpoint")) o->checkpoint = value;
+  else if (!strcmp(name, "--resume")) o->resume = value;
   else if (!strcmp(name, "--nve")) status = take_number(name, value, &o->nve, 1);
   else if (!strcmp(name, "--box")) status = take_number(name, value, &o->box, 0);
   else if (!strcmp(name, "--wall-time")) status = take_number(name, value, &o->wall_time, 0);
@@ -182,6 +199,14 @@ static int settle(options *o) {
     complain("--no-md contradicts %s", o->stage_count ? "--growth" : "--nve");
     return -1;
   }
+  if (o->resume && o->input) {
+    complain("--resume and --input are two starts");
+    return -1;
+  }
+  if (o->checkpoint && (same(o->checkpoint, o->output) || same(o->checkpoint, o->contacts) || same(o->checkpoint, o->report))) {
+    complain("--checkpoint would be overwritten by another output");
+    return -1;
+  }
   if (!o->phi0) o->phi0 = 0.2 * pow(0.5, o->dim > 3 ? o->dim - 3 : 0);
   if (o->no_md || (o->input && !o->stage_count)) return 0;
   if (!o->stage_count) { /* the two stages that avoid crystals in d = 3 */
@@ -201,6 +226,7 @@ int parse_options(int argc, char **argv, options *o) {
   o->seed = o->threads = 1;
   o->ratio = o->box = 1;
   o->modes = -1;
+  o->zeta = INFINITY;
   o->pressure = 1e7;
   o->wall_time = INFINITY;
   for (k = 1; k < argc; ++k) {

@@ -351,29 +351,33 @@ module jam
     real(c_double) :: r_squared = 0
   end type jam_glass
 
-  ! Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1
+  ! Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
+  ! (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
+  ! and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
+  ! its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
+  ! progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
   type, bind(c) :: jam_crunch_options
     ! sizeof(jam_crunch_options)
     integer(c_int32_t) :: struct_size = 0
-    ! jam_lp_solver, default IPM
+    ! jam_lp_solver, default IPM (optimizer)
     integer(c_int32_t) :: lp_solver = 0
-    ! jam_crunch_method, default RELINEARISE
+    ! jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
     integer(c_int32_t) :: method = 0
-    ! 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
+    ! 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     integer(c_int32_t) :: polish = 0
-    ! >= 1, default 1000 (CALiPPSO: max_iters)
+    ! >= 1, default 1000 (max_iters)
     integer(c_int32_t) :: max_lps = 0
-    ! 1 or 2, default 1; bits are reproducible on 1
+    ! 1 or 2, default 1; bits are reproducible on 1 (threads)
     integer(c_int32_t) :: threads = 0
-    ! on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence)
+    ! on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
     real(c_double) :: gain_tolerance = 0
-    ! on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence)
+    ! on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
     real(c_double) :: step_tolerance = 0
-    ! relative complementarity and residual of one LP, default 1e-15
+    ! relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
     real(c_double) :: lp_tolerance = 0
-    ! largest pair distance in an LP; 0, the default: adapts (l0)
+    ! largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
     real(c_double) :: neighbour_radius = 0
-    ! bound on each |s_i| component; 0, the default: adapts (sbound)
+    ! bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
     real(c_double) :: step_bound = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0

@@ -135,7 +135,11 @@
   }
   ~jam_crunch_options() { free($self); }
 }
-%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1"
+%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
+(Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
+and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
+its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
+progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1"
 %extend jam_report {
   jam_report() {
     jam_report *made = (jam_report *)calloc(1, sizeof *made);

@@ -464,19 +464,24 @@ typedef enum jam_crunch_method {
   JAM_CRUNCH_CHAIN = 1        /* the published chain of LPs: slower; from dilute starts it ends denser */
 } jam_crunch_method;
 
-/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1 */
+/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
+ * (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
+ * and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
+ * its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
+ * progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1 */
 typedef struct jam_crunch_options {
   uint32_t struct_size;    /* sizeof(jam_crunch_options) */
-  int32_t lp_solver;       /* jam_lp_solver, default IPM */
-  int32_t method;          /* jam_crunch_method, default RELINEARISE */
-  int32_t polish;          /* 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer */
-  int32_t max_lps;         /* >= 1, default 1000 (CALiPPSO: max_iters) */
-  int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 */
-  double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence) */
-  double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence) */
-  double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 */
-  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0) */
-  double step_bound;       /* bound on each |s_i| component; 0, the default: adapts (sbound) */
+  int32_t lp_solver;       /* jam_lp_solver, default IPM (optimizer) */
+  int32_t method;          /* jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does */
+  int32_t polish;          /* 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
+                            * (tol_mechanical_equilibrium: the extra LP past it) */
+  int32_t max_lps;         /* >= 1, default 1000 (max_iters) */
+  int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 (threads) */
+  double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence) */
+  double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units) */
+  double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 (solver_attributes) */
+  double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0, default 4 R) */
+  double step_bound;       /* bound on each |s_i| component; 0, the default: adapts (sbound, in radii) */
   double wall_time;        /* limit in seconds, > 0, default infinity */
   int32_t steps;           /* 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in
                             * full. 0, the default */

@@ -46,7 +46,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *
     sys->history = std::move(history).rows();
     sys->has_history = true;
     give_struct(sys->report, report);
-    if (result.status < 0) fail(result.status, "%s", result.text.c_str());
+    if (result.status < 0) fail(result.status, "%s", result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
     return result.status;
   });
 }

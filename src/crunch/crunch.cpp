@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "core/error.hpp"
@@ -15,9 +16,10 @@ namespace {
 
 class Chain {
  public:
-  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history)
-      : o_(o), monitor_(monitor), history_(history), ipm_(system_) {
+  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history, const CrunchSeams &seams)
+      : o_(o), monitor_(monitor), history_(history), seams_(seams), ipm_(system_) {
     out_.packing = start;
+    out_.contacts.coordination.assign(start.n(), 0);
     out_.report.struct_size = sizeof out_.report;
     history_.begin(start, o.steps != 0);
   }
@@ -27,12 +29,15 @@ class Chain {
       bound_ = first_bound();
       if (o_.method == JAM_CRUNCH_RELINEARISE) follow_path();
       while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
+      finish();
     } catch (const Error &e) {
-      out_.status = e.code(), out_.text = e.what(), out_.report.stop_reason = JAM_STOP_SOLVER;
+      stop(JAM_STOP_SOLVER, e.code());
+      out_.text = e.what();
+      finish_failed();
     } catch (const std::bad_alloc &) {
-      out_.status = JAM_E_MEMORY, out_.text = "out of memory; the last good state is kept", out_.report.stop_reason = JAM_STOP_SOLVER;
+      stop(JAM_STOP_SOLVER, JAM_E_MEMORY);
+      finish_failed();
     }
-    finish();
     return std::move(out_);
   }
 
@@ -96,43 +101,47 @@ class Chain {
 
   bool acceptable(const LpSolution &x, LpCheck &check) const {
     check = check_lp(lp_, x);
-    const double tight = x.g > 1e-9 ? 1e-3 : 1e-5;  // what is left at the end polish takes out
+    // An LP that ends early leans on step bounds that it has not reached yet; any feasible answer of it is a safe step.
+    const double tight = early_ > 0.0 ? std::numeric_limits<double>::infinity() : x.g > 1e-9 ? 1e-3 : 1e-5;  // the rest is left to polish
     return x.solved && check.infeasibility < 1e-9 && check.gamma < 1e-6 && check.balance < tight && std::isfinite(x.g);
   }
 
   bool interrupted() const { return monitor_.cancelled() || monitor_.seconds() > o_.wall_time; }
 
+  // One solver's answer; true when it is kept or nothing more is to be done.
+  bool ask(jam_lp_solver solver, const IpmControl &control) {
+    answer_ = solver == JAM_LP_IPM ? ipm_.solve(lp_, control, &monitor_) : solve_lp_clp(lp_, 1e-9, o_.wall_time - monitor_.seconds(), &monitor_);
+    if (seams_.answer) seams_.answer(answer_, solver);
+    LpCheck check;
+    const bool good = acceptable(answer_, check);
+    // An interior point that was interrupted says so by an answer that does not check out; one that did is not thrown away.
+    if (good && !monitor_.cancelled()) return keep(check, solver), true;
+    if (interrupted()) return true;
+    monitor_.log(JAM_LOG_WARNING, "%s: infeasibility %.1e balance %.1e |sum y - 1| %.1e", solver == JAM_LP_IPM ? "interior point" : "Clp", check.infeasibility,
+                 check.balance, check.gamma);
+    return false;
+  }
+
   // The chosen solver first; then a cold interior point with small steps, then Clp.
   void solve() {
-    LpCheck check;
     kept_ = false;
+    IpmControl control;
+    control.tolerance = o_.lp_tolerance;
+    control.early_fraction = early_;
+    control.wall_time = o_.wall_time;
     if (o_.lp_solver == JAM_LP_IPM) {
-      IpmControl control;
-      control.tolerance = o_.lp_tolerance;
-      control.early_fraction = early_;
-      control.wall_time = o_.wall_time;
-      answer_ = ipm_.solve(lp_, control, &monitor_);
-      if (interrupted()) return;
-      used_ = JAM_LP_IPM;
-      if (acceptable(answer_, check)) return keep(check);
-      monitor_.log(JAM_LOG_WARNING, "interior point: infeasibility %.1e balance %.1e sum_y %.1e; trying again", check.infeasibility, check.balance, check.gamma);
+      if (ask(JAM_LP_IPM, control)) return;
       control.correctors = 0;
       control.early_fraction = 0;
       control.max_iterations = 200;
-      answer_ = ipm_.solve(lp_, control, &monitor_);
-      if (interrupted()) return;
-      if (acceptable(answer_, check)) return keep(check);
-      monitor_.log(JAM_LOG_WARNING, "interior point failed: infeasibility %.1e balance %.1e; Clp takes over", check.infeasibility, check.balance);
+      if (ask(JAM_LP_IPM, control)) return;
+      monitor_.log(JAM_LOG_WARNING, "the interior point failed twice; Clp takes over");
     }
-    answer_ = solve_lp_clp(lp_, 1e-9, o_.wall_time - monitor_.seconds());
-    used_ = JAM_LP_CLP;
-    if (acceptable(answer_, check)) return keep(check);
-    if (interrupted()) return;
-    fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out (infeasibility %.1e, balance %.1e, |sum y - 1| %.1e)", check.infeasibility, check.balance, check.gamma);
+    if (!ask(JAM_LP_CLP, control)) fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out; the log has the residuals");
   }
 
-  void keep(const LpCheck &check) {
-    out_.report.lp_solver = used_;
+  void keep(const LpCheck &check, jam_lp_solver solver) {
+    out_.report.lp_solver = solver;
     out_.report.gamma_residual = check.gamma;
     out_.report.duality_gap = std::fabs(check.gap);
     ++out_.report.lp_solves;
@@ -202,8 +211,6 @@ class Chain {
     if (!answer_.y.empty() && !network_.stable.empty()) {
       out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
       if (r.stop_reason == JAM_STOP_CONVERGED && o_.polish) last_digits();
-    } else {
-      out_.contacts.coordination.assign(out_.packing.n(), 0);
     }
     certify(out_.packing, out_.contacts, r);
     r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < 1e-6 && r.min_force > 0.0;
@@ -215,18 +222,41 @@ class Chain {
     r.seconds_solve = system_.seconds_solve;
   }
 
+  // Out of memory, or no LP solved: the state is the last good one, without contacts. Allocates nothing that it cannot do without.
+  void finish_failed() {
+    for (double &x : out_.packing.position) x = wrap(x, out_.packing.box);
+    ContactNetwork &c = out_.contacts;
+    c.pairs.clear(), c.vector.clear(), c.gap.clear(), c.force.clear();
+    std::fill(c.coordination.begin(), c.coordination.end(), 0);
+    try {
+      certify(out_.packing, c, out_.report);
+    } catch (const std::bad_alloc &) {
+      out_.report.packing_fraction = packing_fraction(out_.packing);
+    }
+    out_.report.method = o_.method;
+    out_.report.factorisations = system_.factorisations;
+    out_.report.seconds = monitor_.seconds();
+  }
+
   void last_digits() {
-    if (!show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false) && polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_)) {
+    if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
+    if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+    if (end == PolishEnd::done) {
       HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
       for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
       if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
     }
+    const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"
+                      : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
+    if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; the LP's answer stays", why);
     if (monitor_.cancelled()) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
   }
 
   const jam_crunch_options o_;
   Monitor &monitor_;
   History &history_;
+  const CrunchSeams &seams_;
   CrunchResult out_;
   NewtonSystem system_;
   InteriorPoint ipm_;
@@ -234,7 +264,6 @@ class Chain {
   PackingLp lp_;
   LpSolution answer_;
   Network network_;
-  int32_t used_ = JAM_LP_IPM;
   double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
   double last_gain_ = 1.0;
   int idle_ = 0;
@@ -248,7 +277,7 @@ double free_spacing(const Packing &p) {
   return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed, -1.0 / p.dim));
 }
 
-CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history) {
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history, const CrunchSeams *seams) {
   check_options(start, o);
   if (monitor.log_fn && monitor.log_level >= JAM_LOG_INFO) {
     const jam_estimate e = estimate(start, o);
@@ -257,7 +286,9 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   }
   History own;
   History &steps = history ? *history : own;
-  CrunchResult result = Chain(start, o, monitor, steps).run();
+  const CrunchSeams none;
+  CrunchResult result = Chain(start, o, monitor, steps, seams ? *seams : none).run();
+  if (seams && seams->attempt) seams->attempt(result);
   const bool gave_up = result.status == JAM_NOT_CONVERGED || result.status == JAM_NOT_JAMMED;
   if (!gave_up || o.method != JAM_CRUNCH_RELINEARISE || monitor.cancelled() || monitor.seconds() > o.wall_time) return result;
   // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain takes
@@ -267,7 +298,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   chain.method = JAM_CRUNCH_CHAIN;
   History again;
   std::swap(again, steps);  // callbacks look at `steps`
-  CrunchResult second = Chain(start, chain, monitor, steps).run();
+  CrunchResult second = Chain(start, chain, monitor, steps, seams ? *seams : none).run();
   second.report.lp_solves += result.report.lp_solves;
   second.report.factorisations += result.report.factorisations;
   if (second.report.jammed) return second;

@@ -1,6 +1,7 @@
 // From any valid packing to a certified jammed one. Data flow:
 //   packing -> [pairs -> LP -> checked answer -> safe step]* -> contact network -> polish -> certificate
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,20 @@ struct CrunchResult {
   std::string text;         // why, when status < 0
 };
 
+// For tests alone: what no honest input does at will. Each may be empty.
+struct CrunchSeams {
+  std::function<void(LpSolution &, jam_lp_solver)> answer;             // an LP's answer before it is checked
+  std::function<void(CrunchResult &)> attempt;                         // of the path, before the chain is considered
+  std::function<void(const Packing &, ContactNetwork &)> before_polish;
+};
+
 // options.cpp: throws for options that make no sense and for packings that cannot be crunched.
 void check_options(const Packing &p, const jam_crunch_options &o);
 
 // Throws for bad options, else never: the result carries the status. history may be NULL; it ends with the steps of the
 // attempt that is returned.
-CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr);
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr,
+                    const CrunchSeams *seams = nullptr);
 
 // estimate.cpp: memory and work of a crunch before it runs. Throws for bad options.
 jam_estimate estimate(const Packing &start, const jam_crunch_options &o);
@@ -58,10 +67,10 @@ double largest_step(const LpSolution &answer, const Network &network, int dim);
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer, const Network &network);
 
 // polish.cpp: closes the contacts by Newton steps on (positions, one common diameter factor) and projects the forces on
-// the null space of S^T. Returns false and changes nothing when a force would turn negative, another pair would
-// overlap, or nothing gets better.
-// The monitor may cancel it, which changes nothing either. system is used anew: it need not hold the contacts' graph.
-bool polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
+// the null space of S^T. Changes nothing unless done: refuses when a contact does not close, a force turns negative or
+// another pair would overlap. system is used anew: it need not hold the contacts' graph.
+enum class PolishEnd { done, no_contacts, cancelled, open_contact, negative_force, overlap };
+PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
 
 // certificate.cpp: everything in the report that follows from packing and contacts alone.
 void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);

@@ -16,12 +16,24 @@ std::vector<double> small_diagonal(const Packing &p, const ContactNetwork &net) 
   return diagonal;
 }
 
+// Residuals in extended precision: in double those of a converged packing are rounding of these sums alone.
+using Wide = long double;
+// A pair that stays wider than this, relative, when all contacts are closed together is none.
+constexpr double closed = 1e-8;
+
 void refresh(const Packing &p, ContactNetwork &net) {
-  double r[JAM_MAX_DIM];
+  const int d = p.dim;
+  Wide r[JAM_MAX_DIM];
   for (size_t k = 0; k < net.size(); ++k) {
-    const double length = std::sqrt(pair_vector(p, net.pairs, k, r));
-    for (int c = 0; c < p.dim; ++c) net.vector[k * p.dim + c] = r[c] / length;
-    net.gap[k] = length / (0.5 * (p.diameter[net.pairs.i[k]] + p.diameter[net.pairs.j[k]])) - 1.0;
+    const size_t i = net.pairs.i[k], j = net.pairs.j[k];
+    Wide r2 = 0.0;
+    for (int c = 0; c < d; ++c) {
+      r[c] = (static_cast<Wide>(p.position[i * d + c]) - p.position[j * d + c]) + net.pairs.offset[k * d + c];
+      r2 += r[c] * r[c];
+    }
+    const Wide length = std::sqrt(r2), sigma = 0.5L * (static_cast<Wide>(p.diameter[i]) + p.diameter[j]);
+    for (int c = 0; c < d; ++c) net.vector[k * d + c] = static_cast<double>(r[c] / length);
+    net.gap[k] = static_cast<double>((length - sigma) / sigma);
   }
 }
 
@@ -55,31 +67,41 @@ void close_contacts(Packing &p, ContactNetwork &net, NewtonSystem &system, const
 
 // f -= S (S^T S)^-1 S^T f, twice or more: the nearest forces that balance on every sphere.
 void balance_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  std::vector<double> ones(net.size(), 1.0), unbalanced(p.position.size()), x(p.position.size()), correction(net.size());
+  const int d = p.dim;
+  std::vector<double> ones(net.size(), 1.0), x(p.position.size()), correction(net.size());
+  std::vector<Wide> force(net.force.begin(), net.force.end()), unbalanced(p.position.size());
   if (!system.factorise(net.vector.data(), ones.data(), diagonal.data())) return;
-  for (int round = 0; round < 3; ++round) {
-    system.transpose_times(net.vector.data(), net.force.data(), unbalanced.data());
-    x = unbalanced;
+  for (int round = 0; round < 4; ++round) {
+    std::fill(unbalanced.begin(), unbalanced.end(), 0.0L);
+    for (size_t k = 0; k < net.size(); ++k)
+      for (int c = 0; c < d; ++c) {
+        const Wide f = force[k] * net.vector[k * d + c];
+        unbalanced[static_cast<size_t>(net.pairs.i[k]) * d + c] += f;
+        unbalanced[static_cast<size_t>(net.pairs.j[k]) * d + c] -= f;
+      }
+    std::copy(unbalanced.begin(), unbalanced.end(), x.begin());
     system.cholesky().solve(x.data());
     system.rows_times(net.vector.data(), x.data(), correction.data());
-    for (size_t k = 0; k < net.size(); ++k) net.force[k] -= correction[k];
+    for (size_t k = 0; k < net.size(); ++k) force[k] -= correction[k];
   }
-  double mean = 0.0;
-  for (double f : net.force) mean += f / static_cast<double>(net.size());
-  for (double &f : net.force) f /= mean;
-  net.force_scale *= mean;
+  Wide mean = 0.0;
+  for (Wide f : force) mean += std::fabs(f) / static_cast<Wide>(net.size());  // a sign that is wrong must show
+  for (size_t k = 0; k < net.size(); ++k) net.force[k] = static_cast<double>(force[k] / mean);
+  net.force_scale *= static_cast<double>(mean);
 }
 
 }  // namespace
 
-bool polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
-  if (net.size() == 0) return false;
+PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
+  if (net.size() == 0) return PolishEnd::no_contacts;
   Packing q = p;
   ContactNetwork better = net;
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
   const std::vector<double> diagonal = small_diagonal(p, net);
   double worst = largest(better.gap);
   for (int round = 0; round < 4 && worst > 1e-16; ++round) {
+    if (monitor) monitor->log(JAM_LOG_DEBUG, "polish %d largest gap %.2e", round, worst);
+    if (monitor && monitor->cancelled()) return PolishEnd::cancelled;
     Packing q_old = q;
     ContactNetwork old = better;
     close_contacts(q, better, system, diagonal);
@@ -90,14 +112,15 @@ bool polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, 
     }
     worst = now;
   }
-  if (monitor && monitor->cancelled()) return false;
+  if (monitor && monitor->cancelled()) return PolishEnd::cancelled;
+  if (!(worst < closed)) return PolishEnd::open_contact;
   balance_forces(q, better, system, diagonal);
   for (double f : better.force)
-    if (!(f > 0.0)) return false;
-  if (closest_pair(q).gap < std::min(-1e-14, closest_pair(p).gap)) return false;
+    if (!(f > 0.0)) return PolishEnd::negative_force;
+  if (closest_pair(q).gap < std::min(-1e-14, closest_pair(p).gap)) return PolishEnd::overlap;
   p = std::move(q);
   net = std::move(better);
-  return true;
+  return PolishEnd::done;
 }
 
 }  // namespace jam

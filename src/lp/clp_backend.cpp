@@ -1,4 +1,5 @@
 // The packing LP by Clp's dual simplex: the independent check. The only file that includes Clp.
+#include <ClpEventHandler.hpp>
 #include <ClpSimplex.hpp>
 #include <CoinMessageHandler.hpp>
 #include <CoinPackedMatrix.hpp>
@@ -8,10 +9,23 @@
 #include "lp/packing_lp.hpp"
 
 namespace jam {
+namespace {
+
+class StopWhenCancelled : public ClpEventHandler {
+ public:
+  explicit StopWhenCancelled(const Monitor *monitor) : monitor_(monitor) {}
+  int event(Event) override { return monitor_ && monitor_->cancelled() ? 0 : -1; }  // 0: end; -1: go on
+  ClpEventHandler *clone() const override { return new StopWhenCancelled(monitor_); }
+
+ private:
+  const Monitor *monitor_;
+};
+
+}  // namespace
 
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
 // follow the size of the step. Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so the objective is -g.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds) {
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, const Monitor *monitor) {
   const double scale = std::isfinite(lp.bound) ? lp.bound : 1.0;
   const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
   std::vector<int> row_of, column_of;
@@ -41,10 +55,12 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds) {
   silent.setLogLevel(0);
   model.passInMessageHandler(&silent);
   model.setLogLevel(0);
+  const StopWhenCancelled stop(monitor);
+  model.passInEventHandler(&stop);
   model.loadProblem(matrix, low.data(), high.data(), cost.data(), row_low.data(), row_high.data());
   model.setPrimalTolerance(tolerance);
   model.setDualTolerance(tolerance);
-  if (std::isfinite(seconds)) model.setMaximumWallSeconds(seconds);
+  if (std::isfinite(seconds)) model.setMaximumWallSeconds(std::max(seconds, 1e-3));  // a time below zero means none to Clp
   LpSolution out;
   model.dual();
   out.solved = model.status() == 0;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/monitor.hpp"
 #include "core/pairs.hpp"
 
 namespace jam {
@@ -44,7 +45,8 @@ struct LpCheck {
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit);
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
-// Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds);
+// Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL, can
+// cancel it between two pivots.
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, const Monitor *monitor = nullptr);
 
 }  // namespace jam

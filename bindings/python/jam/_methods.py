@@ -79,16 +79,16 @@ class Methods:
         JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
 
         Options:
-        lp_solver: jam_lp_solver, default IPM
-        method: jam_crunch_method, default RELINEARISE
-        polish: 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
-        max_lps: >= 1, default 1000 (CALiPPSO: max_iters)
-        threads: 1 or 2, default 1; bits are reproducible on 1
-        gain_tolerance: on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence)
-        step_tolerance: on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence)
-        lp_tolerance: relative complementarity and residual of one LP, default 1e-15
-        neighbour_radius: largest pair distance in an LP; 0, the default: adapts (l0)
-        step_bound: bound on each |s_i| component; 0, the default: adapts (sbound)
+        lp_solver: jam_lp_solver, default IPM (optimizer)
+        method: jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
+        polish: 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+        max_lps: >= 1, default 1000 (max_iters)
+        threads: 1 or 2, default 1; bits are reproducible on 1 (threads)
+        gain_tolerance: on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
+        step_tolerance: on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
+        lp_tolerance: relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
+        neighbour_radius: largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
+        step_bound: bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
         wall_time: limit in seconds, > 0, default infinity
         steps: 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default"""
         return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps)

@@ -297,20 +297,24 @@ mutable struct jam_glass
 end
 
 """
-Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. @since 0.1
+Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
+(Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
+and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
+its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
+progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
 """
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
-    lp_solver::Int32  # jam_lp_solver, default IPM
-    method::Int32  # jam_crunch_method, default RELINEARISE
-    polish::Int32  # 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer
-    max_lps::Int32  # >= 1, default 1000 (CALiPPSO: max_iters)
-    threads::Int32  # 1 or 2, default 1; bits are reproducible on 1
-    gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12 (CALiPPSO: tol_Gamma_convergence)
-    step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence)
-    lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15
-    neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts (l0)
-    step_bound::Cdouble  # bound on each |s_i| component; 0, the default: adapts (sbound)
+    lp_solver::Int32  # jam_lp_solver, default IPM (optimizer)
+    method::Int32  # jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
+    polish::Int32  # 1 (default): close contacts and balance forces to rounding at the end; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+    max_lps::Int32  # >= 1, default 1000 (max_iters)
+    threads::Int32  # 1 or 2, default 1; bits are reproducible on 1 (threads)
+    gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
+    step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
+    lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
+    neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
+    step_bound::Cdouble  # bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default
     reserved::Int32  # 0

@@ -1,0 +1,161 @@
+// Out of memory at any allocation of a crunch: JAM_E_MEMORY with a valid state, either that before the call or the last good one on
+// the way, from which the next crunch goes on; no leak.
+extern "C" {
+#include <jam/jam.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+}
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace {
+std::atomic<long> until_failure{-1};  // allocations that still succeed; -1: all. Then each fails, or with `once` a single one
+std::atomic<long> alive{0};
+bool once = false;
+
+bool fails() {
+  if (until_failure < 0) return false;
+  if (until_failure == 0) {
+    if (once) until_failure = -2;
+    return true;
+  }
+  --until_failure;
+  return false;
+}
+}  // namespace
+
+// The replacement reaches the shared library too: it takes its operator new from the program.
+void *operator new(std::size_t size) {
+  void *p = fails() ? nullptr : std::malloc(size ? size : 1);
+  if (!p) throw std::bad_alloc();
+  ++alive;
+  return p;
+}
+void *operator new(std::size_t size, const std::nothrow_t &) noexcept {
+  void *p = fails() ? nullptr : std::malloc(size ? size : 1);
+  alive += p ? 1 : 0;
+  return p;
+}
+void operator delete(void *p) noexcept {
+  if (p) --alive;
+  std::free(p);
+}
+void operator delete(void *p, const std::nothrow_t &) noexcept { operator delete(p); }
+void operator delete(void *p, std::size_t) noexcept { operator delete(p); }
+
+namespace {
+
+jam_system *start() {
+  jam_create_options o;
+  jam_system *sys = nullptr;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 24, o.packing_fraction = 0.3, o.seed = 2;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  return sys;
+}
+
+double fraction(const jam_system *sys) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  return info.packing_fraction;
+}
+
+// Brute force over pairs, nearest images: the box is wide enough.
+void assert_valid(const jam_system *sys) {
+  const double *x, *s;
+  size_t n;
+  jam_diameters_view(sys, &s, &n);
+  size_t len;
+  jam_positions_view(sys, &x, &len);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j < i; ++j) {
+      double r2 = 0.0;
+      for (size_t c = 0; c < 3; ++c) {
+        assert_true(x[3 * i + c] >= 0.0 && x[3 * i + c] < 1.0);
+        double dx = x[3 * i + c] - x[3 * j + c];
+        dx -= std::nearbyint(dx);
+        r2 += dx * dx;
+      }
+      assert_true(std::sqrt(r2) > 0.5 * (s[i] + s[j]) * (1.0 - 1e-12));
+    }
+}
+
+// The k-th allocation fails, for every k of the first `dense` and then for ever sparser ones.
+void fail_each(const jam_crunch_options &o, long dense) {
+  long as_before = 0, advanced = 0, survived = 0;
+  for (long k = 0;; k += 1 + k / dense * 17) {
+    const long clean = alive;
+    jam_system *sys = start();
+    const double before = fraction(sys);
+    until_failure = k;
+    const jam_status status = jam_crunch(sys, &o, nullptr);
+    const bool hit = until_failure == 0 || until_failure == -2;
+    until_failure = -1;
+    if (!hit) {
+      assert_int_equal(status, JAM_OK);
+      jam_destroy(sys);
+      break;
+    }
+    if (status == JAM_E_MEMORY) {
+      assert_true(strlen(jam_last_error()) > 0);
+      (fraction(sys) == before ? as_before : advanced) += 1;
+    } else {
+      assert_int_equal(status, JAM_OK);  // a temporary that the standard library does without
+      ++survived;
+    }
+    assert_valid(sys);
+    if (k % 5 == 0) {  // the handle works
+      assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
+      assert_valid(sys);
+    }
+    jam_destroy(sys);
+    assert_int_equal(alive, clean);
+  }
+  print_message("state as before %ld times, last good state %ld times, not needed %ld times\n", as_before, advanced, survived);
+  assert_true(as_before > 20 && advanced > 20);
+}
+
+void every_allocation(void **) {
+  jam_crunch_options o;
+  jam_crunch_options_init(&o, sizeof o);
+  for (int method = 0; method < 2; ++method)
+    for (int single = 0; single < 2; ++single) {
+      o.method = method, once = single != 0, o.steps = single;
+      fail_each(o, method == 0 && single ? 1500 : 300);
+    }
+}
+
+void getters(void **) {
+  jam_system *sys = start();
+  assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
+  once = false;
+  for (long k = 0; k < 40; ++k) {
+    const long clean = alive;
+    double column[2000];
+    jam_estimate e;
+    e.struct_size = sizeof e;
+    until_failure = k;
+    const jam_status a = k ? JAM_OK : jam_crunch_history(sys, JAM_HISTORY_PHI, column, 2000, nullptr);
+    const jam_status b = jam_crunch_estimate(sys, nullptr, &e);
+    until_failure = -1;
+    assert_true((a == JAM_OK) == (k > 0) && (b == JAM_E_MEMORY || b == JAM_OK));
+    assert_int_equal(alive, clean);
+  }
+  jam_destroy(sys);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(every_allocation), cmocka_unit_test(getters)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,160 @@
+/* Cancel and wall time inside every phase of a crunch: path, LP by either solver, polish. The log callback tells the phase.
+ * Each time the status says so, the state is valid, and the next call goes on from it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "jam/jam.h"
+
+static jam_system *start(int n) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n, o.packing_fraction = 0.3, o.seed = 5;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+typedef struct ambush {
+  jam_system *sys;
+  const char *word; /* beginning of the log line that says what runs */
+  int wait;         /* lines of it to let pass */
+  double sleep;     /* seconds to sleep there; 0: cancel */
+  int sprung, after; /* lines of it behind the trap: none but one that was on its way */
+} ambush;
+
+static void spring(int32_t level, const char *line, void *user) {
+  ambush *a = user;
+  (void)level;
+  if (strncmp(line, a->word, strlen(a->word))) return;
+  a->after += a->sprung;
+  if (a->wait-- > 0 || a->sprung) return;
+  a->sprung = 1;
+  if (a->sleep > 0.0) {
+    struct timespec t = {(time_t)a->sleep, (long)(1e9 * (a->sleep - (double)(time_t)a->sleep))};
+    nanosleep(&t, NULL);
+  } else {
+    assert_int_equal(jam_cancel(a->sys), JAM_OK);
+  }
+}
+
+static jam_report crunch(jam_system *sys, const jam_crunch_options *o, jam_status expected) {
+  jam_report r;
+  jam_status status;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  status = jam_crunch(sys, o, &r);
+  if (status != expected) fail_msg("status %d (%s, %s)", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
+  return r;
+}
+
+/* A trap in one phase, then the same call again without it. phi_min: nothing is lost. */
+static void trap(const char *word, int wait, double sleep, const jam_crunch_options *o, jam_status expected, jam_stop_reason reason) {
+  jam_system *sys = start(100);
+  ambush a;
+  jam_report r, done;
+  memset(&a, 0, sizeof a);
+  a.sys = sys, a.word = word, a.wait = wait, a.sleep = sleep;
+  assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
+  r = crunch(sys, o, expected);
+  if (!a.sprung) fail_msg("no line begins with '%s'", word);
+  assert_true(r.stop_reason == (int32_t)reason && !r.jammed && a.after <= 1);
+  assert_true(r.max_overlap < 1e-12 && r.packing_fraction > 0.2);
+  assert_int_equal(r.rattlers + r.stable, 100);
+  assert_int_equal(jam_set_log(sys, NULL, 0, NULL), JAM_OK);
+  done = crunch(sys, NULL, JAM_OK);
+  assert_true(done.jammed && done.packing_fraction > r.packing_fraction * (1.0 - 1e-12) && done.max_overlap < 1e-12);
+  jam_destroy(sys);
+}
+
+static void cancel_in_every_phase(void **state) {
+  jam_crunch_options o;
+  (void)state;
+  jam_crunch_options_init(&o, sizeof o);
+  trap("path", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  trap("path", 20, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  trap("ipm", 1, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  trap("polish", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  o.method = JAM_CRUNCH_CHAIN;
+  trap("ipm", 3, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+  trap("LP 3", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
+}
+
+/* The clock runs out inside the first LP: that LP is given up and nothing has moved. */
+static void wall_time_inside_an_lp(void **state) {
+  jam_crunch_options o;
+  int solver;
+  (void)state;
+  jam_crunch_options_init(&o, sizeof o);
+  o.wall_time = 1.5; /* a busy machine gets that far in time */
+  trap("path", 3, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
+  o.method = JAM_CRUNCH_CHAIN;
+  trap("ipm", 2, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
+  for (solver = 0; solver < 2; ++solver) {
+    jam_system *sys = start(solver ? 400 : 100); /* 400: one LP by Clp takes far longer than the limit */
+    double before[1200];
+    const double *x;
+    size_t len;
+    ambush a;
+    jam_report r;
+    memset(&a, 0, sizeof a);
+    a.sys = sys, a.word = solver ? "estimate" : "ipm", a.wait = 0, a.sleep = solver ? 0.0001 : 1.6;
+    o.lp_solver = solver, o.wall_time = solver ? 0.05 : 1.5;
+    jam_positions_view(sys, &x, &len), memcpy(before, x, len * sizeof *x);
+    jam_set_log(sys, spring, JAM_LOG_DEBUG, &a);
+    r = crunch(sys, &o, JAM_LIMIT);
+    assert_true(a.sprung && r.stop_reason == JAM_STOP_WALL_TIME && r.lp_solves == 0 && r.contacts == 0);
+    assert_true(r.seconds < 20.0);
+    assert_memory_equal(before, x, len * sizeof *x);
+    jam_destroy(sys);
+  }
+}
+
+static int32_t count_calls(const jam_progress *p, void *user) {
+  if (p->phase == JAM_PHASE_POLISH) ++*(int *)user;
+  return p->phase == JAM_PHASE_POLISH;
+}
+
+/* A polish that is stopped leaves the LP's own answer. */
+static void polish_is_stopped(void **state) {
+  jam_system *plain = start(100);
+  jam_crunch_options o;
+  jam_report b;
+  const double *x, *y;
+  size_t len;
+  int inside;
+  (void)state;
+  jam_crunch_options_init(&o, sizeof o);
+  o.polish = 0;
+  b = crunch(plain, &o, JAM_OK);
+  jam_positions_view(plain, &y, &len);
+  for (inside = 0; inside < 2; ++inside) { /* before it begins, by the progress callback; in its first round */
+    jam_system *sys = start(100);
+    jam_report a;
+    ambush trap_set;
+    int calls = 0;
+    memset(&trap_set, 0, sizeof trap_set);
+    trap_set.sys = sys, trap_set.word = "polish";
+    if (inside) jam_set_log(sys, spring, JAM_LOG_DEBUG, &trap_set);
+    else jam_set_progress(sys, count_calls, &calls);
+    a = crunch(sys, NULL, JAM_CANCELLED);
+    assert_true(inside ? trap_set.sprung : calls == 1);
+    assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction && a.force_residual == b.force_residual);
+    jam_positions_view(sys, &x, &len);
+    assert_memory_equal(x, y, len * sizeof *x);
+    jam_destroy(sys);
+  }
+  jam_destroy(plain);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase), cmocka_unit_test(wall_time_inside_an_lp),
+                                     cmocka_unit_test(polish_is_stopped)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,186 @@
+// Rare ends of a crunch, forced through CrunchSeams: an interior point that fails, a path that gives up, a polish that refuses.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+extern "C" {
+#include <cmocka.h>
+}
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/create.hpp"
+#include "crunch/crunch.hpp"
+
+using namespace jam;
+
+namespace {
+
+Packing start(int n, int dim, double phi, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
+  return make_packing(o, nullptr, 0, nullptr, 0);
+}
+
+CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchSeams *seams = nullptr, History *history = nullptr) {
+  Monitor monitor;
+  monitor.begin();
+  return crunch(p, o, monitor, history, seams);
+}
+
+void same_bits(const CrunchResult &a, const CrunchResult &b) {
+  assert_memory_equal(a.packing.position.data(), b.packing.position.data(), a.packing.position.size() * sizeof(double));
+  assert_memory_equal(a.packing.diameter.data(), b.packing.diameter.data(), a.packing.diameter.size() * sizeof(double));
+  assert_int_equal(a.contacts.size(), b.contacts.size());
+  assert_memory_equal(a.contacts.force.data(), b.contacts.force.data(), a.contacts.force.size() * sizeof(double));
+}
+
+// Every answer of the interior point is spoiled, each time in another way: Clp must finish the job alone, on the same jamming
+// point that it finds as the chosen solver.
+void clp_takes_over(void **) {
+  const Packing p = start(40, 3, 0.3, 3);
+  jam_crunch_options o = default_crunch_options();
+  o.method = JAM_CRUNCH_CHAIN;
+  int ipm = 0, clp = 0;
+  CrunchSeams seams;
+  seams.answer = [&](LpSolution &x, jam_lp_solver solver) {
+    if (solver == JAM_LP_CLP) {
+      ++clp;
+      return;
+    }
+    if (ipm % 4 == 0) x.solved = false;
+    if (ipm % 4 == 1) x.g += 1e-6;                              // some pair would overlap
+    if (ipm % 4 == 2) for (double &y : x.y) y *= 1.001;          // |sum y - 1|
+    if (ipm % 4 == 3) x.g = std::nan("");
+    ++ipm;
+  };
+  const CrunchResult r = run(p, o, &seams);
+  assert_int_equal(r.status, JAM_OK);
+  assert_int_equal(r.report.lp_solver, JAM_LP_CLP);
+  assert_true(clp == r.report.lp_solves && ipm == 2 * clp);
+  assert_true(r.report.jammed && r.report.max_overlap < 1e-12 && r.report.force_residual < 1e-12);
+  o.lp_solver = JAM_LP_CLP;
+  same_bits(r, run(p, o));
+}
+
+// Both solvers fail after a few LPs: a status with the state after those, which holds no overlap, and no contacts.
+void nobody_solves(void **) {
+  const Packing p = start(40, 3, 0.3, 3);
+  jam_crunch_options o = default_crunch_options();
+  o.method = JAM_CRUNCH_CHAIN;
+  int asked = 0;
+  CrunchSeams seams;
+  seams.answer = [&](LpSolution &x, jam_lp_solver) { x.solved = x.solved && ++asked <= 3; };
+  const CrunchResult r = run(p, o, &seams);
+  assert_int_equal(r.status, JAM_E_SOLVER);
+  assert_true(!r.text.empty() && r.report.stop_reason == JAM_STOP_SOLVER && !r.report.jammed);
+  assert_true(r.report.lp_solves >= 1 && r.contacts.size() == 0 && r.report.rattlers == 40);
+  o.max_lps = static_cast<int32_t>(r.report.lp_solves);
+  const CrunchResult limited = run(p, o);
+  assert_int_equal(limited.status, JAM_LIMIT);
+  assert_memory_equal(r.packing.position.data(), limited.packing.position.data(), r.packing.position.size() * sizeof(double));
+  assert_true(closest_pair(r.packing).gap > -1e-13);
+}
+
+// A path that ends undecided: the chain starts again at the same point and its answer is the chain's own; the history too.
+void chain_takes_over(void **) {
+  const Packing p = start(60, 3, 0.3, 4);
+  jam_crunch_options o = default_crunch_options(), chain = o;
+  CrunchSeams seams;
+  seams.attempt = [](CrunchResult &r) { r.status = JAM_NOT_CONVERGED; };
+  History history, expected;
+  const CrunchResult r = run(p, o, &seams, &history);
+  chain.method = JAM_CRUNCH_CHAIN;
+  const CrunchResult alone = run(p, chain, nullptr, &expected);
+  assert_true(r.status == JAM_OK && r.report.jammed && r.report.method == JAM_CRUNCH_CHAIN);
+  assert_true(r.report.factorisations > alone.report.factorisations);  // the path's are counted too
+  same_bits(r, alone);
+  assert_int_equal(history.rows().size(), expected.rows().size());
+  assert_true(history.rows().back()[JAM_HISTORY_PHI] == r.report.packing_fraction);
+  assert_true(history.rows().front()[JAM_HISTORY_PHASE] == JAM_STEP_LP);
+}
+
+// The network of the fixed point, or a broken one, through polish alone.
+PolishEnd try_polish(const Packing &p, const ContactNetwork &net) {
+  Packing q = p;
+  ContactNetwork changed = net;
+  NewtonSystem system;
+  const PolishEnd end = polish(q, changed, system, 1);
+  if (end == PolishEnd::done) {
+    for (size_t k = 0; k < changed.size(); ++k) assert_true(changed.force[k] > 0.0 && std::fabs(changed.gap[k]) < 1e-14);
+    assert_true(closest_pair(q).gap > -1e-14);
+  } else {
+    assert_memory_equal(q.position.data(), p.position.data(), p.position.size() * sizeof(double));
+    assert_memory_equal(changed.force.data(), net.force.data(), net.size() * sizeof(double));
+  }
+  return end;
+}
+
+// One contact replaced by a pair of stable spheres that do not touch: closing it opens or crosses the one left out, or
+// pulls somewhere. What passes must be a packing without overlap and with positive forces all the same.
+void polish_refuses(void **) {
+  jam_crunch_options o = default_crunch_options();
+  o.polish = 0;
+  const CrunchResult r = run(start(60, 3, 0.3, 4), o);
+  assert_true(r.report.jammed && r.report.excess_contacts == 0);
+  assert_true(try_polish(r.packing, r.contacts) == PolishEnd::done);
+  ContactNetwork net = r.contacts;
+  for (double &f : net.force) f = -f;
+  assert_true(try_polish(r.packing, net) == PolishEnd::negative_force);
+  net.pairs.clear(), net.force.clear(), net.gap.clear(), net.vector.clear();
+  assert_true(try_polish(r.packing, net) == PolishEnd::no_contacts);
+
+  const PairList near = find_pairs(r.packing, 0.0, 1.3);
+  int ends[6] = {0, 0, 0, 0, 0, 0};
+  double v[3];
+  for (size_t k = 0; k < near.size(); ++k) {
+    const double sigma = r.packing.diameter[near.i[k]], gap = std::sqrt(pair_vector(r.packing, near, k, v)) / sigma - 1.0;
+    if (gap < 1e-3 || !r.contacts.coordination[near.i[k]] || !r.contacts.coordination[near.j[k]]) continue;
+    net = r.contacts;
+    const size_t place = std::lower_bound(net.pairs.i.begin(), net.pairs.i.end(), near.i[k]) - net.pairs.i.begin();  // of the same i: the list stays sorted
+    if (place >= net.size() || net.pairs.i[place] != near.i[k]) continue;
+    net.pairs.j[place] = near.j[k];
+    net.gap[place] = gap;
+    for (int c = 0; c < 3; ++c) {
+      net.vector[place * 3 + c] = v[c] / (sigma * (1.0 + gap));
+      net.pairs.offset[place * 3 + c] = near.offset[k * 3 + c];
+    }
+    ++ends[static_cast<int>(try_polish(r.packing, net))];
+  }
+  print_message("done %d, open %d, negative %d, overlap %d\n", ends[0], ends[3], ends[4], ends[5]);
+  assert_true(ends[static_cast<int>(PolishEnd::open_contact)] > 0 && ends[static_cast<int>(PolishEnd::negative_force)] > 0);
+}
+
+// Inside a crunch a refusal leaves the answer of the LP, and the log says so.
+void lp_answer_stays(void **) {
+  const Packing p = start(60, 3, 0.3, 4);
+  jam_crunch_options o = default_crunch_options();
+  CrunchSeams seams;
+  ContactNetwork given;
+  seams.before_polish = [&](const Packing &, ContactNetwork &net) {
+    for (double &f : net.force) f = -f;
+    if (given.size() == 0) given = net;  // the chain is tried after the path, and fails alike
+  };
+  Monitor monitor;
+  std::string log;
+  monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
+  monitor.log_user = &log;
+  monitor.log_level = JAM_LOG_WARNING;
+  monitor.begin();
+  const CrunchResult r = crunch(p, o, monitor, nullptr, &seams);
+  o.polish = 0;
+  const CrunchResult plain = run(p, o);
+  assert_true(log.find("polish refused: a force turns negative") != std::string::npos);
+  assert_memory_equal(r.packing.position.data(), plain.packing.position.data(), p.position.size() * sizeof(double));
+  assert_memory_equal(r.contacts.force.data(), given.force.data(), given.size() * sizeof(double));
+  assert_true(!r.report.jammed && r.report.stop_reason == JAM_STOP_UNJAMMED);  // the certificate sees the negative forces
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(clp_takes_over), cmocka_unit_test(nobody_solves), cmocka_unit_test(chain_takes_over),
+                              cmocka_unit_test(polish_refuses), cmocka_unit_test(lp_answer_stays)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

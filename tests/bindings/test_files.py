@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,7 @@ import numpy as np
 
 import jam
 
+PACK = os.environ.get("JAM_PACK")  # the program in C
 
 def crunched(dim=2):
     s = jam.System.random(n=60 if dim == 2 else 80, dim=dim, seed=3, diameters=[1.0, 1.4] * (30 if dim == 2 else 40), box=2.0)
@@ -73,7 +75,7 @@ class Files(unittest.TestCase):
         rows = list(csv.DictReader((self.path / "s.csv").read_text().splitlines()))
         self.assertEqual([float(r["x"]) for r in rows], list(self.s.positions[:, 0]))
         rows = list(csv.DictReader((self.path / "c.csv").read_text().splitlines()))
-        self.assertEqual(list(rows[0]), ["i", "j", "nx", "ny", "gap", "force"])
+        self.assertEqual(list(rows[0]), ["i", "j", "n1", "n2", "gap", "force"])
         self.assertEqual([float(r["force"]) for r in rows], list(self.s.forces))
 
     def test_nothing_is_left_when_writing_fails(self):
@@ -104,7 +106,32 @@ class CommandLine(unittest.TestCase):
             self.assertTrue(os.path.exists(f("v.vtp")) and os.path.exists(f("v-forces.vtp")))
             self.assertAlmostEqual(jam.System.read(f("out.dat")).packing_fraction, report["packing_fraction"], 14)
 
+    @unittest.skipUnless(PACK, "jam-pack is not built")
+    def test_same_options_and_same_files_as_jam_pack(self):
+        said = subprocess.run([PACK, "--help"], capture_output=True, text=True, check=True).stdout
+        theirs = set(re.findall(r"(?<![\w-])--[a-z][\w-]*", said))
+        ours = {option for action in jam.cli.parser()._actions for option in action.option_strings}
+        self.assertEqual(theirs - ours, set())
+        tables = ("contacts", "gaps", "structure", "spectrum", "output")
+        for arguments in (["--n", "80", "--dim", "2", "--diameters-ratio", "1.4", "--growth", "0.1:50", "--nve", "2"],
+                          ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"]):
+            with tempfile.TemporaryDirectory() as folder:
+                for name, program in (("a", [PACK]), ("b", [sys.executable, "-m", "jam"])):
+                    asked = [x for t in tables for x in ("--" + t, f"{folder}/{name}.{t}")]
+                    done = subprocess.run([*program, *arguments, *asked, "--report", f"{folder}/{name}.json", "--quiet"],
+                                          capture_output=True, text=True, timeout=120)
+                    self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+                a, b = (json.loads(Path(folder, name + ".json").read_text()) for name in "ab")
+                self.assertEqual(list(a), list(b))
+                for key in set(a) - {"seconds_md", "seconds_crunch", "collisions_per_second"}:
+                    self.assertEqual(a[key], b[key], key)
+                for t in tables:
+                    self.assertEqual(Path(folder, "a." + t).read_text(), Path(folder, "b." + t).read_text(), t)
+
     def test_exit_status(self):
+        for wrong in (["--modes", "5"], ["--no-crunch", "--gaps", "g"], ["--output", "x", "--plot", "x"], ["--pressure", "0.5"],
+                      ["--input", "x", "--structure", "x"], ["--growth", "0.1:"], ["--modes", "-1", "--spectrum", "s"]):
+            self.assertEqual(self.run_jam(*wrong).returncode, 2, wrong)
         self.assertEqual(self.run_jam("--growth", "-1").returncode, 2)
         self.assertEqual(self.run_jam("--no-md", "--nve", "3").returncode, 2)
         self.assertEqual(self.run_jam("--input", "/does/not/exist").returncode, 3)

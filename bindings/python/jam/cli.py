@@ -26,9 +26,25 @@ def _positive(text: str) -> float:
     return value
 
 
+def _pressure(text: str) -> float:
+    if not _positive(text) > 1:
+        raise argparse.ArgumentTypeError(f"{text!r} must be larger than 1, an ideal gas")
+    return float(text)
+
+
+def _not_negative(text: str) -> float:
+    return 0.0 if float(text) == 0 else _positive(text)
+
+
+def _whole(text: str) -> int:
+    if int(text) < 0:
+        raise argparse.ArgumentTypeError(f"{text!r} must be an integer >= 0")
+    return int(text)
+
+
 def _stage(text: str) -> tuple[float, float | None]:
-    rate, _, pressure = text.partition(":")
-    return _positive(rate), _positive(pressure) if pressure else None
+    rate, colon, pressure = text.partition(":")
+    return _positive(rate), _pressure(pressure) if colon else None
 
 
 def parser() -> argparse.ArgumentParser:
@@ -45,9 +61,9 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--input", metavar="FILE", help="start from a file; MD is then off unless --growth or --nve is given")
     p.add_argument("--box", type=_positive, default=1.0, help="side of the box for a plain file that names none (1)")
     p.add_argument("--shrink", action="store_true", help="shrink overlapping spheres of the file to contact")
-    p.add_argument("--nve", type=float, default=0.0, metavar="C", help="first C collisions per particle without growth (0)")
+    p.add_argument("--nve", type=_not_negative, default=0.0, metavar="C", help="first C collisions per particle without growth (0)")
     p.add_argument("--growth", type=_stage, action="append", metavar="RATE[:P]", help="a stage; repeatable. Default 1e-2:500, then 3e-3")
-    p.add_argument("--pressure", type=_positive, default=1e7, metavar="P", help="target of stages without :P (1e7)")
+    p.add_argument("--pressure", type=_pressure, default=1e7, metavar="P", help="target of stages without :P (1e7)")
     p.add_argument("--no-md", action="store_true")
     p.add_argument("--no-crunch", action="store_true")
     p.add_argument("--lp", choices=["ipm", "clp"], default="ipm")
@@ -55,9 +71,13 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--wall-time", type=_positive, metavar="SECONDS", help="limit for the whole run")
     p.add_argument("--output", metavar="FILE", help="the packing; extended XYZ if the name ends in .xyz, else plain")
     p.add_argument("--contacts", metavar="FILE.csv")
+    p.add_argument("--spectrum", metavar="FILE.csv", help="lowest modes of the harmonic Hessian: omega^2, omega, participation")
+    p.add_argument("--modes", type=_whole, metavar="K", help="how many --spectrum writes (100); 0: all")
+    p.add_argument("--gaps", metavar="FILE.csv", help="gaps h < 1 of pairs that are no contacts, sorted")
+    p.add_argument("--structure", metavar="FILE.csv", help="a line a sphere: contacts, class, sums of contact vectors and forces, Q6, "
+                   "local packing fraction")
     p.add_argument("--report", metavar="FILE|-", help="figures and certificate as JSON")
     p.add_argument("--vtk", metavar="PREFIX", help="PREFIX.vtp and PREFIX-forces.vtp for ParaView")
-    p.add_argument("--modes", type=int, metavar="K", help="print the K lowest frequencies")
     p.add_argument("--plot", metavar="PICTURE", help="spheres, force network, forces and the way there, by matplotlib")
     p.add_argument("--quiet", action="store_true")
     p.add_argument("--version", action="version", version=f"jam {raw.jam_version()}")
@@ -80,13 +100,14 @@ def _work(system: System, o: argparse.Namespace, out: dict[str, Any]) -> int:
 
     steps = [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 else []
     if not o.no_md and (o.growth or (not o.input)):
-        stages = o.growth or [(1e-2, 500.0), (3e-3, None)]
+        stages = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][:2 if o.pressure > 500 else 1]
         steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in stages]
     for verb, options in steps:
         md = getattr(system, verb)(progress=progress, wall_time=left(), **options)
         status = int(md.status)
         out["collisions"] += md.collisions
         out["seconds_md"] += md.seconds
+        out["pressure"] = md.pressure
         out["md_stop_reason"] = out["stop_reason"] = md.stop_reason.name.lower()
         if status in (CANCELLED, LIMIT):
             return status
@@ -99,7 +120,7 @@ def _work(system: System, o: argparse.Namespace, out: dict[str, Any]) -> int:
 def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
     i, r = system.info, out["crunch"]
     made = {"n": i.n, "dim": i.dim, "seed": i.seed, "packing_fraction": i.packing_fraction, "diameter_mean": i.diameter_mean,
-            "pressure": i.pressure, "collisions": out["collisions"],
+            "pressure": out["pressure"], "collisions": out["collisions"],
             "collisions_per_second": out["collisions"] / out["seconds_md"] if out["seconds_md"] else None}
     for key in ("lp_solves", "factorisations", "contacts", "rattlers", "bucklers", "one_ss", "excess_contacts", "max_overlap",
                 "force_residual", "gamma_residual", "min_force", "min_gap", "duality_gap", "gain"):
@@ -116,6 +137,13 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
         system.write(o.output)
     if o.contacts and crunched:
         files.write_contacts_csv(system, o.contacts)
+    if o.gaps and crunched:
+        files.write_gaps_csv(system, o.gaps)
+    if o.structure and crunched:
+        files.write_structure_csv(system, o.structure)
+    if o.spectrum and crunched:
+        k = 100 if o.modes is None else o.modes
+        files.write_spectrum_csv(system.modes(k) if k else system.modes(which="all"), o.spectrum)
     if o.vtk:
         files.write_vtk(system, o.vtk + ".vtp")
         if crunched:
@@ -130,11 +158,25 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
     if o.plot:
         from . import plot
         (plot.summary(system) if crunched and out["crunch"].contacts else plot.packing(system).figure).savefig(o.plot, dpi=150)
-    if o.modes and crunched:
-        modes = system.modes(o.modes)
-        print("\n".join(f"{w:.9g}" for w in modes.frequencies))
     if not o.quiet and o.report != "-":
         print(out["crunch"] if crunched else system.info)
+
+
+def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
+    """The files that will be written: each its own, none over the input, none without the crunch that it shows."""
+    chosen = {k: getattr(o, k) for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk")}
+    chosen = {k: path for k, path in chosen.items() if path and path != "-"}
+    for key, path in chosen.items():
+        for other in chosen:
+            if other != key and chosen[other] == path:
+                p.error(f"--{key} and --{other} must be different files")
+        if key != "output" and path == o.input:
+            p.error(f"--{key} would overwrite the input")
+        if o.no_crunch and key in ("contacts", "spectrum", "gaps", "structure"):
+            p.error(f"--{key} needs the crunch that --no-crunch leaves out")
+    if o.modes is not None and not o.spectrum:
+        p.error("--modes says how many modes --spectrum writes, which is missing")
+    return list(chosen.values())
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -142,14 +184,13 @@ def main(arguments: list[str] | None = None) -> int:
     o = p.parse_args(arguments)
     if o.no_md and (o.growth or o.nve):
         p.error("--no-md contradicts --growth and --nve")
-    if o.no_crunch and (o.contacts or o.modes):
-        p.error("--contacts and --modes need the crunch that --no-crunch leaves out")
-    for path in filter(None, (o.output, o.contacts, o.plot, o.vtk, None if o.report == "-" else o.report)):
+    outputs = _outputs(p, o)
+    for path in outputs:
         folder = os.path.dirname(path) or "."
         if not os.access(folder, os.W_OK):
             print(f"jam: {path}: the folder cannot be written", file=sys.stderr)
             return OUTPUT
-    out: dict[str, Any] = {"collisions": 0, "seconds_md": 0.0, "crunch": None, "stop_reason": "none", "md_stop_reason": "none"}
+    out: dict[str, Any] = {"collisions": 0, "seconds_md": 0.0, "pressure": None, "crunch": None, "stop_reason": "none", "md_stop_reason": "none"}
     code = DONE
     try:
         system = _start(o)

@@ -1,4 +1,4 @@
-"""Files for other programs: VTK PolyData (.vtp, ParaView) of the spheres and of the force network, and CSV.
+"""Files for other programs: VTK PolyData (.vtp, ParaView) of the spheres and of the force network, and CSV tables.
 
 Extended XYZ (OVITO, ASE) and the plain format are written by System.write. Files are written beside and renamed.
 """
@@ -11,7 +11,8 @@ from typing import Any, Iterator
 
 import numpy as np
 
-from .errors import StateError
+from .errors import StateError, UnsupportedError
+from .results import Modes
 from .system import System
 
 
@@ -107,13 +108,13 @@ def write_vtk_network(system: System, path: str | os.PathLike) -> None:
               {"force": contacts.forces[index], "gap": contacts.gaps[index], "contact": index})
 
 
-def _axes(d: int, word: str) -> list[str]:
-    return [f"{word}{c}" for c in ("xyz" if d <= 3 else "".join(str(k) for k in range(d)))][:d]
+def _axes(d: int) -> list[str]:
+    return list("xyz"[:d]) if d <= 3 else [f"x{k + 1}" for k in range(d)]
 
 
 def write_csv(system: System, path: str | os.PathLike) -> None:
     """One line a sphere: coordinates, diameter and, after crunch, contacts."""
-    columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim, "") + ["diameter"]
+    columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     if _kinds(system) is not None:
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
     with _replacing(path) as file:
@@ -126,4 +127,38 @@ def write_contacts_csv(system: System, path: str | os.PathLike) -> None:
     rows = np.hstack([c.pairs, c.vectors, c.gaps[:, None], c.forces[:, None]])
     with _replacing(path) as file:
         np.savetxt(file, rows, fmt=["%d", "%d"] + ["%.17g"] * (rows.shape[1] - 2), delimiter=",",
-                   header=",".join(["i", "j"] + _axes(system.dim, "n") + ["gap", "force"]), comments="")
+                   header=",".join(["i", "j"] + [f"n{k + 1}" for k in range(system.dim)] + ["gap", "force"]), comments="")
+
+
+def write_spectrum_csv(modes: Modes, path: str | os.PathLike) -> None:
+    """One line a mode that converged: number, lambda = omega^2, omega, participation."""
+    values = modes.values[:np.count_nonzero(np.isfinite(modes.values))]
+    rows = np.column_stack([np.arange(len(values)), values, modes.frequencies[:len(values)], modes.participation[:len(values)]])
+    with _replacing(path) as file:
+        np.savetxt(file, rows, fmt=["%d"] + ["%.17g"] * 3, delimiter=",", header="mode,lambda,omega,participation", comments="")
+
+
+def write_gaps_csv(system: System, path: str | os.PathLike, h_max: float = 1.0) -> None:
+    """One line a gap below h_max that is no contact, ascending: i, j, gap, and 1 when both spheres are stable."""
+    gaps, rattlers = system.gaps(h_max, False), system.rattlers
+    stable = ~rattlers[gaps.pair].any(1)
+    with _replacing(path) as file:
+        np.savetxt(file, np.column_stack([gaps.pair, gaps.gap, stable]), fmt=["%d", "%d", "%.17g", "%d"], delimiter=",",
+                   header="i,j,gap,stable", comments="")
+
+
+def write_structure_csv(system: System, path: str | os.PathLike) -> None:
+    """One line a sphere: contacts, class, C_i = sum n_ij, S_i and the same with forces, Q6, Voronoi packing fraction (d = 3)."""
+    d, z = system.dim, system.coordination
+    plain, weighted = system.sphere_structure(0), system.sphere_structure(1)
+    q6 = system.bond_order(6, 1.2)
+    try:
+        phi = [f"{x:.17g}" for x in system.local_fraction()]
+    except UnsupportedError:  # no Voronoi cells but in d = 3
+        phi = [""] * system.n
+    names = np.where(z == 0, "rattler", np.where(z == d + 1, "buckler", "stable"))
+    with _replacing(path) as file:
+        file.write(",".join(["sphere,z,class"] + [f"c{k + 1}" for k in range(d)] + ["s,fs,q6,phi"]) + "\n")
+        for i in range(system.n):
+            numbers = ",".join(f"{x:.17g}" for x in (*plain.c[i], plain.s[i], weighted.s[i], q6[i]))
+            file.write(f"{i},{z[i]},{names[i]},{numbers},{phi[i]}\n")

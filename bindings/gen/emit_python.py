@@ -59,7 +59,7 @@ def emit(api):
     for s in api.structs:
         if s.name in inits:
             continue
-        members = [m for m in s.members if m.name != "struct_size"]
+        members = [m for m in s.members if m.name not in ("struct_size", "reserved")]
         notes = "\n".join(f"{m.name}: {m.doc}" for m in members)
         out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}:",
                 _doc(f"{s.doc}\n\n{notes}\n")]

@@ -1,4 +1,4 @@
-! Makes a packing of 200 disks, crunches it and reads its forces. Arrays are x(d, n); sphere indices in results are 0-based.
+! From nothing to a jammed packing of 200 disks.  Arrays are x(d, n); indices in results are 0-based.
 ! gfortran -I<prefix>/lib/.../fortran/jam first.f90 -ljam_fortran -ljam
 program first
   use jam
@@ -11,13 +11,9 @@ program first
   type(jam_report) :: report
   real(c_double) :: sizes(n)
   real(c_double), pointer :: x(:, :)
-  real(c_double), allocatable :: force(:), modes(:)
-  integer(c_int32_t), allocatable :: pairs(:, :)
-  type(jam_modes_options) :: choose
-  integer(c_size_t) :: length, needed
-  integer :: strongest
+  integer(c_size_t) :: length
 
-  sizes(1:n/2) = 1
+  sizes(1:n/2) = 1  ! two sizes, so that disks do not crystallise; only their ratio counts
   sizes(n/2 + 1:n) = 1.4_c_double
   call jam_defaults(create)
   create%dim = d
@@ -33,22 +29,9 @@ program first
   call check(jam_crunch(sys, report=report))  ! options left out: the defaults
   print '(a, f10.7, 3(a, i0))', 'phi_J ', report%packing_fraction, ', contacts ', report%contacts, ', rattlers ', &
     report%rattlers, ', excess ', report%excess_contacts
-
-  call check(jam_forces(sys, out_len=0_c_size_t, needed=needed))  ! no array: only the size
-  allocate (force(needed), pairs(2, needed))
-  call check(jam_forces(sys, force, size(force, kind=c_size_t)))
-  call check(jam_contacts(sys, pairs, size(pairs, kind=c_size_t)))
-  strongest = maxloc(force, 1)
-  call check(jam_positions_view(sys, view, length))
+  call check(jam_positions_view(sys, view, length))  ! the library's own memory, good as long as sys
   call c_f_pointer(view, x, [d, n])
-  print '(a, f8.4, a, 2(2f8.4, 2x))', 'strongest force ', force(strongest), ' between spheres at ', &
-    x(:, pairs(1, strongest) + 1), x(:, pairs(2, strongest) + 1)
-
-  call jam_defaults(choose)
-  allocate (modes(choose%count))
-  call check(jam_modes(sys, o=choose, lambda=modes, lambda_len=size(modes, kind=c_size_t), vector_len=0_c_size_t, &
-                       participation_len=0_c_size_t))
-  print '(a, 10f8.4)', 'lowest frequencies ', sqrt(max(modes, 0.0_c_double))
+  print '(a, 2f8.4)', 'first sphere at ', x(:, 1)
 
   call check(jam_write(sys, 'fortran_packing.xyz'//c_null_char, JAM_FORMAT_AUTO))
   call jam_destroy(sys)

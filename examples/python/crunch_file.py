@@ -1,26 +1,19 @@
-"""Brings somebody's packing to its jamming point and tells forces, gaps and modes.  usage: crunch_file.py FILE [PICTURE.png]"""
+"""Brings somebody's packing from a file to its jamming point.  usage: crunch_file.py IN OUT [PICTURE.png]"""
 import sys
-
-import numpy as np
 
 import jam
 
-packing = jam.System.read(sys.argv[1])
-report = packing.crunch()
-print(f"phi_J = {report.packing_fraction:.12f}, {report.contacts} contacts ({report.excess_contacts} more than one state of "
-      f"self-stress needs), {report.rattlers} rattlers, force residual {report.force_residual:.1e}")
+packing = jam.System.read(sys.argv[1])  # plain text or extended XYZ
+before = packing.packing_fraction
+report = packing.crunch(wall_time=600, progress=True)  # seconds; what was reached by then is kept
+print(f"phi {before:.6f} -> {report.packing_fraction:.12f} ({report.stop_reason.name.lower()}), {report.contacts} contacts "
+      f"({report.excess_contacts} more than one state of self-stress needs), {report.rattlers} rattlers")
+print(f"certificate: overlap {report.max_overlap:.1e}, force imbalance {report.force_residual:.1e}")
 
-contacts = packing.contacts                                  # pairs, vectors, gaps, forces; row k is contact k
-at_buckler = packing.bucklers[contacts.pairs].any(axis=1)    # these forces follow another power law
-print(f"median force {np.median(contacts.forces):.3f}; at bucklers {np.median(contacts.forces[at_buckler]):.3f}")
+steps = packing.history  # a structured array, one row a step of the crunch
+print(f"{len(steps)} steps; the density gained by the last: {steps['gain'][-1]:.1e}")
 
-gaps = packing.gaps(1.0, True)                               # h_max, stable spheres only
-print(f"{len(gaps.gap)} gaps below 1, the smallest {gaps.gap[0]:.2e}")
-
-modes = packing.modes(10)
-print("lowest frequencies", np.array2string(modes.frequencies, precision=4))
-hessian = packing.hessian()                                  # scipy.sparse.csr_matrix
-print(f"Hessian {hessian.shape[0]} x {hessian.shape[1]}, {hessian.nnz} entries, trace {hessian.diagonal().sum():.6g}")
-
-if len(sys.argv) > 2:
-    jam.plot.summary(packing).savefig(sys.argv[2], dpi=120)
+packing.write(sys.argv[2])
+if len(sys.argv) > 3:
+    jam.plot.summary(packing).savefig(sys.argv[3], dpi=120)
+sys.exit(not report.jammed)

@@ -25,12 +25,12 @@ grep -q '"jammed": true' "$work/report.json"
 cd "$work"
 cc -std=c99 -I"$usr/include" "$source/examples/c/first.c" -o c_first -L"$lib" -Wl,-rpath,"$lib" -ljam -lm && ./c_first >/dev/null
 gfortran -I"$lib/fortran/jam" "$source/examples/fortran/first.f90" -o f_first -L"$lib" -Wl,-rpath,"$lib" -ljam_fortran -ljam && ./f_first >/dev/null
-PYTHONPATH="$usr/lib/python3/dist-packages" /usr/bin/python3 "$source/examples/python/make_packing.py" p.png >/dev/null
+PYTHONPATH="$usr/lib/python3/dist-packages" /usr/bin/python3 "$source/examples/python/first.py" p.png >/dev/null
 [ -s p.png ]
 if [ -n "${ROOT:-}" ]; then
   cp "$deb" "$ROOT/tmp/libjam.deb"
-  cp "$source/examples/python/make_packing.py" "$ROOT/tmp"
+  cp "$source/examples/python/first.py" "$ROOT/tmp"
   chroot "$ROOT" sh -c 'apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive apt-get install -q -y /tmp/libjam.deb >/dev/null 2>&1 &&
-    cd /tmp && jam-pack --n 100 --dim 2 --diameters-ratio 1.4 --quiet --report - | grep jammed && python3 make_packing.py p.png | tail -1 && ls -l p.png'
+    cd /tmp && jam-pack --n 100 --dim 2 --diameters-ratio 1.4 --quiet --report - | grep jammed && python3 first.py p.png | tail -1 && ls -l p.png'
 fi
 echo "libjam.so $size bytes; the package serves C, Fortran and Python"

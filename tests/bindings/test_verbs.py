@@ -1,13 +1,11 @@
 """Long calls from Python: results, progress, exceptions, Ctrl-C, threads, cancel."""
-import io
 import os
 import signal
-import sys
 import threading
 import time
 import traceback
 import unittest
-import unittest.mock
+import unittest
 
 import numpy as np
 
@@ -195,24 +193,6 @@ class Callbacks(unittest.TestCase):
                 s.crunch(progress=progress)
             self.assertLess(time.time() - began, 20)
             self.check_valid(s)
-
-    def test_progress_line_on_a_terminal(self):
-        class Terminal(io.StringIO):
-            def isatty(self):
-                return True
-        before, sys.stderr = sys.stderr, Terminal()
-        try:
-            with unittest.mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}):
-                jam.System.random(n=60, dim=2, seed=3).crunch(progress=True)
-            text = sys.stderr.getvalue()
-        finally:
-            sys.stderr = before
-        self.assertRegex(text, r"^\rcrunch .*phi 0\.\d+.*\n$")
-
-    def test_progress_true_is_silent_without_a_terminal(self):
-        jam.System.random(n=60, dim=2, seed=3).crunch(progress=True)
-        with self.assertRaises(TypeError):
-            jam.System.random(n=6, dim=2).crunch(progress=3)
 
 
 class Threads(unittest.TestCase):

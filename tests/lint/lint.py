@@ -144,7 +144,7 @@ def file_sizes():
     header = len((root / "include/jam/jam.h").read_text().splitlines())
     if header > 900:
         problem(root / "include/jam/jam.h", header, "more than 900 lines")
-    for path in files("examples/c/*.c", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"):
+    for path in files("examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"):
         count = len(path.read_text().splitlines())
         if count > 80:
             problem(path, count, "an example has more than 80 lines")

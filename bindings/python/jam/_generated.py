@@ -286,13 +286,11 @@ class MdReport:
 class Glass:
     """A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
 
-    reserved: 0
     jammed_fraction: phi_J
     jammed_error: its standard error
     dimension: d', free; near d for a good glass
     dimension_error: its standard error
     r_squared: of the straight line 1/p against phi"""
-    reserved: int
     jammed_fraction: float
     jammed_error: float
     dimension: float
@@ -308,7 +306,6 @@ class Report:
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
     method: jam_crunch_method
-    reserved: 0
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out
@@ -337,7 +334,6 @@ class Report:
     stop_reason: StopReason
     lp_solver: LpSolver
     method: CrunchMethod
-    reserved: int
     packing_fraction: float
     diameter_mean: float
     contacts: int
@@ -368,7 +364,6 @@ class Report:
 class Estimate:
     """What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
 
-    reserved: 0
     pairs: of the longest neighbour list
     bytes: peak memory beside what is in use now; mostly good to a factor of 2
     factor_bytes: of it for the factorisation
@@ -376,7 +371,6 @@ class Estimate:
     factorisations: about how many: guessed from density and method, may be wrong by a factor of 5
     step_seconds: of one factorisation and what goes with it, on this core
     seconds: the product of both"""
-    reserved: int
     pairs: int
     bytes: float
     factor_bytes: float
@@ -430,14 +424,12 @@ class GeometryReport:
 class Moduli:
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
 
-    reserved: 0
     bulk: K
     bulk_affine: K without the non-affine part
     shear: G for simple shear, mean over the d (d-1) coordinate directions
     shear_affine: G without the non-affine part
     shear_min: smallest of the planes, both directions averaged
     shear_max: largest of them"""
-    reserved: int
     bulk: float
     bulk_affine: float
     shear: float
@@ -450,7 +442,6 @@ class Moduli:
 class Comparison:
     """What jam_compare found; contacts only when both have a network. @since 0.1
 
-    reserved: 0
     contacts_a:
     contacts_b: of sys and of other
     common_contacts: pairs in both
@@ -459,7 +450,6 @@ class Comparison:
     packing_fraction_change: phi of other minus phi of sys
     displacement_rms: over these spheres, mean displacement taken out, in mean diameters of sys
     displacement_max: likewise"""
-    reserved: int
     contacts_a: int
     contacts_b: int
     common_contacts: int

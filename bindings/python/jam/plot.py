@@ -169,11 +169,19 @@ def trace(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
 
 
 def convergence(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
-    """Crunch: gain sqrt(Gamma) - 1 and largest step against factorisations, from the progress records."""
-    records = [p for p in (system.trace if isinstance(system, System) else system) if p.phase in (3, 4)]
+    """Crunch: gain sqrt(Gamma) - 1 and largest step against factorisations; from the history of a system's last crunch, or from
+    progress records (at most one every 0.05 s)."""
+    if isinstance(system, System):
+        try:
+            h = system.history
+            at, gains, steps = np.cumsum(h["factorisations"]), h["gain"], h["step_max"]
+        except StateError:  # the system came with a pickle, or was not crunched
+            return convergence(system.trace, ax, **style)
+    else:
+        records = [p for p in system if p.phase in (3, 4)]
+        at, gains, steps = ([getattr(p, k) for p in records] for k in ("factorisations", "gain", "max_step"))
     ax = _axes(ax)
-    at = [p.factorisations for p in records]
-    for values, label in (([p.gain for p in records], r"gain $\sqrt{\Gamma}-1$"), ([p.max_step for p in records], r"largest step $|s_i|/\langle\sigma\rangle$")):
+    for values, label in ((gains, r"gain $\sqrt{\Gamma}-1$"), (steps, r"largest step $|s_i|/\langle\sigma\rangle$")):
         pairs = [(k, v) for k, v in zip(at, values) if v > 0]
         if pairs:
             ax.semilogy(*zip(*pairs), label=label, **{"marker": ".", "ms": 5, "lw": 1, **style})

@@ -1,4 +1,4 @@
-"""From nothing to a jammed packing in two dimensions, and its picture.  usage: make_packing.py [PICTURE.png]"""
+"""From nothing to a jammed packing in two dimensions, and its picture.  usage: first.py [PICTURE.png]"""
 import sys
 
 import jam

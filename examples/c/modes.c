@@ -1,0 +1,41 @@
+/* Vibrational modes of a jammed packing, how far they spread, and its elastic moduli. */
+#include <jam/jam.h>
+#include <math.h>
+#include <stdio.h>
+
+static int failed(jam_system *sys) {
+  fprintf(stderr, "%s\n", jam_last_error());
+  jam_destroy(sys);
+  return 1;
+}
+
+int main(void) {
+  enum { N = 200, K = 8 };
+  jam_create_options o;
+  jam_modes_options choose;
+  jam_moduli moduli;
+  jam_system *sys = NULL;
+  double size[N], lambda[K], participation[K];
+  size_t m = 0, spheres = 0, k;
+
+  for (k = 0; k < N; ++k) size[k] = k < N / 2 ? 1.0 : 1.4; /* two sizes, so that disks do not crystallise */
+  jam_create_options_init(&o, sizeof o);
+  o.n = N;
+  o.dim = 2;
+  if (jam_create(&o, NULL, 0, size, N, &sys) < 0 || jam_crunch(sys, NULL, NULL) < 0) return failed(sys);
+
+  jam_modes_options_init(&choose, sizeof choose);
+  choose.which = JAM_MODES_LOWEST;
+  choose.count = K;
+  /* NULL: the harmonic Hessian, stiffness 1 at the mean force. The vectors (K, N', d) are not asked for here. */
+  if (jam_modes(sys, NULL, &choose, lambda, K, NULL, 0, participation, K, &m) < 0) return failed(sys);
+  jam_hessian_map(sys, NULL, 0, &spheres);
+  printf("lowest modes of %zu stable spheres\n  omega    participation (1/N' = all, 1 = one sphere)\n", spheres);
+  for (k = 0; k < m; ++k) printf("  %.5f  %.4f\n", sqrt(fmax(lambda[k], 0.0)), participation[k]);
+
+  moduli.struct_size = sizeof moduli;
+  if (jam_moduli_get(sys, NULL, &moduli) < 0) return failed(sys);
+  printf("bulk modulus %.4f (%.4f were all displacements affine), shear modulus %.4f\n", moduli.bulk, moduli.bulk_affine, moduli.shear);
+  jam_destroy(sys);
+  return m == K && lambda[0] > 0 ? 0 : 1;
+}

@@ -1,0 +1,53 @@
+! Many seeds, one after the other; mean and standard error of phi_J.  (Images of a coarray program, or MPI ranks, would
+! take a share of the seeds each: handles are independent.)
+program ensemble
+  use jam
+  implicit none
+  integer, parameter :: seeds = 6, n = 128
+  real(c_double) :: phi(seeds), mean, error
+  integer :: k, jammed
+
+  jammed = 0
+  do k = 1, seeds
+    call pack(int(k, c_int64_t))
+  end do
+  if (jammed < 2) error stop 'too few jammed packings'
+  mean = sum(phi(1:jammed))/jammed
+  error = sqrt(sum((phi(1:jammed) - mean)**2)/(jammed - 1)/jammed)
+  print '(2(i0, a), f8.5, a, f7.5)', jammed, ' of ', seeds, ' jammed, phi_J ', mean, ' +- ', error
+
+contains
+
+  subroutine pack(seed)
+    integer(c_int64_t), intent(in) :: seed
+    type(c_ptr) :: sys
+    type(jam_create_options) :: create
+    type(jam_compress_options) :: compress
+    type(jam_report) :: report
+    real(c_double) :: sizes(n)
+    sizes(1:n/2) = 1
+    sizes(n/2 + 1:n) = 1.4_c_double
+    call jam_defaults(create)
+    create%dim = 2
+    create%n = n
+    create%seed = seed
+    call jam_defaults(compress)
+    compress%growth_rate = 3e-2_c_double
+    compress%pressure = 1e4_c_double
+    call check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+    call check(jam_compress(sys, compress))
+    call check(jam_crunch(sys, report=report))
+    print '(a, i0, a, f12.9)', 'seed ', seed, ': phi ', report%packing_fraction
+    call jam_destroy(sys)
+    if (report%jammed /= 1) return
+    jammed = jammed + 1
+    phi(jammed) = report%packing_fraction
+  end subroutine pack
+
+  subroutine check(status)
+    integer(c_int32_t), intent(in) :: status
+    if (status >= 0) return
+    print '(2a)', 'failed: ', jam_message()
+    error stop 1
+  end subroutine check
+end program ensemble

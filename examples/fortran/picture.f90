@@ -1,0 +1,51 @@
+! A packing in d = 2 as a VTK file for ParaView: points with diameter and contacts, shown by the filter Glyph (sphere,
+! scale by diameter, factor 1).  The file is picture.vtk.
+program picture
+  use jam
+  implicit none
+  integer, parameter :: d = 2, n = 200
+  type(c_ptr) :: sys, view
+  type(jam_create_options) :: create
+  real(c_double) :: sizes(n)
+  real(c_double), pointer :: x(:, :), sigma(:)
+  integer(c_int32_t) :: contacts(n)
+  integer(c_size_t) :: length
+  integer :: file, i
+
+  sizes(1:n/2) = 1
+  sizes(n/2 + 1:n) = 1.4_c_double
+  call jam_defaults(create)
+  create%dim = d
+  create%n = n
+  call check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+  call check(jam_crunch(sys))
+  call check(jam_positions_view(sys, view, length))  ! no copies
+  call c_f_pointer(view, x, [d, n])
+  call check(jam_diameters_view(sys, view, length))
+  call c_f_pointer(view, sigma, [n])
+  call check(jam_coordination(sys, contacts, size(contacts, kind=c_size_t)))
+
+  open (newunit=file, file='picture.vtk', status='replace')
+  write (file, '(a)') '# vtk DataFile Version 3.0', 'packing of disks', 'ASCII', 'DATASET POLYDATA'
+  write (file, '(a, i0, a)') 'POINTS ', n, ' double'
+  write (file, '(3es25.16e3)') (x(:, i), 0.0_c_double, i=1, n)
+  write (file, '(a, i0, 1x, i0)') 'VERTICES ', n, 2*n
+  write (file, '(i0, 1x, i0)') (1, i - 1, i=1, n)
+  write (file, '(a, i0)') 'POINT_DATA ', n
+  write (file, '(a)') 'SCALARS diameter double 1', 'LOOKUP_TABLE default'
+  write (file, '(es25.16e3)') sigma
+  write (file, '(a)') 'SCALARS contacts int 1', 'LOOKUP_TABLE default'
+  write (file, '(i0)') contacts
+  close (file)
+  print '(i0, 2(a, i0))', n, ' disks, ', count(contacts == d + 1), ' bucklers, rattlers ', count(contacts == 0)
+  call jam_destroy(sys)
+
+contains
+
+  subroutine check(status)
+    integer(c_int32_t), intent(in) :: status
+    if (status >= 0) return
+    print '(2a)', 'failed: ', jam_message()
+    error stop 1
+  end subroutine check
+end program picture

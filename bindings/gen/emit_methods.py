@@ -30,10 +30,10 @@ PLAIN = ("scalar", "string", "array_in", "handle")
 
 
 
-def _hint(f, arg, enums):
+def _hint(f, arg, api):
     if arg.role in ("array_in", "handle"):
         return "Any"
-    if enum_of_argument(f, arg, enums):
+    if enum_of_argument(f, arg, api):
         return "int | str"
     return TYPES[arg.type.scalar][3] if arg.role == "scalar" else "str"
 
@@ -48,7 +48,7 @@ class Call:
     """A C function as Python sees it: inputs, options by keyword, outputs returned."""
 
     def __init__(self, f, api, enums):
-        self.f, self.enums = f, enums
+        self.f, self.api, self.enums = f, api, enums
         self.name = f.name.removeprefix("jam_").removesuffix("_get")
         self.on_system = bool(f.args) and f.args[0].role == "handle"
         args = f.args[1:] if self.on_system else f.args
@@ -72,7 +72,7 @@ class Call:
     def text(self, indent):
         verb = self.on_system and not self.f.args[0].type.const
         head = (["self"] if self.on_system else []) + [
-            f"{a.name}: {_hint(self.f, a, self.enums)}" + (" = None" if a.role == "array_in" and self.on_system and all(
+            f"{a.name}: {_hint(self.f, a, self.api)}" + (" = None" if a.role == "array_in" and self.on_system and all(
                 b.role == "array_in" for b in self.plain[self.plain.index(a):]) else "") for a in self.plain]
         more = [f"{m.name}: {'int | str' if _enum_of(m, self.enums) else TYPES[m.type][3]} | None = None" for m in self.members]
         passed = [a.name for a in self.plain] + [f"{m.name}={m.name}" for m in self.members] + (["progress=progress"] if verb else [])

@@ -28,12 +28,21 @@ def _enum_of(member, enums):
     return None
 
 
-def enum_of_argument(f, a, enums):
-    """An int32_t argument is an enum's when the comment names an enum of the header that ends with the argument's name."""
-    if a.role == "scalar" and a.type.scalar == "int32_t":
-        for word in re.findall(r"jam_\w+", f.doc):
-            if word in enums and word.endswith("_" + a.name):
-                return camel(word)
+def enum_of_argument(f, a, api):
+    """An int32_t argument is an enum's when the comment names an enum of the header that ends with the argument's name; `which` is
+    of the one named beside it. A comment that sends to another function sends to its arguments of the same names too."""
+    if a.role != "scalar" or a.type.scalar != "int32_t":
+        return None
+    words = re.findall(r"jam_\w+", f.doc)
+    named = [w for w in words if any(e.name == w for e in api.enums)]
+    for word in named:
+        if word.endswith("_" + a.name) or a.name == "which" and not any(word.endswith("_" + b.name) for b in f.args):
+            return camel(word)
+    for other in api.functions:
+        if other.name in words and other is not f and not named:
+            for b in other.args:
+                if b.name == a.name:
+                    return enum_of_argument(other, b, api)
     return None
 
 
@@ -83,7 +92,7 @@ def emit(api):
         on_system = bool(f.args) and f.args[0].role == "handle"
         if on_system or is_free(f, inits):
             taken = f.args[1:] if on_system else f.args
-            args = ", ".join(f'("{a.name}", "{a.role}", "{enum_of_argument(f, a, enums) or a.type.scalar}")' for a in taken)
+            args = ", ".join(f'("{a.name}", "{a.role}", "{enum_of_argument(f, a, api) or a.type.scalar}")' for a in taken)
             out.append(f'    "{f.name}": ({on_system}, ({args}{"," if len(taken) == 1 else ""})),')
     out.append("}")
     return "\n".join(out) + "\n"

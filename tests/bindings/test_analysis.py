@@ -55,6 +55,8 @@ class Network(unittest.TestCase):
         self.assertEqual(len(g), 30)
         kinds = np.arange(s.n) % 2
         self.assertTrue((s.pair_correlation(kinds, 0, 1, 2.0, 30) != g).any())
+        big = s.class_values("force", "extended")
+        np.testing.assert_allclose(s.histogram("force", jam.Class.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12)
         moduli = s.moduli()
         self.assertGreater(moduli.bulk, 0)
         self.assertIn("bulk_affine", repr(moduli))

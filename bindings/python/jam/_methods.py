@@ -178,12 +178,12 @@ class Methods:
         pairs. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_dots', weighted)
 
-    def class_values(self, quantity: int | str, which: int) -> np.ndarray:
+    def class_values(self, quantity: int | str, which: int | str) -> np.ndarray:
         """Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
         jam_contacts, JAM_E_ARGUMENT. @since 0.1"""
         return self.call('class_values', quantity, which)
 
-    def histogram(self, quantity: int, which: int, low: float, high: float, bins: int) -> np.ndarray:
+    def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> np.ndarray:
         """Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
         jam_class_values. @since 0.1"""
         return self.call('histogram', quantity, which, low, high, bins)

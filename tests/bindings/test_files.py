@@ -114,7 +114,9 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(theirs - ours, set())
         tables = ("contacts", "gaps", "structure", "spectrum", "output")
         for arguments in (["--n", "80", "--dim", "2", "--diameters-ratio", "1.4", "--growth", "0.1:50", "--nve", "2"],
-                          ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"]):
+                          ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"],
+                          ["--n", "64", "--dim", "2", "--diameters", "lognormal:0.3", "--growth", "0.1:30"],
+                          ["--n", "64", "--plant", "0.5", "--zeta", "3", "--growth", "0.1:30"]):
             with tempfile.TemporaryDirectory() as folder:
                 for name, program in (("a", [PACK]), ("b", [sys.executable, "-m", "jam"])):
                     asked = [x for t in tables for x in ("--" + t, f"{folder}/{name}.{t}")]
@@ -128,7 +130,36 @@ class CommandLine(unittest.TestCase):
                 for t in tables:
                     self.assertEqual(Path(folder, "a." + t).read_text(), Path(folder, "b." + t).read_text(), t)
 
+    @unittest.skipUnless(PACK, "jam-pack is not built")
+    def test_either_program_resumes_what_the_other_began(self):
+        programs = ([PACK], [sys.executable, "-m", "jam"])
+        with tempfile.TemporaryDirectory() as folder:
+            sizes = Path(folder, "sizes")
+            sizes.write_text("1 1.5\n2 " * 20)
+            common = ["--quiet", "--no-crunch", "--growth", "0.1:30", "--growth", "0.1:300"]
+
+            def run(program, name, *more):
+                done = subprocess.run([*program, *common, *more, "--checkpoint", f"{folder}/{name}.state", "--output", f"{folder}/{name}.dat"],
+                                      capture_output=True, text=True, timeout=120)
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+                return Path(folder, name + ".dat").read_text()
+            begin = ["--dim", "2", "--diameters", str(sizes), "--seed", "4"]
+            whole = run(programs[0], "whole", *begin)
+            for first, second in (programs, programs[::-1]):
+                s = jam.System.random(60, 2, 4, diameters=[1.0, 1.5, 2.0] * 20)
+                s.compress(growth_rate=0.1, pressure=30, collisions_per_particle=5)  # cut off amid the first stage
+                self.assertEqual(s.info.paused, jam.Phase.COMPRESS)
+                s.checkpoint_write(f"{folder}/cut.state")
+                self.assertEqual(run(first, "a", "--resume", f"{folder}/cut.state"), whole)
+                self.assertEqual(run(second, "b", "--resume", f"{folder}/a.state"), whole)  # nothing is left to do
+            self.assertEqual(run(programs[1], "c", *begin), whole)
+
     def test_exit_status(self):
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "bad").write_text("1 2 -3")
+            self.assertEqual(self.run_jam("--diameters", folder + "/bad", "--no-md", "--no-crunch").returncode, 3)
+            self.assertEqual(self.run_jam("--resume", folder + "/bad").returncode, 3)
+        self.assertEqual(self.run_jam("--resume", "a", "--input", "b").returncode, 2)
         for wrong in (["--modes", "5"], ["--no-crunch", "--gaps", "g"], ["--output", "x", "--plot", "x"], ["--pressure", "0.5"],
                       ["--input", "x", "--structure", "x"], ["--growth", "0.1:"], ["--modes", "-1", "--spectrum", "s"]):
             self.assertEqual(self.run_jam(*wrong).returncode, 2, wrong)

@@ -9,9 +9,9 @@ import sys
 import time
 from typing import Any
 
-import numpy as np
-
 from . import files, raw
+from ._generated import Phase, StopReason
+from ._start import start, take_diameters
 from .errors import JamError
 from .system import System
 
@@ -53,10 +53,15 @@ def parser() -> argparse.ArgumentParser:
                                 epilog="Example: python3 -m jam --n 512 --dim 2 --diameters-ratio 1.4 --output p.xyz --plot p.png. "
                                 "Exit status: 0 done; 1 stopped early or not jammed, the state reached is written; 2 wrong command "
                                 "line; 3 request or input refused; 4 an output cannot be written.")
-    p.add_argument("--n", type=int, default=1024, help="spheres (1024)")
+    p.add_argument("--n", type=int, help="spheres (1024)")
     p.add_argument("--dim", type=int, default=3, help="dimension, 2..8 (3)")
     p.add_argument("--phi0", type=_positive, help="packing fraction of the random start (0.2; halved per dimension above 3)")
     p.add_argument("--diameters-ratio", type=_positive, default=1.0, metavar="R", help="half of the spheres are R times as large (1)")
+    p.add_argument("--diameters", type=take_diameters, metavar="WHAT", help="bidisperse:R as above; lognormal:S with S the standard "
+                   "deviation over the mean; or a file of diameters, of which the ratios count")
+    p.add_argument("--model", choices=["euclid", "mk"], default="euclid", help="distance: Euclidean (default) or Mari-Kurchan")
+    p.add_argument("--zeta", type=_not_negative, metavar="Z", help="strength of the Mari-Kurchan shifts (infinite)")
+    p.add_argument("--plant", type=_positive, metavar="F", help="Mari-Kurchan start, planted in equilibrium at packing fraction F")
     p.add_argument("--seed", type=int, default=1)
     p.add_argument("--input", metavar="FILE", help="start from a file; MD is then off unless --growth or --nve is given")
     p.add_argument("--box", type=_positive, default=1.0, help="side of the box for a plain file that names none (1)")
@@ -65,6 +70,9 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--growth", type=_stage, action="append", metavar="RATE[:P]", help="a stage; repeatable. Default 1e-2:500, then 3e-3")
     p.add_argument("--pressure", type=_pressure, default=1e7, metavar="P", help="target of stages without :P (1e7)")
     p.add_argument("--no-md", action="store_true")
+    p.add_argument("--checkpoint", metavar="FILE", help="state of the dynamics, every minute and where they stop")
+    p.add_argument("--resume", metavar="FILE", help="go on from a checkpoint, to the same bits: the stage that was cut off, then those "
+                   "stages whose pressure lies beyond")
     p.add_argument("--no-crunch", action="store_true")
     p.add_argument("--lp", choices=["ipm", "clp"], default="ipm")
     p.add_argument("--threads", type=int, choices=[1, 2], default=1)
@@ -84,37 +92,59 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def _start(o: argparse.Namespace) -> System:
-    if o.input:
-        return System.read(o.input, seed=o.seed, box=o.box, overlap="shrink" if o.shrink else "refuse")
-    sizes = None if o.diameters_ratio == 1 else np.where(np.arange(o.n) < o.n // 2, 1.0, o.diameters_ratio)
-    phi0 = o.phi0 or 0.2 * 0.5 ** max(0, o.dim - 3)
-    return System.random(o.n, o.dim, o.seed, packing_fraction=phi0, diameters=sizes, box=o.box)
+class _Work:
+    """The stages of one run, within its time; out collects what the report says."""
 
+    def __init__(self, system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
+        self.system, self.o, self.out = system, o, out
+        self.deadline = time.monotonic() + (math.inf if o.wall_time is None else o.wall_time)
 
-def _work(system: System, o: argparse.Namespace, out: dict[str, Any]) -> int:
-    """Runs the stages; returns the last status. out collects what the report says."""
-    began, status, progress = time.monotonic(), 0, not o.quiet
-    def left() -> float | None:
-        return None if o.wall_time is None else max(1e-3, o.wall_time - (time.monotonic() - began))
+    def left(self) -> float:
+        return max(1e-3, self.deadline - time.monotonic())
 
-    steps = [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 else []
-    if not o.no_md and (o.growth or (not o.input)):
-        stages = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][:2 if o.pressure > 500 else 1]
-        steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in stages]
-    for verb, options in steps:
-        md = getattr(system, verb)(progress=progress, wall_time=left(), **options)
-        status = int(md.status)
-        out["collisions"] += md.collisions
-        out["seconds_md"] += md.seconds
-        out["pressure"] = md.pressure
-        out["md_stop_reason"] = out["stop_reason"] = md.stop_reason.name.lower()
-        if status in (CANCELLED, LIMIT):
-            return status
-    if not o.no_crunch:
-        r = system.crunch(progress=progress, wall_time=left(), lp_solver=o.lp, threads=o.threads)
-        status, out["crunch"], out["stop_reason"] = int(r.status), r, r.stop_reason.name.lower()
-    return status
+    def stage(self, verb: str, **options: Any) -> int:
+        """With --checkpoint in slices of a minute: they cost nothing, and a killed job goes on from the last one."""
+        o, out = self.o, self.out
+        while True:
+            try:
+                md = getattr(self.system, verb)(progress=not o.quiet, wall_time=min(60.0, self.left()) if o.checkpoint else self.left(), **options)
+            finally:
+                if o.checkpoint:
+                    self.system.checkpoint_write(o.checkpoint)
+            out["collisions"] += md.collisions
+            out["seconds_md"] += md.seconds
+            out["pressure"] = md.pressure
+            out["md_stop_reason"] = out["stop_reason"] = md.stop_reason.name.lower()
+            if md.status != LIMIT or md.stop_reason != StopReason.WALL_TIME or self.left() <= 1e-3:
+                return int(md.status)
+            options["resume"] = 1
+
+    def stages(self) -> list[tuple[str, dict[str, float]]]:
+        o = self.o
+        steps = [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 and not o.resume else []
+        if not o.no_md and (o.growth or not o.input):
+            chosen = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][:2 if o.pressure > 500 else 1]
+            steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in chosen]
+        if o.resume:  # what the checkpoint was in the middle of; then the stages that lead beyond its pressure
+            paused = {Phase.RUN: "run", Phase.COMPRESS: "compress"}.get(self.system.info.paused)
+            own = {"collisions_per_particle": o.nve} if paused == "run" and o.nve > 0 else {}
+            steps = [(paused, {"resume": 1, **own})] * bool(paused) + steps
+        return steps
+
+    def run(self) -> int:
+        o, out, status = self.o, self.out, 0
+        reached = self.system.pressure
+        for verb, options in self.stages():
+            if o.resume and options.get("pressure", math.inf) <= reached:
+                continue
+            status = self.stage(verb, **options)
+            reached = self.system.pressure
+            if status in (CANCELLED, LIMIT):
+                return status
+        if not o.no_crunch:
+            r = self.system.crunch(progress=not o.quiet, wall_time=self.left(), lp_solver=o.lp, threads=o.threads)
+            status, out["crunch"], out["stop_reason"] = int(r.status), r, r.stop_reason.name.lower()
+        return status
 
 
 def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
@@ -164,16 +194,18 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
 
 def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     """The files that will be written: each its own, none over the input, none without the crunch that it shows."""
-    chosen = {k: getattr(o, k) for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk")}
+    chosen = {k: getattr(o, k) for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk", "checkpoint")}
     chosen = {k: path for k, path in chosen.items() if path and path != "-"}
     for key, path in chosen.items():
         for other in chosen:
             if other != key and chosen[other] == path:
                 p.error(f"--{key} and --{other} must be different files")
-        if key != "output" and path == o.input:
+        if key not in ("output", "checkpoint") and path == o.input:
             p.error(f"--{key} would overwrite the input")
         if o.no_crunch and key in ("contacts", "spectrum", "gaps", "structure"):
             p.error(f"--{key} needs the crunch that --no-crunch leaves out")
+    if o.resume and o.input:
+        p.error("--resume and --input are two starts")
     if o.modes is not None and not o.spectrum:
         p.error("--modes says how many modes --spectrum writes, which is missing")
     return list(chosen.values())
@@ -193,12 +225,12 @@ def main(arguments: list[str] | None = None) -> int:
     out: dict[str, Any] = {"collisions": 0, "seconds_md": 0.0, "pressure": None, "crunch": None, "stop_reason": "none", "md_stop_reason": "none"}
     code = DONE
     try:
-        system = _start(o)
+        system = start(o)
     except (JamError, ValueError, OSError) as error:
         print(f"jam: {error}", file=sys.stderr)
         return FAILED
     try:
-        code = EARLY if _work(system, o, out) > 0 else DONE
+        code = EARLY if _Work(system, o, out).run() > 0 else DONE
     except KeyboardInterrupt:
         print("jam: interrupted; writing the state reached", file=sys.stderr)
         code = EARLY

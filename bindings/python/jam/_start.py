@@ -1,0 +1,67 @@
+"""How python3 -m jam begins: a random start of one of the models, a file, or a checkpoint; to the bits of jam-pack."""
+from __future__ import annotations
+
+import argparse
+import math
+from typing import Any
+
+import numpy as np
+
+from .system import System
+
+
+def _uniform(seed: int, k: int) -> float:
+    """In (0, 1): the k-th number of a seed, by the finaliser of splitmix64 (Steele, Lea and Flood 2014)."""
+    mask = (1 << 64) - 1
+    x = (seed * 0x9E3779B97F4A7C15 + k) & mask
+    for _ in range(2):
+        x = (x + 0x9E3779B97F4A7C15) & mask
+        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & mask
+        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & mask
+        x ^= x >> 31
+    return ((x >> 11) + 0.5) * 2.0**-53
+
+
+def take_diameters(text: str) -> tuple[str, Any]:
+    """The value of --diameters: ('lognormal', S), ('bidisperse', R) or ('file', name)."""
+    word, colon, number = text.partition(":")
+    if not colon or word not in ("lognormal", "bidisperse"):
+        return "file", text
+    if not 0 < float(number) < math.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} must be lognormal:S or bidisperse:R with a finite number > 0, or a file")
+    return word, float(number)
+
+
+def _read_diameters(path: str) -> np.ndarray:
+    with open(path, encoding="ascii") as file:
+        values = np.array([float(x) for x in file.read().split()])
+    if not len(values) or not (np.isfinite(values) & (values > 0)).all():
+        raise ValueError(f"{path}: diameters must be finite numbers > 0")
+    return values
+
+
+def _diameters(o: argparse.Namespace, n: int) -> np.ndarray | None:
+    """Ratios of the diameters as --diameters asks; None when all are equal."""
+    kind, value = o.diameters or ("bidisperse", o.diameters_ratio)
+    if kind == "file":
+        sizes = _read_diameters(value)
+        if o.n is not None and len(sizes) != o.n:
+            raise ValueError(f"{value} holds {len(sizes)} diameters, --n is {o.n}")
+        return sizes
+    if kind == "bidisperse":
+        return None if value == 1 else np.where(np.arange(n) < n // 2, 1.0, value)
+    width = math.sqrt(math.log1p(value * value))
+    return np.array([math.exp(width * math.sqrt(-2 * math.log(_uniform(o.seed, 2 * k)))
+                              * math.cos(6.283185307179586 * _uniform(o.seed, 2 * k + 1))) for k in range(n)])
+
+
+def start(o: argparse.Namespace) -> System:
+    if o.resume:
+        return System.from_checkpoint(o.resume)
+    model = {"model": "mk" if o.model == "mk" or o.zeta is not None or o.plant is not None else "euclid", "mk_zeta": o.zeta}
+    if o.input:
+        return System.read(o.input, seed=o.seed, box=o.box, overlap="shrink" if o.shrink else "refuse", **model)
+    sizes = _diameters(o, 1024 if o.n is None else o.n)
+    n = 1024 if o.n is None and sizes is None else o.n if sizes is None else len(sizes)
+    phi0 = o.plant or o.phi0 or 0.2 * 0.5 ** max(0, o.dim - 3)
+    return System.random(n, o.dim, o.seed, packing_fraction=phi0, diameters=sizes, box=o.box, **model)

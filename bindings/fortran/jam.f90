@@ -1442,8 +1442,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_class_values
 
-    ! Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
-    ! jam_class_values. @since 0.1
+    ! Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
+    ! there. Threads: const. Errors: as jam_class_values. @since 0.1
     function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed) &
         bind(c, name="jam_histogram") result(status)
       import
@@ -1597,8 +1597,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_density_of_states
 
-    ! Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
-    ! jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+    ! Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
+    ! error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
     function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, &
       needed) &
         bind(c, name="jam_cumulative_spectrum") result(status)

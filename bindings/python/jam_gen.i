@@ -379,8 +379,8 @@ JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
 pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
 jam_contacts, JAM_E_ARGUMENT. @since 0.1"
-%feature("docstring") jam_histogram "Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
-jam_class_values. @since 0.1"
+%feature("docstring") jam_histogram "Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
+there. Threads: const. Errors: as jam_class_values. @since 0.1"
 %feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
 diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_structure_factor "S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
@@ -406,8 +406,8 @@ omega, density and its standard error (over random vectors; the kernel's smoothi
 and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
 well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
 JAM_E_TOO_FEW. Threads: alone. @since 0.1"
-%feature("docstring") jam_cumulative_spectrum "Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
-jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1"
+%feature("docstring") jam_cumulative_spectrum "Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
+error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1"
 %feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
 modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"

@@ -771,8 +771,8 @@ typedef enum jam_class {
  * jam_contacts, JAM_E_ARGUMENT. @since 0.1 */
 JAM_API jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
                                     size_t *needed);
-/* Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
- * jam_class_values. @since 0.1 */
+/* Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
+ * there. Threads: const. Errors: as jam_class_values. @since 0.1 */
 JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins,
                                  double *out, size_t out_len, size_t *needed);
 /* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
@@ -851,8 +851,8 @@ JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          double *omega, size_t omega_len, double *density, size_t density_len,
                                          double *error, size_t error_len, size_t *needed);
-/* Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
- * jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1 */
+/* Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
+ * error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1 */
 JAM_API jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega,
                                            size_t omega_len, double *cumulative, size_t cumulative_len, double *error,
                                            size_t error_len, size_t *needed);

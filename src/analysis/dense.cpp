@@ -33,10 +33,7 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
     const int rest = n - k, below = rest - panel;
     dlatrd_("L", &rest, &panel, at(k, k), &n, e + k, tau + k, w.data(), &rest);
     dsyr2k_("L", "N", &below, &panel, &minus_one, at(k + panel, k), &n, &w[panel], &rest, &one, at(k + panel, k + panel), &n);
-    for (int j = k; j < k + panel; ++j) {
-      *at(j + 1, j) = e[j];
-      d[j] = *at(j, j);
-    }
+    for (int j = k; j < k + panel; ++j) d[j] = *at(j, j);
   }
   const int rest = n - k;
   int info = 0;

@@ -38,6 +38,38 @@ class Network(unittest.TestCase):
         with self.assertRaises(ValueError):
             s.modes(which="some")
 
+    def test_distributions(self):
+        s, r = self.s, self.r
+        local, extended = s.class_values("force", "localised"), s.class_values("force", "extended")
+        flags = s.contact_classes()
+        self.assertEqual(len(local), (flags & 1 != 0).sum())
+        np.testing.assert_allclose(local, s.forces[flags & 1 != 0] / s.forces[flags & 1 != 0].mean(), rtol=1e-12)
+        self.assertAlmostEqual(extended.mean(), 1, 12)
+        z = s.class_values("coordination", "all")
+        self.assertEqual((len(z), z.sum()), (r.stable, 2 * r.contacts))
+        density = s.histogram("vector_dot", "all", -1.013, 1.017, 37)  # no edge at the cosines of equal disks in touch
+        expected, _ = np.histogram(s.contact_dots(weighted=0).dot, 37, (-1.013, 1.017), density=True)
+        np.testing.assert_allclose(density, expected, rtol=1e-10)
+        with self.assertRaises(jam.errors.ArgumentError):
+            s.class_values("coordination", "median")
+
+    def test_projections_and_cumulative_spectrum(self):
+        s = self.s
+        every = s.modes(which="all")
+        u = np.random.default_rng(1).normal(size=(self.r.stable, 2))
+        c = s.project(every.vectors, u)
+        np.testing.assert_allclose(c, every.vectors.reshape(len(every), -1) @ u.reshape(-1), atol=1e-12)
+        self.assertAlmostEqual((c**2).sum() / (u**2).sum(), 1, 11)
+        low = s.cumulative_spectrum(points=60, vectors=32)
+        exact = np.searchsorted(every.values[2:], low.omega**2) / (len(every) - 2)
+        self.assertLess(np.abs(low.cumulative - exact).max(), 0.05)
+        self.assertGreater(s.moduli(prestress=1e-6).bulk, 0)
+
+    def test_candidates(self):
+        found = self.s.contact_candidates(0.1)
+        self.assertEqual((found.contacts[0], found.excess[0]), (self.r.contacts, self.r.excess_contacts))
+        self.assertGreater(found.jump[0], 1e6)
+
     def test_made_methods(self):
         s, r = self.s, self.r
         gap, pair = s.gaps(1.0, True)

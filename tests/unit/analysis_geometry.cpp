@@ -162,6 +162,29 @@ void no_clear_jump(void **) {
   }
 }
 
+void no_force_of_one_sign(void **) {
+  // Four disks with six bars, sides and diagonals: the self-stress of one such square pulls where it does not push. Two of
+  // them have two states, and no combination repels everywhere.
+  Case c;
+  c.packing.dim = 2;
+  c.packing.box = 10.0;
+  for (double shift : {1.0, 5.0})
+    for (int k = 0; k < 4; ++k) {
+      c.packing.position.insert(c.packing.position.end(), {shift + (k & 1), 2.0 + (k >> 1)});
+      c.packing.diameter.push_back(1.0);
+    }
+  for (int first : {0, 4})
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) add_contact(c, first + i, first + j, {0.0, 0.0});
+  const StableGraph g = make_graph(c.packing, c.network);
+  const StressStates s = find_stress(g, true);
+  assert_int_equal(s.dimension, 2);
+  assert_false(s.positive);
+  assert_true(s.residual < 1e-12 && s.min_force < 0.0);  // a balance, but no repulsive one
+  std::vector<double> f;
+  assert_false(least_force(g, f));
+}
+
 void pulling_is_no_force(void **) {
   // A sphere held by three contacts on one side only: S^T f = 0 has solutions on the rest alone.
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
@@ -186,6 +209,7 @@ int main() {
                                      cmocka_unit_test(spanning_chain),
                                      cmocka_unit_test(two_clusters),
                                      cmocka_unit_test(no_clear_jump),
+                                     cmocka_unit_test(no_force_of_one_sign),
                                      cmocka_unit_test(pulling_is_no_force)};
   return cmocka_run_group_tests_name("analysis_geometry", tests, nullptr, nullptr);
 }

@@ -75,6 +75,13 @@ void triangular_full(void **) {
   assert_true(std::fabs(trace - 2.0 * 192) < 1e-9);  // every contact adds |n|^2 to each of its two spheres
 }
 
+void more_than_one_panel(void **) {
+  // 648 rows: several panels of the reduction, two of the back transformation.
+  const Solved s = solve(lattice(triangular_basis(), triangular_bonds(), 18), JAM_MODES_ALL, 1);
+  assert_true(worst(s.modes.lambda, bloch_spectrum(triangular_basis(), triangular_bonds(), 18)) < 1e-10);
+  assert_true(mode_error(s) < 1e-10);
+}
+
 void fcc_full(void **) {
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 4), JAM_MODES_ALL, 1);
   assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4)) < 1e-10);
@@ -286,7 +293,7 @@ void cancels(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(triangular_full),      cmocka_unit_test(fcc_full),
+      cmocka_unit_test(triangular_full),      cmocka_unit_test(more_than_one_panel), cmocka_unit_test(fcc_full),
       cmocka_unit_test(prestressed_full),     cmocka_unit_test(square_has_floppy_lines),
       cmocka_unit_test(unstable_lowest),      cmocka_unit_test(hard_sphere_weights),
       cmocka_unit_test(triangular_few),       cmocka_unit_test(fcc_few),

@@ -184,8 +184,8 @@ class Methods:
         return self.call('class_values', quantity, which)
 
     def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> np.ndarray:
-        """Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
-        jam_class_values. @since 0.1"""
+        """Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
+        there. Threads: const. Errors: as jam_class_values. @since 0.1"""
         return self.call('histogram', quantity, which, low, high, bins)
 
     def pair_correlation(self, kind: Any, a: int, b: int, r_max: float, bins: int) -> np.ndarray:
@@ -246,8 +246,8 @@ class Methods:
         return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
     def cumulative_spectrum(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> CumulativeSpectrumResult:
-        """Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
-        jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+        """Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
+        error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC

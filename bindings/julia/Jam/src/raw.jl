@@ -1027,8 +1027,8 @@ function jam_class_values(sys, quantity, which, out, out_len, needed)
 end
 
 """
-Their density in `bins` equal bins of [low, high); the integral is the share of values there. Threads: const. Errors: as
-jam_class_values. @since 0.1
+Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
+there. Threads: const. Errors: as jam_class_values. @since 0.1
 """
 function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed)
     return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1114,8 +1114,8 @@ function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len
 end
 
 """
-Its integral: cumulative = share of modes below omega (upper ends of the bins), and its standard error. Otherwise as
-jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
+error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
 """
 function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, needed)
     return ccall((:jam_cumulative_spectrum, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(cumulative), cumulative_len, _ptr(error), error_len, _ref(Csize_t, needed))

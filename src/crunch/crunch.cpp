@@ -14,6 +14,11 @@ namespace jam {
 
 namespace {
 
+// Median gap of the d n nearest pairs below which a start may be jammed already.
+constexpr double already_closed = 1e-11;
+// Step bound of the last LPs, mean diameters.
+constexpr double narrowest = 1e-6;
+
 class Chain {
  public:
   Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history, const CrunchSeams &seams)
@@ -26,9 +31,15 @@ class Chain {
 
   CrunchResult run() {
     try {
-      bound_ = first_bound();
-      if (o_.method == JAM_CRUNCH_RELINEARISE) follow_path();
-      while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
+      if (contact_gap(out_.packing) < already_closed) {  // one LP in full, as narrow as the last one of a run, tells whether it is jammed
+        bound_ = narrowest, last_gain_ = 0.0;
+        one_lp();
+      }
+      bound_ = first_bound(), last_gain_ = 1.0;
+      if (out_.report.stop_reason == JAM_STOP_NONE && o_.method == JAM_CRUNCH_RELINEARISE) follow_path();
+      do {
+        while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
+      } while (wants_another_lp());
       finish();
     } catch (const Error &e) {
       stop(JAM_STOP_SOLVER, e.code());
@@ -200,18 +211,28 @@ class Chain {
     if (gain <= o_.gain_tolerance) ++idle_;
     if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
     last_gain_ = gain;
-    if (o_.step_bound == 0.0) bound_ = std::min(std::max(5.0 * step, 1e-6), alpha < 1.0 ? 0.7 * bound_ : 0.5);
+    if (o_.step_bound == 0.0) bound_ = std::min(std::max(5.0 * step, narrowest), alpha < 1.0 ? 0.7 * bound_ : 0.5);
   }
 
   void stop(jam_stop_reason reason, jam_status status) { out_.report.stop_reason = reason, out_.status = status; }
 
+  // Contacts of the last LP and their last digits. Where polish refuses, an LP that lists fewer pairs that nearly touch decides
+  // once more which of them carry force; after that its answer stays.
+  bool wants_another_lp() {
+    if (answer_.y.empty() || network_.stable.empty()) return false;
+    out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
+    if (out_.report.stop_reason != JAM_STOP_CONVERGED || !o_.polish || last_digits() || retried_) return false;
+    if (out_.report.lp_solves >= o_.max_lps || out_.report.stop_reason != JAM_STOP_CONVERGED) return false;
+    retried_ = true;
+    bound_ = std::max(0.03 * lp_.bound, 1e-9), last_gain_ = 0.0;
+    pairs_.clear();  // polish left another graph in system_
+    stop(JAM_STOP_NONE, JAM_OK);
+    return true;
+  }
+
   void finish() {
     jam_report &r = out_.report;
     r.method = o_.method;
-    if (!answer_.y.empty() && !network_.stable.empty()) {
-      out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
-      if (r.stop_reason == JAM_STOP_CONVERGED && o_.polish) last_digits();
-    }
     certify(out_.packing, out_.contacts, r);
     r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < 1e-6 && r.min_force > 0.0;
     if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
@@ -238,9 +259,10 @@ class Chain {
     out_.report.seconds = monitor_.seconds();
   }
 
-  void last_digits() {
+  // False when polish refused.
+  bool last_digits() {
     if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
-    if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
     const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
     if (end == PolishEnd::done) {
       HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
@@ -249,8 +271,9 @@ class Chain {
     }
     const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"
                       : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
-    if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; the LP's answer stays", why);
+    if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
     if (monitor_.cancelled()) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+    return !why;
   }
 
   const jam_crunch_options o_;
@@ -267,6 +290,7 @@ class Chain {
   double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
   double last_gain_ = 1.0;
   int idle_ = 0;
+  bool retried_ = false;  // an LP more because polish refused
   bool kept_ = false;  // the last LP gave an answer that passed the checks
 };
 

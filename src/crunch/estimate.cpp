@@ -19,18 +19,6 @@ constexpr double steps_dense = 60.0, steps_dilute = 300.0;
 // The chain's step bound follows its last step: up to this, mean diameters, unless the start is close to its jamming point.
 constexpr double chain_bound = 0.5, close_gap = 3e-5;
 
-// Median gap of the d n nearest pairs: the contacts to be.
-double contact_gap(const Packing &p) {
-  const PairList pairs = find_pairs(p, 0.0, 1.5);
-  const size_t wanted = static_cast<size_t>(p.dim) * p.n() / 2;
-  if (pairs.size() <= wanted) return 0.5;
-  std::vector<double> gap(pairs.size());
-  double r[JAM_MAX_DIM];
-  for (size_t k = 0; k < gap.size(); ++k) gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
-  std::nth_element(gap.begin(), gap.begin() + wanted, gap.end());
-  return gap[wanted];
-}
-
 // The list that the run begins with, a little denser as the spheres grow before it is shortened, and from a start with few
 // neighbours at least as many of the nearest pairs as a list holds near jamming.
 PairList longest_list(const Packing &p, const jam_crunch_options &o) {
@@ -65,6 +53,17 @@ double measured_rate(int size) {
 }
 
 }  // namespace
+
+double contact_gap(const Packing &p) {
+  const PairList pairs = find_pairs(p, 0.0, 1.5);
+  const size_t wanted = static_cast<size_t>(p.dim) * p.n() / 2;
+  if (pairs.size() <= wanted) return 0.5;
+  std::vector<double> gap(pairs.size());
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < gap.size(); ++k) gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
+  std::nth_element(gap.begin(), gap.begin() + wanted, gap.end());
+  return gap[wanted];
+}
 
 jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   check_options(p, o);

@@ -6,6 +6,7 @@
 extern "C" {
 #include <cmocka.h>
 }
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -72,6 +73,63 @@ void degenerate_instances(void **) {
   agree(small);
 }
 
+// FCC in contact, with and without a vacancy: 18 rows a particle more than its motions need, every answer but g degenerate.
+void fcc_instances(void **) {
+  const double basis[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
+  for (int vacancy = 0; vacancy < 2; ++vacancy)
+    for (const double shrink : {1.0, 0.999}) {
+      Packing p;
+      for (int k = vacancy; k < 108; ++k) {
+        const int cell = k / 4, at[3] = {cell % 3, cell / 3 % 3, cell / 9};
+        for (int c = 0; c < 3; ++c) p.position.push_back((at[c] + basis[k % 4 * 3 + c]) / 3.0);
+      }
+      p.diameter.assign(108 - vacancy, shrink * std::sqrt(0.5) / 3.0);
+      p.velocity.assign(p.position.size(), 0.0);
+      const double unit = diameter_mean(p);
+      const PairList pairs = find_pairs(p, 0.3 * unit, 1.0);
+      PackingLp lp = make_lp(p, pairs, unit);
+      for (const double bound : {0.05, 1e-3}) {
+        lp.bound = bound;
+        agree(lp);
+      }
+      // without a vacancy nothing can be won but the room to contact
+      if (!vacancy) assert_true(std::fabs(interior(lp).g - (1.0 / (shrink * shrink) - 1.0)) < 1e-9);
+    }
+}
+
+// Bounds down to nothing: g comes down to the smallest gap of the start, exactly at last, for there is no other point.
+void vanishing_bound(void **) {
+  const Packing p = start(60, 3, 0.2, 5);
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
+  for (const double bound : {1e-4, 1e-6, 1e-9}) {
+    lp.bound = bound;
+    agree(lp);
+    const LpSolution x = interior(lp);
+    assert_true(x.g >= smallest - 1e-13 && x.g <= smallest + 8.0 * bound);
+    for (const double s : x.s) assert_true(std::fabs(s) <= bound * (1.0 + 1e-9));
+  }
+}
+
+// A start that overlaps by 1e-9, as text files give it: g begins below zero and leaves it, and both solvers say so.
+void overlap_by_rounding(void **) {
+  Packing p = start(60, 3, 0.2, 9);
+  const ClosestPair closest = closest_pair(p);
+  for (double &s : p.diameter) s *= (1.0 + closest.gap) * (1.0 + 1e-9);
+  assert_true(closest_pair(p).gap < -0.9e-9);
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.6 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 0.1;
+  agree(lp);
+  assert_true(interior(lp).g > 1e-3);
+  lp.bound = 1e-12;  // too tight to leave the overlap
+  agree(lp);
+  assert_true(std::fabs(interior(lp).g + 2e-9) < 1e-10);
+}
+
 // Rows that cannot hold at the start (an overlap): g must come out negative, not fail.
 void overlapping_instance(void **) {
   Packing p = start(40, 3, 0.2, 7);
@@ -107,6 +165,7 @@ void check_sees_errors(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(degenerate_instances),
-                              cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
+                              cmocka_unit_test(fcc_instances), cmocka_unit_test(vanishing_bound),
+                              cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

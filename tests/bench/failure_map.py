@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+"""Where crunch jams, where it stops and why: start density x method x dimension, and size ratio x number of spheres.
+
+usage: failure_map.py [--out MAP.json] [--picture MAP.png] [--seeds 2] [--limit SECONDS] [--scale 1] [--only-draw]
+
+Every result is checked here from positions, diameters and contacts alone, over all images. "wrong" is a packing with an
+overlap, or one called jammed that is not; it must not come up: then the exit status is 1. Set PYTHONPATH to the built module.
+"""
+import argparse
+import itertools
+import json
+import sys
+import time
+
+import numpy as np
+
+KINDS = {"jammed 1SS": "#4c9f70", "jammed hyperstatic": "#a6d8a8", "stopped": "#f2c14e", "refused": "#c9c9c9", "wrong": "#d1495b"}
+JAMMED = {2: 0.84, 3: 0.64, 4: 0.46, 5: 0.31}
+
+
+def overlap(x, sizes, box):
+    """Largest overlap relative to the contact distance, and whether that of a sphere with its own image, by brute force."""
+    n, d = x.shape
+    reach = 2 if sizes.max() > 0.5 * box else 1
+    worst = 0.0
+    sigma = 0.5 * (sizes[:, None] + sizes[None, :])
+    dx = x[:, None, :] - x[None, :, :]
+    dx -= box * np.round(dx / box)
+    shifts = itertools.product(range(-reach, reach + 1), repeat=d) if n <= 12 else [(0,) * d]
+    for shift in shifts:
+        r = np.sqrt(((dx + box * np.array(shift, float)) ** 2).sum(-1))
+        if not any(shift):
+            np.fill_diagonal(r, np.inf)
+        worst = max(worst, (1.0 - r / sigma).max())
+    return worst
+
+
+def verdict(system, report):
+    """Kind and reason of a result, by what can be recomputed from it."""
+    x, sizes = np.array(system.positions), np.array(system.diameters)
+    n, d = x.shape
+    if overlap(x, sizes, system.box) > 1e-11:
+        return "wrong", "overlap"
+    if not report.jammed:
+        return "stopped", report.stop_reason.name.lower()
+    c = system.contacts
+    i, j = c.pairs.T
+    sigma = 0.5 * (sizes[i] + sizes[j])
+    dx = x[i] - x[j]
+    r = c.vectors * sigma[:, None]
+    off = (r - dx) / system.box
+    if abs(off - np.round(off)).max() * system.box > 1e-9 * sigma.max():
+        return "wrong", "a contact is open"
+    force = np.zeros_like(x)
+    np.add.at(force, i, c.forces[:, None] * c.vectors)
+    np.add.at(force, j, -c.forces[:, None] * c.vectors)
+    if abs(force).max() > 1e-8 or c.forces.min() <= 0:
+        return "wrong", "forces"
+    stable = len(set(i) | set(j))
+    excess = len(c) - (d * (stable - 1) + 1)
+    if excess < 0 or excess != report.excess_contacts:
+        return "wrong", "count of contacts"
+    return ("jammed 1SS", "") if excess == 0 else ("jammed hyperstatic", f"+{excess}")
+
+
+def sizes_of(kind, n, seed):
+    if isinstance(kind, str):  # log-normal, standard deviation over mean
+        s = float(kind.split()[1])
+        width = np.sqrt(np.log(1.0 + s * s))
+        return np.exp(width * np.random.default_rng(seed).standard_normal(n))
+    return np.where(np.arange(n) % 2, 1.0, kind)
+
+
+def run(dim, n, sizes, start, method, seed, limit):
+    """start: ("phi", fraction of the jammed density), past 0.4 grown at G = 0.1, or ("p", pressure of a state grown at G = 0.1, then 0.03)."""
+    import jam
+    began, row = time.process_time(), {}
+    try:
+        phi = JAMMED[dim] * min(start[1] if start[0] == "phi" else 0.3, 0.4)
+        s = jam.System.random(n, dim, seed, packing_fraction=phi, diameters=sizes)
+        if start[0] == "phi" and start[1] > 0.4:
+            s.compress(growth_rate=0.1, pressure=1e12, packing_fraction=JAMMED[dim] * start[1], wall_time=limit)
+        elif start[0] == "p":
+            s.compress([(0.1, min(start[1], 1e2))] + ([(0.03, start[1])] if start[1] > 1e2 else []), wall_time=limit)
+        report = s.crunch(method=method, wall_time=limit)
+        row["kind"], row["reason"] = verdict(s, report)
+        row.update(phi=report.packing_fraction, excess=report.excess_contacts, lps=report.lp_solves, factorisations=report.factorisations,
+                   used=report.method.name.lower(), force_residual=report.force_residual, max_overlap=report.max_overlap)
+    except jam.JamError as error:
+        refused = isinstance(error, (jam.errors.UnplaceableError, jam.errors.ArgumentError, jam.errors.TooFewError))
+        row.update(kind="refused" if refused else "stopped", reason=str(error)[:80])
+    row["cpu"] = round(time.process_time() - began, 3)
+    return row
+
+
+def study(args):
+    rows = []
+    starts = [("phi", f) for f in (0.05, 0.2, 0.4, 0.6, 0.8, 0.95)] + [("p", p) for p in (1e1, 1e3, 1e6, 1e9, 1e12)]
+    sizes = {2: (128, 1.4), 3: (128, 1.0), 4: (96, 1.0), 5: (64, 1.0)}
+    for dim, method, start, seed in itertools.product(sizes, ("relinearise", "chain"), starts, range(1, args.seeds + 1)):
+        n, ratio = int(sizes[dim][0] * args.scale), sizes[dim][1]
+        row = run(dim, n, sizes_of(ratio, n, seed), start, method, seed, args.limit)
+        rows.append(dict(map="density", dim=dim, n=n, method=method, start=f"{start[0]} {start[1]:g}", seed=seed, **row))
+        print(rows[-1], file=sys.stderr, flush=True)
+    kinds = (1.0, 1.4, 2.0, 4.0, 10.0, "log-normal 0.2", "log-normal 0.5")
+    for kind, n, dim, seed in itertools.product(kinds, (4, 8, 32, 128, 512), (2, 3), range(1, args.seeds + 1)):
+        if n > 128 * args.scale:
+            continue
+        row = run(dim, n, sizes_of(kind, n, seed), ("phi", 0.3), "relinearise", seed, args.limit)
+        rows.append(dict(map="sizes", dim=dim, n=n, sizes=kind if isinstance(kind, str) else f"1:{kind:g}", seed=seed, **row))
+        print(rows[-1], file=sys.stderr, flush=True)
+    return {"seeds": args.seeds, "limit": args.limit, "rows": rows}
+
+
+def draw(data, picture):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(2, 1, figsize=(10.5, 9), height_ratios=(8, 7))
+    maps = (("density", lambda r: (f"d = {r['dim']}, {r['method']}", r["start"]), "start: at this part of the jammed density (random to 0.4, then grown fast), or grown to pressure p"),
+            ("sizes", lambda r: (r["sizes"], f"d = {r['dim']}, N = {r['n']}"), "diameters half and half or log-normal (deviation over mean), random start at 0.3 of the jammed density"))
+    order = list(KINDS)
+    for axis, (name, key, title) in zip(axes, maps):
+        rows = [r for r in data["rows"] if r["map"] == name]
+        lines = list(dict.fromkeys(key(r)[0] for r in rows))
+        columns = list(dict.fromkeys(key(r)[1] for r in rows)) if name == "density" else sorted(
+            {key(r)[1] for r in rows}, key=lambda c: (c[:5], int(c.split("N = ")[1])))
+        for a, line in enumerate(lines):
+            for b, column in enumerate(columns):
+                cell = [r for r in rows if key(r) == (line, column)]
+                if not cell:
+                    continue
+                for part, r in enumerate(sorted(cell, key=lambda r: order.index(r["kind"]))):
+                    axis.add_patch(plt.Rectangle((b + part / len(cell), a), 1 / len(cell), 1, color=KINDS[r["kind"]], lw=0))
+                notes = sorted({r["reason"] for r in cell if r["kind"] in ("jammed hyperstatic", "stopped", "wrong")})
+                axis.text(b + 0.5, a + 0.5, "\n".join(n.replace("_", " ")[:14] for n in notes[:2]), ha="center", va="center", fontsize=6)
+        axis.set(xlim=(0, len(columns)), ylim=(len(lines), 0), xticks=np.arange(len(columns)) + 0.5, yticks=np.arange(len(lines)) + 0.5)
+        axis.set_xticklabels([c.replace("phi ", r"$\varphi_0/\varphi_J$ = ").replace("p 1", "p = 1") for c in columns], fontsize=7, rotation=12)
+        axis.set_yticklabels(lines, fontsize=8)
+        axis.set_title(title, fontsize=9)
+        for k in range(len(columns) + 1):
+            axis.axvline(k, color="white", lw=2)
+        for k in range(len(lines) + 1):
+            axis.axhline(k, color="white", lw=2)
+        axis.tick_params(length=0)
+        for spine in axis.spines.values():
+            spine.set_visible(False)
+    found = {r["kind"] for r in data["rows"]}
+    figure.legend(handles=[plt.Rectangle((0, 0), 1, 1, color=c, label=k + ("" if k in found else " (none)")) for k, c in KINDS.items()], loc="lower center",
+                  ncol=5, fontsize=8, frameon=False)
+    figure.tight_layout(rect=(0, 0.03, 1, 1))
+    figure.savefig(picture, dpi=100)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", default="failure_map.json")
+    parser.add_argument("--picture")
+    parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--limit", type=float, default=20.0)
+    parser.add_argument("--scale", type=float, default=1.0)
+    parser.add_argument("--only-draw", action="store_true")
+    args = parser.parse_args()
+    if args.only_draw:
+        data = json.load(open(args.out))
+    else:
+        data = study(args)
+        json.dump(data, open(args.out, "w"), indent=0)
+    if args.picture:
+        draw(data, args.picture)
+    counts = {k: sum(r["kind"] == k for r in data["rows"]) for k in KINDS}
+    print(json.dumps(counts))
+    return 1 if counts["wrong"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+"""Time, factorisations and LPs of a crunch against the number of spheres, with fitted exponents beside the published ones.
+
+usage: size_chart.py [--sizes 128,256,512,1024] [--seeds 3] [--growth 1e-3] [--pressure 1e5] [--out SIZE.json] [--picture SIZE.png]
+                     [--threads 1] [--methods relinearise,chain] [--only-draw]
+
+States: random at phi 0.2, grown at G = 1e-2 to p = 500 and then at --growth to --pressure. Times are of the processor, medians
+over seeds. A run that is in the JSON already is not made again, so large sizes can be added one by one. PYTHONPATH: the built module.
+"""
+import argparse
+import json
+import os
+import time
+
+import numpy as np
+
+PUBLISHED = {"seconds": 2.75, "lps": 0.59, "factorisations": None}  # Diaz Hernandez Rojas, thesis (2021): whole crunch and LPs
+
+
+def run(n, seed, method, args):
+    import jam
+    s = jam.System.random(n, 3, seed)
+    began = time.process_time()
+    s.compress([(1e-2, 500.0), (args.growth, args.pressure)])
+    md = time.process_time() - began
+    estimate = s.crunch_estimate(method=method, threads=args.threads)
+    began = time.process_time()
+    r = s.crunch(method=method, threads=args.threads)
+    return dict(n=n, seed=seed, method=method, threads=args.threads, growth=args.growth, pressure=args.pressure, md_seconds=md, seconds=time.process_time() - began,
+                wall_seconds=r.seconds, seconds_factor=r.seconds_factor, factorisations=r.factorisations, lps=r.lp_solves, jammed=r.jammed,
+                excess=r.excess_contacts, phi=r.packing_fraction, force_residual=r.force_residual, max_overlap=r.max_overlap,
+                estimated_bytes=estimate.bytes, estimated_seconds=estimate.seconds, used=r.method.name.lower(),
+                stop_reason=r.stop_reason.name.lower())
+
+
+def fit(sizes, values):
+    """Exponent of a least-squares line through the logarithms, and its standard error."""
+    x, y = np.log(sizes), np.log(values)
+    if len(x) < 3:
+        return (np.diff(y) / np.diff(x))[0] if len(x) == 2 else np.nan, np.nan
+    coefficients, covariance = np.polyfit(x, y, 1, cov="unscaled")
+    rest = y - np.polyval(coefficients, x)
+    return coefficients[0], np.sqrt(covariance[0, 0] * (rest @ rest) / (len(x) - 2))
+
+
+def draw(rows, picture):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(1, 3, figsize=(12, 4))
+    exponents = {}
+    for axis, (field, label) in zip(axes, (("seconds", "processor seconds of the whole crunch"), ("factorisations", "factorisations"), ("lps", "LPs solved"))):
+        for m, method in enumerate(sorted({r["method"] for r in rows}, reverse=True)):
+            mine = [r for r in rows if r["method"] == method and r["jammed"]]
+            sizes = sorted({r["n"] for r in mine})
+            if not sizes:
+                continue
+            middle = [np.median([r[field] for r in mine if r["n"] == n]) for n in sizes]
+            power, error = fit(sizes, middle)
+            exponents[method, field] = power
+            axis.loglog([r["n"] for r in mine], [r[field] for r in mine], ".", color=f"C{m}", alpha=0.4)
+            axis.loglog(sizes, middle, "o-", color=f"C{m}", label=f"{method}: $N^{{{power:.2f} \\pm {error:.2f}}}$" if error == error else f"{method}: $N^{{{power:.2f}}}$")
+            if PUBLISHED[field] and m == 0:
+                axis.loglog(sizes, [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes], "k--", lw=1,
+                            label=f"published slope $N^{{{PUBLISHED[field]}}}$")
+        axis.set(xlabel="N", ylabel=label)
+        axis.legend(fontsize=8)
+        axis.grid(alpha=0.3, which="both")
+    growth, pressure = rows[0]["growth"], rows[0]["pressure"]
+    axes[1].set_title(f"d = 3, grown at G = {growth:g} to p = {pressure:g}, {max(r['seed'] for r in rows)} seeds, {rows[0]['threads']} core", fontsize=9)
+    figure.tight_layout()
+    figure.savefig(picture, dpi=100)
+    return exponents
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sizes", default="128,256,512,1024")
+    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--growth", type=float, default=1e-3)
+    parser.add_argument("--pressure", type=float, default=1e5)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--methods", default="relinearise,chain")
+    parser.add_argument("--out", default="size_chart.json")
+    parser.add_argument("--picture")
+    parser.add_argument("--only-draw", action="store_true")
+    args = parser.parse_args()
+    rows = json.load(open(args.out)) if os.path.exists(args.out) else []
+    wanted = [] if args.only_draw else [(int(n), seed, method) for n in args.sizes.split(",") for seed in range(1, args.seeds + 1)
+                                        for method in args.methods.split(",")]
+    for n, seed, method in wanted:
+        same = dict(n=n, seed=seed, method=method, threads=args.threads, growth=args.growth, pressure=args.pressure)
+        if any(all(r[k] == v for k, v in same.items()) for r in rows):
+            continue
+        rows.append(run(n, seed, method, args))
+        print(json.dumps(rows[-1]), flush=True)
+        json.dump(rows, open(args.out, "w"), indent=0)
+    if args.picture and rows:
+        for (method, field), power in draw(rows, args.picture).items():
+            print(f"{method} {field}: N^{power:.2f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,294 @@
+/* jam_crunch from every kind of start and any sizes, each result certified here from positions, sizes, pairs and forces alone:
+ * densities and pressures, mixtures, few spheres in small boxes, lattices with a vacancy, disks that order, jammed input. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "jam/jam.h"
+
+/* Smallest gap over all pairs and images out to `reach` boxes, own images too. */
+static double smallest_gap(const jam_system *sys, int reach) {
+  const double *x, *s;
+  size_t len, n, i, j;
+  jam_info info;
+  double least = INFINITY;
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &n);
+  for (i = 0; i < n; ++i)
+    for (j = 0; j <= i; ++j) {
+      int code, count = 1, k;
+      for (k = 0; k < info.dim; ++k) count *= 2 * reach + 1;
+      for (code = 0; code < count; ++code) {
+        double r2 = 0.0;
+        int rest = code, own = i == j;
+        for (k = 0; k < info.dim; ++k, rest /= 2 * reach + 1) {
+          const int shift = rest % (2 * reach + 1) - reach;
+          double dx = x[i * info.dim + k] - x[j * info.dim + k];
+          dx += (shift - nearbyint(dx / info.box)) * info.box;
+          own = own && shift == 0;
+          r2 += dx * dx;
+        }
+        if (!own) least = fmin(least, sqrt(r2) / (0.5 * (s[i] + s[j])) - 1.0);
+      }
+    }
+  return least;
+}
+
+/* Every claim of the report that follows from the packing: no overlap; when jammed, closed contacts, positive balanced forces,
+ * at least one state of self-stress, every stable sphere with d + 1 contacts or more. */
+static void certify(const jam_system *sys, const jam_report *r, int reach) {
+  const double *x, *s;
+  size_t len, m = 0, k;
+  int32_t *pair, *z;
+  double *v, *f, *total, mean = 0.0;
+  jam_info info;
+  int c, d, stable = 0;
+  assert_true(smallest_gap(sys, reach) > -1e-12);
+  if (!r->jammed) return;
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info), d = info.dim;
+  jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &len);
+  jam_contacts(sys, NULL, 0, &m);
+  pair = malloc(m * sizeof *pair), z = calloc(info.n, sizeof *z), m /= 2;
+  v = malloc(m * d * sizeof *v), f = malloc(m * sizeof *f), total = calloc(info.n * d, sizeof *total);
+  assert_int_equal(jam_contacts(sys, pair, 2 * m, NULL), JAM_OK);
+  assert_int_equal(jam_contact_vectors(sys, v, m * d, NULL), JAM_OK);
+  assert_int_equal(jam_forces(sys, f, m, NULL), JAM_OK);
+  for (k = 0; k < m; ++k) {
+    const int32_t i = pair[2 * k], j = pair[2 * k + 1];
+    const double sigma = 0.5 * (s[i] + s[j]);
+    assert_true(f[k] > 0.0);
+    mean += f[k] / (double)m;
+    ++z[i], ++z[j];
+    for (c = 0; c < d; ++c) { /* the contact is where the vector says, up to whole boxes */
+      double rest = (x[i * d + c] - x[j * d + c] - sigma * v[k * d + c]) / info.box;
+      assert_true(fabs(rest - nearbyint(rest)) < 1e-9);
+      total[i * d + c] += f[k] * v[k * d + c], total[j * d + c] -= f[k] * v[k * d + c];
+    }
+  }
+  assert_true(fabs(mean - 1.0) < 1e-12);
+  for (k = 0; k < (size_t)(info.n * d); ++k) assert_true(fabs(total[k]) < 1e-10);
+  for (k = 0; k < (size_t)info.n; ++k) {
+    stable += z[k] > 0;
+    assert_true(z[k] == 0 || z[k] > d);
+  }
+  assert_int_equal(r->excess_contacts, (int64_t)m - (d * (stable - 1) + 1));
+  assert_true(r->excess_contacts >= 0);
+  free(pair), free(z), free(v), free(f), free(total);
+}
+
+static jam_system *random_start(int n, int dim, double phi, const double *sizes, int64_t seed) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
+  if (jam_create(&o, NULL, 0, sizes, sizes ? n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  return sys;
+}
+
+static jam_report crunched(jam_system *sys, const jam_crunch_options *o, const char *what, double value, int must_jam) {
+  jam_report r;
+  jam_status status;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  status = jam_crunch(sys, o, &r);
+  print_message("%s %g: status %d, phi %.6f, contacts %d, excess %d, rattlers %d, LPs %d, factorisations %d\n", what, value, status, r.packing_fraction, (int)r.contacts,
+                (int)r.excess_contacts, (int)r.rattlers, (int)r.lp_solves, (int)r.factorisations);
+  if (status < 0 || (must_jam && !r.jammed)) fail_msg("status %d (%s) %s", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
+  certify(sys, &r, 1);
+  return r;
+}
+
+/* From a hundredth of the jammed volume to nearly all of it, d = 2..5; denser than random placement goes by growth. */
+static void densities(void **state) {
+  const struct { int dim, n; double phi[5]; } starts[] = {
+      {2, 60, {0.05, 0.3, 0.5, 0.7, 0.8}}, {3, 60, {0.05, 0.2, 0.35, 0.5, 0.6}}, {4, 50, {0.02, 0.05, 0.15, 0.3, 0.4}}, {5, 50, {0.01, 0.05, 0.1, 0.2, 0.25}}};
+  double sizes[64];
+  int k, q;
+  (void)state;
+  for (k = 0; k < 64; ++k) sizes[k] = k % 2 ? 1.0 : 1.4; /* in d = 2 equal disks would order */
+  for (k = 0; k < 4; ++k)
+    for (q = 0; q < 5; ++q) {
+      const double phi = starts[k].phi[q], random_phi = phi > 0.5 / (1 << (starts[k].dim - 2)) ? starts[k].phi[1] : phi;
+      jam_system *sys = random_start(starts[k].n, starts[k].dim, random_phi, starts[k].dim == 2 ? sizes : NULL, 3 + q);
+      if (random_phi < phi) {
+        jam_compress_options c;
+        jam_compress_options_init(&c, sizeof c);
+        c.growth_rate = 0.1, c.packing_fraction = phi, c.pressure = 1e12;
+        assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+      }
+      assert_true(crunched(sys, NULL, "density", phi, 1).packing_fraction > phi);
+      jam_destroy(sys);
+    }
+}
+
+static void pressures(void **state) {
+  const double p[] = {1e1, 1e3, 1e6, 1e9, 1e12};
+  int k;
+  (void)state;
+  for (k = 0; k < 5; ++k) {
+    jam_system *sys = random_start(60, 3, 0.3, NULL, 2);
+    jam_compress_options c;
+    jam_report r;
+    jam_info info;
+    info.struct_size = sizeof info;
+    jam_compress_options_init(&c, sizeof c);
+    c.growth_rate = 1e-2, c.pressure = p[k];
+    assert_true(jam_compress(sys, &c, NULL) >= 0);
+    jam_info_get(sys, &info);
+    r = crunched(sys, NULL, "pressure", p[k], 1);
+    /* free volume: phi_J - phi = phi d / p, as long as growth leaves the glass time to follow its pressure */
+    if (p[k] < 1e7) {
+      const double d_fit = (r.packing_fraction - info.packing_fraction) / info.packing_fraction * p[k];
+      assert_true(d_fit > 2.0 && d_fit < 8.0);
+    }
+    jam_destroy(sys);
+  }
+}
+
+/* Log-normal sizes from equally likely quantiles (deviation over mean 0.2, 0.5), and mixtures half and half. */
+static void mixtures(void **state) {
+  const double kinds[] = {-0.2, -0.5, 1.4, 4.0, 10.0};
+  double sizes[80];
+  int kind, dim, k;
+  (void)state;
+  for (kind = 0; kind < 5; ++kind)
+    for (dim = 2; dim <= 3; ++dim) {
+      jam_system *sys;
+      const double width = sqrt(log(1.0 + kinds[kind] * kinds[kind]));
+      for (k = 0; k < 80; ++k) { /* normal quantile by bisection on erf */
+        double low = -6.0, high = 6.0, at = (k + 0.5) / 80.0;
+        while (high - low > 1e-12) {
+          const double mid = 0.5 * (low + high);
+          if (0.5 * (1.0 + erf(mid / sqrt(2.0))) < at) low = mid;
+          else high = mid;
+        }
+        sizes[k * 27 % 80] = kinds[kind] < 0.0 ? exp(width * low) : k % 2 ? 1.0 : kinds[kind];
+      }
+      for (k = 0; k < 80 && kinds[kind] > 0.0; ++k) sizes[k] = k % 2 ? 1.0 : kinds[kind];
+      sys = random_start(80, dim, dim == 2 ? 0.35 : 0.2, sizes, 4);
+      crunched(sys, NULL, kinds[kind] < 0.0 ? "log-normal" : "ratio 1 :", fabs(kinds[kind]), 1);
+      jam_destroy(sys);
+    }
+}
+
+/* d + 1 spheres and a few more: boxes of two to three diameters, several images of a pair. Checked over all images. */
+static void small_boxes(void **state) {
+  int dim, n;
+  (void)state;
+  for (dim = 2; dim <= 4; ++dim)
+    for (n = dim + 1; n <= 3 * dim + 4; n += dim + 1) {
+      jam_system *sys = random_start(n, dim, dim == 2 ? 0.3 : dim == 3 ? 0.15 : 0.06, NULL, n);
+      jam_report r = crunched(sys, NULL, "spheres", n, 0);
+      assert_true(smallest_gap(sys, 2) > -1e-12);
+      assert_true(r.packing_fraction > 0.06);
+      jam_destroy(sys);
+    }
+}
+
+/* cells copies of a basis, spheres a little below contact, one missing if asked. */
+static jam_system *lattice(int dim, const int *cells, const double *basis, int basis_len, double box_over_cell, double sigma, int vacancy) {
+  double x[3 * 300];
+  jam_create_options o;
+  jam_system *sys = NULL;
+  int total = basis_len, k, c, n = 0;
+  for (c = 0; c < dim; ++c) total *= cells[c];
+  for (k = 0; k < total; ++k) {
+    int cell = k / basis_len;
+    if (vacancy && k == total / 2) continue;
+    for (c = 0; c < dim; ++c, cell /= cells[c - 1]) x[n * dim + c] = (cell % cells[c] + basis[k % basis_len * dim + c]) * (c == 0 ? 1.0 : box_over_cell) / cells[0];
+    ++n;
+  }
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim;
+  if (jam_create(&o, x, (size_t)n * dim, &sigma, 1, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  return sys;
+}
+
+/* Degenerate LPs with and without a vacancy: a certified state that is no less dense than the lattice, and its excess. */
+static void lattices(void **state) {
+  const double square[2] = {0, 0}, bcc[6] = {0, 0, 0, .5, .5, .5}, fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
+  const int six[3] = {6, 6, 6}, three[3] = {3, 3, 3};
+  int vacancy;
+  (void)state;
+  for (vacancy = 0; vacancy < 2; ++vacancy) {
+    jam_system *sys = lattice(2, six, square, 1, 1.0, 0.98 / 6.0, vacancy);
+    jam_report r = crunched(sys, NULL, "square", vacancy, 0);
+    assert_true(r.packing_fraction > 0.785398163397 * (36 - vacancy) / 36.0 - 1e-9);
+    jam_destroy(sys);
+    sys = lattice(3, three, bcc, 2, 1.0, 0.98 * sqrt(0.75) / 3.0, vacancy);
+    r = crunched(sys, NULL, "BCC", vacancy, 0);
+    assert_true(r.packing_fraction > 0.680174761 * (54 - vacancy) / 54.0 - 1e-9);
+    jam_destroy(sys);
+    sys = lattice(3, three, fcc, 4, 1.0, 0.98 * sqrt(0.5) / 3.0, vacancy);
+    r = crunched(sys, NULL, "FCC", vacancy, 1);
+    assert_true(r.excess_contacts > 0 && r.packing_fraction > 0.7404804896 * (108 - vacancy) / 108.0 - 1e-9);
+    jam_destroy(sys);
+  }
+}
+
+/* Equal disks order into pieces of the triangular lattice: hyperstatic, and the report says by how much. A nearly triangular
+ * lattice squeezed into the square box does so at once. */
+static void ordering_disks(void **state) {
+  jam_system *sys = random_start(90, 2, 0.5, NULL, 1);
+  jam_compress_options c;
+  jam_report r;
+  double x[2 * 90];
+  const double sigma = 0.98 / 9.0;
+  jam_create_options o;
+  int k, vacancy;
+  (void)state;
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 1e-3, c.pressure = 1e4;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  r = crunched(sys, NULL, "equal disks", 90, 1);
+  assert_true(r.packing_fraction > 0.84);
+  jam_destroy(sys);
+  for (vacancy = 0; vacancy < 2; ++vacancy) { /* 9 columns, 10 rows of height 0.1 where sqrt(3)/2 / 9 = 0.0962 would be triangular */
+    for (k = 0; k < 90; ++k) x[2 * k] = (k % 9 + 0.5 * (k / 9 % 2)) / 9.0, x[2 * k + 1] = (k / 9) / 10.0;
+    jam_create_options_init(&o, sizeof o);
+    o.dim = 2;
+    assert_int_equal(jam_create(&o, x, 2 * (90 - vacancy), &sigma, 1, &sys), JAM_OK);
+    r = crunched(sys, NULL, "triangular", vacancy, 0);
+    assert_true(r.packing_fraction > 0.98 * 0.98 * 0.785398 * (90 - vacancy) / 81.0);
+    jam_destroy(sys);
+  }
+}
+
+/* A jammed packing again: one LP, nothing moves, the same contacts and forces, whatever the method. */
+static void jammed_input(void **state) {
+  int method;
+  (void)state;
+  for (method = 0; method < 2; ++method) {
+    jam_system *sys = random_start(80, 3, 0.3, NULL, 6);
+    jam_crunch_options o;
+    jam_report first, again;
+    double f[400], g[400];
+    size_t m, k;
+    jam_crunch_options_init(&o, sizeof o);
+    o.method = method;
+    first = crunched(sys, &o, "method", method, 1);
+    assert_int_equal(first.excess_contacts, 0);
+    assert_int_equal(jam_forces(sys, f, 400, &m), JAM_OK);
+    again = crunched(sys, &o, "again, method", method, 1);
+    assert_int_equal(again.lp_solves, 1);
+    assert_true(again.gain < 1e-12 && again.max_step < 1e-9 && again.contacts == first.contacts);
+    assert_true(fabs(again.packing_fraction - first.packing_fraction) < 1e-13);
+    assert_int_equal(jam_forces(sys, g, 400, &m), JAM_OK);
+    for (k = 0; k < m; ++k) assert_true(fabs(f[k] - g[k]) < 1e-6); /* the condition of the contact matrix times rounding */
+    jam_destroy(sys);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(densities),      cmocka_unit_test(pressures), cmocka_unit_test(mixtures), cmocka_unit_test(small_boxes),
+                                     cmocka_unit_test(lattices),       cmocka_unit_test(ordering_disks), cmocka_unit_test(jammed_input)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,136 @@
+// No step may let two spheres meet that the neighbour list does not know: looked at over all pairs after every step.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+extern "C" {
+#include <cmocka.h>
+}
+#include <cmath>
+
+#include "core/create.hpp"
+#include "crunch/crunch.hpp"
+#include "crunch/relinearise.hpp"
+
+using namespace jam;
+
+namespace {
+
+Packing start(int n, int dim, double phi, double ratio) {
+  jam_create_options o = default_create_options();
+  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = 11;
+  std::vector<double> sizes(n);
+  for (int k = 0; k < n; ++k) sizes[k] = k % 2 ? 1.0 : ratio;
+  return make_packing(o, nullptr, 0, sizes.data(), sizes.size());
+}
+
+// Two spheres without a common row run into each other: followed in part only, and by a half at least where that is safe.
+void unlisted_pair(void **) {
+  for (const double gap : {0.011, 0.02, 0.1, 0.15}) {
+    Packing p;
+    p.dim = 2;
+    p.position = {0.4, 0.5, 0.5 + gap, 0.5};
+    p.diameter = {0.1, 0.1};
+    p.velocity.assign(4, 0.0);
+    const double unit = 0.1, reach = 0.01;
+    PairList pairs = find_pairs(p, reach, 1.0);
+    assert_int_equal(pairs.size(), 0);
+    LpSolution x;
+    x.s = {0.6, 0.0, -0.6, 0.0};  // 0.12 nearer in all
+    x.g = 0.02;                   // and a little larger
+    const double alpha = take_step(p, pairs, reach, x, unit);
+    assert_true(closest_pair(p).gap > -1e-13);
+    const double longest = gap / (0.12 + 0.1 * (std::sqrt(1.02) - 1.0));
+    assert_true(longest > 1.0 ? alpha == 1.0 : alpha > 0.45 * longest && alpha < 1.0);
+    assert_true(std::fabs(p.diameter[0] - 0.1 * std::sqrt(1.0 + alpha * 0.02)) < 1e-15);
+  }
+}
+
+// The image of a sphere that goes around the box is a pair like any other.
+void pair_through_the_wall(void **) {
+  Packing p;
+  p.dim = 2;
+  p.position = {0.08, 0.5, 0.93, 0.5};
+  p.diameter = {0.1, 0.1};
+  p.velocity.assign(4, 0.0);
+  PairList pairs = find_pairs(p, 0.01, 1.0);
+  assert_int_equal(pairs.size(), 0);
+  LpSolution x;
+  x.s = {-1.0, 0.0, 1.0, 0.0};
+  const double alpha = take_step(p, pairs, 0.01, x, 0.1);
+  assert_true(alpha > 0.1 && alpha < 0.3 && closest_pair(p).gap > -1e-13);
+  for (const double v : p.position) assert_true(v >= 0.0 && v < 1.0);
+}
+
+struct Case {
+  int n, dim;
+  double phi, ratio;
+};
+const Case dilute[] = {{60, 2, 0.05, 1.0}, {60, 3, 0.02, 1.0}, {60, 3, 0.2, 1.0}, {50, 4, 0.01, 1.0}, {40, 5, 0.005, 1.0}, {60, 2, 0.1, 10.0}, {60, 3, 0.05, 10.0}, {5, 3, 0.05, 1.0}};
+
+// The path bounds what all spheres travel between two lists; here every pair and image is looked at after each Newton step.
+void path_from_low_density(void **) {
+  for (const Case &c : dilute) {
+    Packing p = start(c.n, c.dim, c.phi, c.ratio);
+    RelineariseControl control;
+    control.max_factorisations = 150;
+    int steps = 0;
+    double worst = 1.0;
+    control.on_step = [&](double, size_t) {
+      ++steps;
+      worst = std::min(worst, closest_pair(p).gap);
+    };
+    NewtonSystem system;
+    Monitor monitor;
+    monitor.begin();
+    relinearise(p, control, system, monitor);
+    print_message("n %d d %d phi %g ratio %g: %d steps to phi %.3f, smallest gap %.1e\n", c.n, c.dim, c.phi, c.ratio, steps, packing_fraction(p), worst);
+    assert_true(steps > 5 && worst > -1e-13);
+    assert_true(packing_fraction(p) > 2.0 * c.phi);
+  }
+}
+
+// The chain, stopped after each of its first LPs, which take the longest steps.
+void chain_from_low_density(void **) {
+  for (const Case &c : dilute) {
+    const Packing p = start(c.n, c.dim, c.phi, c.ratio);
+    jam_crunch_options o = default_crunch_options();
+    o.method = JAM_CRUNCH_CHAIN;
+    double phi = c.phi;
+    for (o.max_lps = 1; o.max_lps <= 6; ++o.max_lps) {
+      Monitor monitor;
+      monitor.begin();
+      const CrunchResult r = crunch(p, o, monitor);
+      assert_true(r.status >= 0 && closest_pair(r.packing).gap > -1e-13);
+      assert_true(packing_fraction(r.packing) >= phi * (1.0 - 1e-12));
+      phi = packing_fraction(r.packing);
+    }
+    assert_true(phi > 1.5 * c.phi);
+  }
+}
+
+// A bound far too wide for its neighbour radius: the user's options must not break the promise either.
+void careless_options(void **) {
+  const Packing p = start(60, 3, 0.1, 1.0);
+  jam_crunch_options o = default_crunch_options();
+  o.method = JAM_CRUNCH_CHAIN;
+  o.neighbour_radius = 1.3, o.step_bound = 3.0;
+  bool shortened = false;
+  for (o.max_lps = 1; o.max_lps <= 8; ++o.max_lps) {
+    Monitor monitor;
+    History history;
+    monitor.begin();
+    const CrunchResult r = crunch(p, o, monitor, &history);
+    assert_true(closest_pair(r.packing).gap > -1e-13);
+    for (const HistoryRow &row : history.rows()) shortened = shortened || row[JAM_HISTORY_PART] < 1.0;
+  }
+  assert_true(shortened);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(unlisted_pair), cmocka_unit_test(pair_through_the_wall), cmocka_unit_test(path_from_low_density),
+                              cmocka_unit_test(chain_from_low_density), cmocka_unit_test(careless_options)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -25,6 +25,7 @@ import jam, os
 assert os.path.realpath(jam.__file__).startswith(os.path.realpath('$work')), jam.__file__
 s = jam.System.random(n=40, dim=2, seed=3, diameters=[1.0, 1.4] * 20)
 assert s.crunch().jammed"
+test -f "$(echo "$work/p/$python_dir"/jam/__pycache__/system.*.pyc)"
 test -f "$work/p/share/jam/julia/Jam/src/raw.jl"
 mkdir cmake_consumer && cd cmake_consumer
 cat >CMakeLists.txt <<EOF

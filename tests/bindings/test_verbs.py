@@ -105,6 +105,37 @@ class MolecularDynamics(unittest.TestCase):
         s.scale_diameters(0.9)
         self.assertRaises(jam.errors.StateError, lambda: s.history)
 
+    def test_every_step_is_shown(self):
+        s, steps = jam.System.random(60, 2, 3), []
+        r = s.crunch(on_step=steps.append)
+        self.assertEqual((r.status, len(steps)), (0, len(s.history)))
+        self.assertEqual(sum(len(t.duals) > 0 for t in steps), r.lp_solves)
+        last = [t for t in steps if len(t.duals)][-1]
+        net = np.zeros((s.n, 2))
+        np.add.at(net, last.pairs[:, 0], last.duals[:, None] * last.vectors)
+        np.add.at(net, last.pairs[:, 1], -last.duals[:, None] * last.vectors)
+        self.assertLess(abs(net).max(), 1e-7 * (last.duals[:, None] * abs(last.vectors)).max())
+        self.assertEqual(jam.System.random(60, 2, 3).crunch(on_step=lambda t: True).status, jam.StatusCode.CANCELLED)
+        with self.assertRaises(ZeroDivisionError):
+            jam.System.random(60, 2, 3).crunch(on_step=lambda t: 1 / 0)
+
+    def test_observing(self):
+        s = jam.System.random(n=108, dim=3, seed=1, packing_fraction=0.3)
+        s.run(10)
+        before = s.positions.copy()
+        with s.observing(sample_every=5, collisions=1, gap_bins=20, r_bins=30) as seen:
+            r = s.run(40)
+        s.run(10)  # no longer recorded
+        rows = seen.series
+        self.assertTrue((np.diff(rows["time"]) > 0).all() and len(rows) >= 7)
+        self.assertEqual(seen.spheres.collisions.sum(), 2 * r.collisions)
+        self.assertEqual(seen.pairs.collisions.sum(), r.collisions)
+        self.assertEqual((len(seen.gaps.edge), len(seen.correlation.g), seen.spheres.displacement.shape), (21, 30, before.shape))
+        msd = (seen.spheres.displacement ** 2).sum(1).mean()
+        self.assertGreater(msd, 0)
+        with self.assertRaises(jam.errors.StateError):
+            jam.System.random(n=10).call("observed_series")
+
     def test_run_and_compress(self):
         s = jam.System.random(n=108, dim=3, seed=1)
         r = s.run(20)

@@ -18,6 +18,7 @@ from ._generated import *  # noqa: F401,F403  enums and report dataclasses
 from ._generated import JAM_ABI, StatusCode
 from ._methods import eos, glass_fit
 from .errors import JamError
+from ._observe import Observed, Step
 from .system import Contacts, Modes, System
 
 __version__ = raw.jam_version()

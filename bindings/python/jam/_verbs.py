@@ -5,10 +5,11 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 
 from . import _calls, raw
 from ._generated import MdReport, Report, StatusCode
-from ._handle import Base
+from ._observe import Observing, Step
+from ._progress import reporter
 
 
-class Verbs(Base):
+class Verbs(Observing):
     """Long calls on a system."""
 
     def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None) -> Any:
@@ -47,8 +48,19 @@ class Verbs(Base):
             raise ValueError("stages is empty")
         return report
 
-    def crunch(self, *, progress: Any = None, **options: Any) -> Report:
-        """Iterated linear programming down to the jamming point. Returns the Report with the certificate."""
+    def crunch(self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any) -> Report:
+        """Iterated linear programming down to the jamming point. Returns the Report with the certificate.
+
+        on_step: a callable(Step) that is given every step with its displacements and linear network (and makes each LP be
+        solved in full, which is slower); a true answer stops the call.
+        """
+        if on_step is not None:
+            user = reporter(progress)
+            try:
+                return self._verb("jam_crunch", "jam_crunch_options", "jam_report", self._stepper(on_step, user), {**options, "steps": 1})
+            finally:
+                if hasattr(user, "close"):
+                    user.close()
         return self._verb("jam_crunch", "jam_crunch_options", "jam_report", progress, options or None)
 
     def cancel(self) -> None:

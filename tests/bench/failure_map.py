@@ -117,8 +117,8 @@ def draw(data, picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(2, 1, figsize=(10.5, 9), height_ratios=(8, 7))
-    maps = (("density", lambda r: (f"d = {r['dim']}, {r['method']}", r["start"]), "start: at this part of the jammed density (random to 0.4, then grown fast), or grown to pressure p"),
-            ("sizes", lambda r: (r["sizes"], f"d = {r['dim']}, N = {r['n']}"), "diameters half and half or log-normal (deviation over mean), random start at 0.3 of the jammed density"))
+    maps = (("density", lambda r: (f"d = {r['dim']}, {r['method']}", r["start"]), "start at this part of the jammed density (random to 0.4, then grown fast), or grown to pressure p; in each cell: median factorisations"),
+            ("sizes", lambda r: (r["sizes"], f"d = {r['dim']}, N = {r['n']}"), "diameters half and half or log-normal (deviation over mean), random start at 0.3 of the jammed density; +k: contacts beyond one state of self-stress"))
     order = list(KINDS)
     for axis, (name, key, title) in zip(axes, maps):
         rows = [r for r in data["rows"] if r["map"] == name]
@@ -132,12 +132,17 @@ def draw(data, picture):
                     continue
                 for part, r in enumerate(sorted(cell, key=lambda r: order.index(r["kind"]))):
                     axis.add_patch(plt.Rectangle((b + part / len(cell), a), 1 / len(cell), 1, color=KINDS[r["kind"]], lw=0))
-                notes = sorted({r["reason"] for r in cell if r["kind"] in ("jammed hyperstatic", "stopped", "wrong")})
-                axis.text(b + 0.5, a + 0.5, "\n".join(n.replace("_", " ")[:14] for n in notes[:2]), ha="center", va="center", fontsize=6)
+                notes = [" ".join(sorted({r["reason"].replace("_", " ")[:14] for r in cell if r["kind"] in ("jammed hyperstatic", "stopped", "wrong")}))]
+                if any(r.get("used", r.get("method")) != r.get("method", r.get("used")) for r in cell):
+                    notes.append("by chain")
+                work = [r["factorisations"] for r in cell if "factorisations" in r]
+                notes += [f"{np.median(work):.0f}"] if work else []
+                axis.text(b + 0.5, a + 0.5, "\n".join(n for n in notes if n), ha="center", va="center", fontsize=6)
         axis.set(xlim=(0, len(columns)), ylim=(len(lines), 0), xticks=np.arange(len(columns)) + 0.5, yticks=np.arange(len(lines)) + 0.5)
         axis.set_xticklabels([c.replace("phi ", r"$\varphi_0/\varphi_J$ = ").replace("p 1", "p = 1") for c in columns], fontsize=7, rotation=12)
         axis.set_yticklabels(lines, fontsize=8)
-        axis.set_title(title, fontsize=9)
+        sizes = {r["dim"]: r["n"] for r in rows}
+        axis.set_title((", ".join(f"N = {n} (d = {d})" for d, n in sizes.items()) + ":\n" if name == "density" else "") + title, fontsize=8)
         for k in range(len(columns) + 1):
             axis.axvline(k, color="white", lw=2)
         for k in range(len(lines) + 1):

@@ -1,4 +1,5 @@
 // Contact networks and states of self-stress from positions alone, also where they fail.
+#include <functional>
 #include "analysis/geometry.hpp"
 #include "analysis/modes.hpp"
 #include "analysis_networks.hpp"
@@ -185,6 +186,31 @@ void no_force_of_one_sign(void **) {
   assert_false(least_force(g, f));
 }
 
+void cancelled_anywhere(void **) {
+  // A cancel that comes late: each of the long parts asks by itself.
+  const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
+  const StableGraph g = make_graph(c.packing, c.network);
+  const NullSpace space(g);
+  Monitor monitor;
+  monitor.cancel();
+  const NullSpace watched(g, Watch(monitor));
+  std::vector<double> f(g.contacts(), 1.0);
+  f[0] = 2.0;
+  int stopped = 0;
+  const auto stops = [&](const std::function<void()> &call) {
+    try {
+      call();
+    } catch (const Stopped &) {
+      ++stopped;
+    }
+  };
+  stops([&] { watched.project(f); });
+  stops([&] { watched.zero_modes(); });
+  stops([&] { least_force(g, f, Watch(monitor)); });
+  stops([&] { find_stress(g, space, true, Watch(monitor)); });
+  assert_int_equal(stopped, 4);
+}
+
 void pulling_is_no_force(void **) {
   // A sphere held by three contacts on one side only: S^T f = 0 has solutions on the rest alone.
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
@@ -210,6 +236,7 @@ int main() {
                                      cmocka_unit_test(two_clusters),
                                      cmocka_unit_test(no_clear_jump),
                                      cmocka_unit_test(no_force_of_one_sign),
+                                     cmocka_unit_test(cancelled_anywhere),
                                      cmocka_unit_test(pulling_is_no_force)};
   return cmocka_run_group_tests_name("analysis_geometry", tests, nullptr, nullptr);
 }

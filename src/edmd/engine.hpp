@@ -70,6 +70,7 @@ class EngineBase {
 struct EngineOptions {
   double growth = 0.0;             // G
   double target_fraction = never;  // stop exactly there
+  int64_t heap_only = 0;           // 1: one heap of all events instead of the calendar, for comparison
   int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
 };
 
@@ -141,6 +142,7 @@ class Engine final : public EngineBase {
   bool tune_shell();
   void take_kinetic();
   void note_path(int32_t i) const;
+  void check_pairs() const;
   void start_rate(double rate);
   double mean_radius() const;
 
@@ -217,6 +219,10 @@ class Engine final : public EngineBase {
   std::vector<int32_t> internal_;       // inverse of user_
   std::vector<Outer> redrawn_;          // partners (user's numbers) of each sphere with a shift drawn again
   std::vector<size_t> redrawn_first_;
+
+#ifdef JAM_CHECK_PAIRS
+  Packing start_;  // what a state is written into to be checked
+#endif
 
   // shell and bucket tuning
   int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0, rebase_at_ = 0;

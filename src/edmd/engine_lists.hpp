@@ -92,6 +92,7 @@ void Engine<D, Shift>::build_lists() {
       if (k > i) append(i, k, offset);
     });
   max_overlap = std::max(max_overlap, worst_overlap());
+  check_pairs();
 }
 
 template <int D, bool Shift>

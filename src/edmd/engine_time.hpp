@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/pairs.hpp"
 #include "edmd/engine.hpp"
 
 namespace jam {
@@ -16,6 +17,9 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     : n_(static_cast<int32_t>(p.n())), options_(o), box_(p.box), body_(p.n()), calendar_(p.n()), user_(curve_order(p)),
       left_over_(p.n(), 0.0), mass_(sphere_masses(p)), centre_(p.n()), rho_(p.n()), safe_(p.n()), neighbours_(p.n(), 0) {
   const bool mk = Shift && p.model == JAM_MODEL_MK;
+#ifdef JAM_CHECK_PAIRS
+  start_ = p;
+#endif
   if (mk) {
     quenched_ = std::make_unique<MkShifts>(p);
     take_redrawn();
@@ -128,6 +132,7 @@ void Engine<D, Shift>::shift_origin() {
 template <int D, bool Shift>
 void Engine<D, Shift>::rebase() {
   shift_origin();
+  check_pairs();
   if (tune_shell()) refresh(1.0, true);
   else sort_calendar();
 }
@@ -151,7 +156,7 @@ void Engine<D, Shift>::sort_calendar() {
   const double least = 4.0 * earliest / static_cast<double>(calendar_.buckets());
   double width = bucket_width_ < never ? std::max(bucket_width_, least) : least;
   rebase_at_ = sums.events + 8 * static_cast<int64_t>(n_) + 64;
-  calendar_.rebuild(0.0, earliest < never ? width : 0.0);
+  calendar_.rebuild(0.0, earliest < never && !options_.heap_only ? width : 0.0);
 }
 
 // Brings all spheres to now_, scales velocities, remakes lists if asked or needed, predicts everything.
@@ -244,6 +249,20 @@ void Engine<D, Shift>::write_state(Packing &p) const {
     const int64_t radius = b.radius + std::llrint(static_cast<double>(b.radius) * factor + left_over_[i]);
     if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(radius) * box_;
   }
+}
+
+// In a build that asks for it: no pair at all overlaps, in the lists or not. The search is that of core/pairs, which knows
+// nothing of the lists here; positions as doubles are good to 1e-15 of a diameter or better.
+template <int D, bool Shift>
+void Engine<D, Shift>::check_pairs() const {
+#ifdef JAM_CHECK_PAIRS
+  if (sums.collisions == 0) return;  // overlaps of the start are the caller's
+  Packing p = start_;
+  write_state(p);
+  const ClosestPair worst = closest_pair(p);
+  if (worst.gap < -1e-11)
+    fail(JAM_E_INTERNAL, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap, static_cast<long long>(sums.collisions));
+#endif
 }
 
 // Tells the observer the way of sphere i since its list was made, before that place moves; no way is half a box long.

@@ -1,4 +1,5 @@
 // Collisions a second of NVE dynamics against the number of spheres and the packing fraction, and the cost of a compression.
+// Then the calendar against one heap, and a run that is observed against one that is not, interleaved, as ratios of rates.
 // md_speed [SECONDS [N...]]: JSON to stdout. Seconds are of processor time, so that a busy machine disturbs less. The ratio
 // is to the smallest system of the same packing fraction in the same run.
 #include <algorithm>
@@ -24,6 +25,58 @@ static Packing fluid(int64_t n, int dim, double start, double fraction, Monitor 
   jam_md_report report{};
   run_stage(p, {0.1, 1e12, fraction, never, never}, monitor, report);
   return p;
+}
+
+// Median over rounds of rate(b) / rate(a), the two taking turns; pressures of both as the figure of accuracy.
+struct Race {
+  double ratio, pressure_a, pressure_b;
+};
+static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &monitor) {
+  std::vector<double> ratios;
+  EngineBase *engine[2] = {&a, &b};
+  MdSums before[2] = {a.sums, b.sums};
+  for (int round = 0; round < 7; ++round) {
+    double rate[2];
+    for (int k = 0; k < 2; ++k) {
+      const double t = cpu();
+      const int64_t c = engine[k]->sums.collisions;
+      while (cpu() - t < seconds / 7) engine[k]->advance(20000, monitor, 1e300);
+      rate[k] = static_cast<double>(engine[k]->sums.collisions - c) / (cpu() - t);
+    }
+    ratios.push_back(rate[1] / rate[0]);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  const auto pressure = [&](int k) { return 1.0 + (engine[k]->sums.virial - before[k].virial) / (engine[k]->sums.action - before[k].action); };
+  return {ratios[3], pressure(0), pressure(1)};
+}
+
+static void races(const std::vector<int64_t> &sizes, double seconds, Monitor &monitor) {
+  const char *comma = "";
+  for (int64_t n : sizes) {
+    const Packing p = fluid(n, 3, 0.25, 0.5, monitor);
+    jam_observe_options all = default_observe_options();
+    all.collisions = 1;
+    Observer series(p, default_observe_options()), pairs(p, all);
+    EngineOptions with_heap;
+    with_heap.heap_only = 1;
+    auto plain = make_engine(p, EngineOptions{}), heap = make_engine(p, with_heap), seen = make_engine(p, EngineOptions{}), counted = make_engine(p, EngineOptions{});
+    seen->observe(&series);
+    counted->observe(&pairs);
+    for (EngineBase *e : {plain.get(), heap.get(), seen.get(), counted.get()}) e->advance(3 * n, monitor, 1e300);
+    struct {
+      const char *name;
+      EngineBase *engine;
+    } const rivals[] = {{"one heap", heap.get()}, {"observed: series", seen.get()}, {"observed: collisions of pairs", counted.get()}};
+    for (const auto &r : rivals) {
+      const Race found = race(*plain, *r.engine, seconds, monitor);
+      std::printf("%s\n  {\"n\": %lld, \"packing_fraction\": 0.5, \"rival\": \"%s\", \"rate_ratio\": %.3f, \"pressures\": [%.3f, %.3f]}", comma,
+                  static_cast<long long>(n), r.name, found.ratio, found.pressure_a, found.pressure_b);
+      comma = ",";
+      std::fflush(stdout);
+    }
+    seen->observe(nullptr);
+    counted->observe(nullptr);
+  }
 }
 
 int main(int argc, char **argv) {
@@ -61,6 +114,8 @@ int main(int argc, char **argv) {
       std::fflush(stdout);
     }
   }
+  std::printf("],\n \"against\": [");
+  races(sizes, seconds, monitor);
   std::printf("],\n \"compression\": [");
   comma = "";
   for (double target : {500.0, 1e4}) {

@@ -89,22 +89,26 @@ void Engine<D, Shift>::predict(int32_t i) {
   if (partner >= 0) event.partner_count = calendar_[partner].count;
 }
 
-// r_i - r_k of two spheres that both stand at now_; of several images the nearest.
+// r_i - r_k of two spheres that both stand at now_; of several images the nearest that approaches. (In a box of less than two
+// diameters a pair can be in contact through two images at once, and the one that recedes may be nearer by rounding.)
 template <int D, bool Shift>
 void Engine<D, Shift>::separation(int32_t i, int32_t k, double *r) const {
   if constexpr (!Shift) {
     for (int c = 0; c < D; ++c) r[c] = static_cast<double>(difference(body_[i], body_[k], c, nullptr));
   } else {
     double nearest = never;
+    const double growth = static_cast<double>(body_[i].radius + body_[k].radius) * rate_;
     for (int32_t e = 0; e < neighbours_[i]; ++e) {
       if (neighbour_[static_cast<size_t>(i) * capacity_ + e] != k) continue;
-      double r2 = 0.0, trial[D];
+      double r2 = 0.0, rv = 0.0, trial[D];
       for (int c = 0; c < D; ++c) {
         trial[c] = static_cast<double>(difference(body_[i], body_[k], c, offset_of(i, e)));
         r2 += trial[c] * trial[c];
+        rv += trial[c] * (body_[i].v[c] - body_[k].v[c]);
       }
-      if (r2 >= nearest) continue;
-      nearest = r2;
+      const double rank = rv < growth * std::sqrt(r2) ? r2 : 1e6 * r2;
+      if (rank >= nearest) continue;
+      nearest = rank;
       for (int c = 0; c < D; ++c) r[c] = trial[c];
     }
   }
@@ -208,7 +212,8 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
     const double special = std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
     // Also after many events: when they come faster and faster, times must stay small to be sharp.
     if ((i < 0 && !(special < calendar_.horizon())) || sums.events > rebase_at_) {
-      if (calendar_.horizon() == never) return Halt::stalled;  // nothing will ever happen
+      // Without a horizon nothing will ever happen, or all of it at this very moment.
+      if (calendar_.horizon() == never && (i < 0 || !options_.heap_only)) return Halt::stalled;
       rebase();
       if (wants_images_) return Halt::needs_images;
       continue;

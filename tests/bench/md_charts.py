@@ -5,6 +5,8 @@
     md_charts.py accuracy LIBJAM.so OUT.png [SECONDS]
         phi_J by crunch against processor time for growth rates and target pressures, N = 256, one seed a point; and the
         deviation from the slowest run. Prints the table as JSON.
+    md_charts.py precision OUT.png               pressure at which growth ends for want of digits, against d and size ratio; needs
+        the Python package `jam`. 128 spheres, half of them larger, G = 1e-2. Prints a table.
 """
 import ctypes
 import json
@@ -101,10 +103,40 @@ def accuracy(library, target, budget=60.0):
     figure.savefig(target, dpi=120)
 
 
+def precision(target):
+    import jam
+    ratios = (1.0, 1.4, 3.0, 10.0)
+    print("| d | ratio | p where it ends | why | deviation of p (1 - phi/phi_J) / d from 1 at p = 1e12 | largest overlap | s |")
+    print("|---|---|---|---|---|---|---|")
+    for d in range(2, 7):
+        ends = []
+        for ratio in ratios:
+            begin = time.process_time()
+            start = 0.2 * 0.5 ** max(0, d - 3)
+            with jam.System.random(128, d, packing_fraction=start, diameters=[1.0, ratio] * 64) as packing:
+                packing.compress([(1e-2, 1e12)])
+                middle = packing.run(100)  # at constant density, so that the pressure is sharp
+                last = packing.compress([(1e-2, 1e60)], wall_time=60)
+                # phi_J from the end, where 1 - phi / phi_J is beyond notice; rattlers do not share the pressure
+                free = (1 - middle.packing_fraction / last.packing_fraction) * middle.pressure / d
+            ends.append(last.pressure)
+            print(f"| {d} | {ratio:g} | {last.pressure:.2e} | {jam.raw.jam_stop_string(last.stop_reason)} | {free - 1:+.3f} | {last.max_overlap:.1e} | "
+                  f"{time.process_time() - begin:.1f} |", flush=True)
+        plt.semilogy(ratios, ends, "o-", label=f"d = {d}")
+    plt.xscale("log")
+    plt.xlabel("ratio of diameters")
+    plt.ylabel("reduced pressure where growth ends")
+    plt.legend(fontsize=8)
+    plt.tight_layout()
+    plt.savefig(target, dpi=110)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 4 or sys.argv[1] not in ("speed", "accuracy"):
+    if len(sys.argv) < 3 or sys.argv[1] not in ("speed", "accuracy", "precision") or (sys.argv[1] != "precision" and len(sys.argv) < 4):
         sys.exit(__doc__)
-    if sys.argv[1] == "speed":
+    if sys.argv[1] == "precision":
+        precision(sys.argv[2])
+    elif sys.argv[1] == "speed":
         speed(sys.argv[2], sys.argv[3])
     else:
         accuracy(sys.argv[2], sys.argv[3], *map(float, sys.argv[4:5]))

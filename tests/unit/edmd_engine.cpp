@@ -137,7 +137,8 @@ void never_overlaps(void **) {
     int dim, n;
     double fraction, ratio, growth, pressure;
   } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4}, {2, 200, 0.4, 10.0, 0.1, 1e3}, {3, 2, 0.2, 1.0, 0.1, 1e6}, {3, 3, 0.1, 2.0, 0.1, 1e6},
-                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},   {6, 40, 0.01, 1.0, 0.3, 1e3}, {3, 200, 0.2, 1.0, 20.0, 1e3}};
+                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},   {6, 40, 0.01, 1.0, 0.3, 1e3}, {3, 200, 0.2, 1.0, 20.0, 1e3},
+                     {6, 64, 0.02, 1.4, 0.1, 1e13}};  // the last: pairs in contact through two images at once
   for (const auto &c : cases) {
     Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7);
     Monitor monitor;

@@ -131,7 +131,7 @@ static void cancelled_runs_go_on_to_the_same_bits(void **state) {
   int stops = 0;
   (void)state;
   jam_run_options_init(&r, sizeof r);
-  r.collisions_per_particle = 4000.0;
+  r.collisions_per_particle = 1200.0;
   assert_int_equal(jam_run(whole, &r, NULL), JAM_OK);
   do { /* the callback comes every 0.05 s: wherever the run is then */
     left = 0;
@@ -176,7 +176,7 @@ static void checkpoint_from_the_callback(void **state) {
   jam_run_options r;
   (void)state;
   jam_run_options_init(&r, sizeof r);
-  r.collisions_per_particle = 6000.0;
+  r.collisions_per_particle = 1500.0;
   jam_set_progress(sys, write_once, &w);
   assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
   assert_true(w.written);

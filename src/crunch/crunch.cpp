@@ -103,9 +103,7 @@ class Chain {
     if (o_.neighbour_radius > 0.0) reach_ = std::max(0.0, o_.neighbour_radius * unit_ - diameter_max(p));
     PairList pairs = find_pairs(p, reach_, 1.0);
     if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", o_.neighbour_radius);
-    const bool same = pairs.i == pairs_.i && pairs.j == pairs_.j;
     pairs_ = std::move(pairs);
-    if (!same) system_.set_graph(p.dim, static_cast<int32_t>(p.n()), pairs_, o_.threads);
     lp_ = make_lp(p, pairs_, unit_);
     lp_.bound = bound_;
   }
@@ -139,6 +137,7 @@ class Chain {
     IpmControl control;
     control.tolerance = o_.lp_tolerance;
     control.early_fraction = early_;
+    control.threads = o_.threads;
     control.wall_time = o_.wall_time;
     if (o_.lp_solver == JAM_LP_IPM) {
       if (ask(JAM_LP_IPM, control)) return;

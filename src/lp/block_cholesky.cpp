@@ -40,18 +40,24 @@ int factor_small(double *a, int lda, int columns, const double *original, double
   return replaced;
 }
 
-// C -= B B^T, lower triangle, on two threads when it is worth it: columns are split where the two areas are even.
-void subtract_square(double *c, int n, const double *b, int ldb, int k, int threads) {
+// C = -B B^T, lower triangle, on two threads when it is worth it: columns are split where the two areas are even.
+void minus_square(double *c, int n, const double *b, int ldb, int k, int threads) {
   if (n == 0 || k == 0) return;
   if (threads < 2 || static_cast<double>(n) * n * k < 2e7) {
-    dsyrk_("L", "N", &n, &k, &minus_one, b, &ldb, &one, c, &n);
+    dsyrk_("L", "N", &n, &k, &minus_one, b, &ldb, &zero, c, &n);
     return;
   }
   const int left = static_cast<int>(0.29289 * n), right = n - left;
-  std::thread other([&] { dsyrk_("L", "N", &right, &k, &minus_one, b + left, &ldb, &one, c + static_cast<size_t>(left) * n + left, &n); });
-  dsyrk_("L", "N", &left, &k, &minus_one, b, &ldb, &one, c, &n);
-  dgemm_("N", "T", &right, &left, &k, &minus_one, b + left, &ldb, b, &ldb, &one, c + left, &n);
+  std::thread other([&] { dsyrk_("L", "N", &right, &k, &minus_one, b + left, &ldb, &zero, c + static_cast<size_t>(left) * n + left, &n); });
+  dsyrk_("L", "N", &left, &k, &minus_one, b, &ldb, &zero, c, &n);
+  dgemm_("N", "T", &right, &left, &k, &minus_one, b + left, &ldb, b, &ldb, &zero, c + left, &n);
   other.join();
+}
+
+// The triangle on top of a panel, forward ("N") or backward ("T").
+void solve_top(const double *panel, int front, int width, double *x, int ld, int nrhs, const char *trans) {
+  if (nrhs == 1) dtrsv_("L", trans, "N", &width, panel, &front, x, &inc);
+  else dtrsm_("L", "L", trans, "N", &width, &nrhs, &one, panel, &front, x, &ld);
 }
 
 }  // namespace
@@ -74,19 +80,20 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
     }
 }
 
-// Adds a child's Schur complement to the parent's panel and Schur complement, run by run.
+// Adds a child's Schur complement to the parent, run by run: to its panel when `update` is NULL (before the panel is
+// factored), else to its Schur complement (after that was written, so that it needs no clearing).
 void BlockCholesky::extend_add(int32_t child, double *update) {
   const Supernode &c = supernodes_[child], &p = supernodes_[c.parent];
   const auto &runs = runs_[child];
-  const size_t d = dim_, mc = below(c), own = p.last - p.first, front = columns(p) + below(p), mp = below(p);
-  const double *from = update_[child];
-  for (size_t b = 0; b < runs.size(); ++b)
+  const size_t d = dim_, mc = below(c), own = p.last - p.first, mp = below(p), stride = update ? mp : columns(p) + mp;
+  double *into = update ? update : &values_[p.value_start];
+  const size_t shift = update ? own * d : 0;
+  size_t first = 0;
+  while (first < runs.size() && static_cast<size_t>(runs[first].to) < own) ++first;
+  for (size_t b = update ? first : 0; b < (update ? runs.size() : first); ++b)
     for (size_t column = 0; column < static_cast<size_t>(runs[b].count) * d; ++column) {
-      const size_t from_column = runs[b].from * d + column, to_column = runs[b].to * d + column;
-      const bool in_panel = static_cast<size_t>(runs[b].to) < own;
-      double *to = in_panel ? &values_[p.value_start + to_column * front] : update + (to_column - own * d) * mp;
-      const size_t shift = in_panel ? 0 : own * d;
-      const double *x = from + from_column * mc;
+      const double *x = update_[child] + (runs[b].from * d + column) * mc;
+      double *to = into + (runs[b].to * d + column - shift) * stride;
       for (size_t a = b; a < runs.size(); ++a) {
         const size_t skip = a == b ? column : 0, length = runs[a].count * d - skip;
         const double *xa = x + runs[a].from * d + skip;
@@ -115,35 +122,29 @@ int BlockCholesky::factor_panel(double *panel, int front, int width, const doubl
   return replaced;
 }
 
+// A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of
+// theirs when it is done: nothing is ever moved.
 void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, int threads, int &replaced) {
   const Supernode &s = supernodes_[index];
   const size_t m = below(s);
   const int front = static_cast<int>(columns(s) + m), width = static_cast<int>(columns(s)), rows = static_cast<int>(m);
   double *panel = &values_[s.value_start];
   assemble(s, diag, off);
-  const bool keep = !kept_[index].empty();
-  double *update = keep ? kept_[index].data() : stack.memory.data() + stack.top;
-  if (m) std::memset(update, 0, m * m * sizeof(double));
-  size_t freed = 0;
-  for (const int32_t c : s.children) {
-    extend_add(c, update);
-    if (kept_[c].empty()) freed += below(supernodes_[c]) * below(supernodes_[c]);
-  }
+  for (const int32_t c : s.children) extend_add(c, nullptr);
   replaced += factor_panel(panel, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_]);
-  subtract_square(update, rows, panel + width, front, width, threads);
-  // The children lie right below on this stack: close the hole.
-  stack.top -= freed;
-  if (!keep) {
-    double *down = stack.memory.data() + stack.top;
-    if (freed && m) std::memmove(down, update, m * m * sizeof(double));
-    update = down;
-    stack.top += m * m;
+  const int side = s.depth % 2;
+  double *update = kept_[index].empty() ? stack.memory[side].data() + stack.top[side] : kept_[index].data();
+  minus_square(update, rows, panel + width, front, width, threads);
+  for (const int32_t c : s.children) {
+    if (m) extend_add(c, update);
+    if (kept_[c].empty()) stack.top[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
   }
+  if (kept_[index].empty()) stack.top[side] += m * m;
   update_[index] = update;
 }
 
 void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced) {
-  stack.top = 0;
+  stack.top[0] = stack.top[1] = 0;
   for (const int32_t s : list) eliminate(s, diag, off, stack, threads, replaced);
 }
 
@@ -166,39 +167,45 @@ int BlockCholesky::factorise(const double *diag, const double *off) {
   return replaced[0] + replaced[1] + replaced[2];
 }
 
+// Supernode by supernode for all right-hand sides at once, so that a panel is read once.
 void BlockCholesky::solve_many(double *x, int nrhs) const {
   const BlasSingleThread single;
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
-  std::vector<double> y(unknowns), gathered(largest_below_);
-  for (int r = 0; r < nrhs; ++r) {
-    double *v = x + static_cast<size_t>(r) * unknowns;
-    for (int32_t k = 0; k < n_; ++k) std::copy(v + k * d, v + (k + 1) * d, &y[static_cast<size_t>(position_[k]) * d]);
-    for (const Supernode &s : supernodes_) {
-      const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-      const double *panel = &values_[s.value_start];
-      double *top = &y[static_cast<size_t>(s.first) * d];
-      dtrsv_("L", "N", "N", &width, panel, &front, top, &inc);
-      if (rows == 0) continue;
-      dgemv_("N", &rows, &width, &one, panel + width, &front, top, &inc, &zero, gathered.data(), &inc);
-      for (size_t k = 0; k < s.row_count; ++k) {
-        double *to = &y[static_cast<size_t>(rows_[s.row_start + k]) * d];
-        for (size_t c = 0; c < d; ++c) to[c] -= gathered[k * d + c];
+  const int ld = static_cast<int>(unknowns), most = static_cast<int>(largest_below_);
+  std::vector<double> y(unknowns * nrhs), gathered(largest_below_ * nrhs);
+  const auto permute = [&](bool back) {
+    for (int r = 0; r < nrhs; ++r)
+      for (int32_t k = 0; k < n_; ++k) {
+        double *mine = &y[r * unknowns + static_cast<size_t>(position_[k]) * d], *theirs = x + r * unknowns + k * d;
+        for (size_t c = 0; c < d; ++c) back ? theirs[c] = mine[c] : mine[c] = theirs[c];
       }
-    }
-    for (size_t index = supernodes_.size(); index-- > 0;) {
-      const Supernode &s = supernodes_[index];
-      const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-      const double *panel = &values_[s.value_start];
-      double *top = &y[static_cast<size_t>(s.first) * d];
-      for (size_t k = 0; k < s.row_count; ++k) {
-        const double *from = &y[static_cast<size_t>(rows_[s.row_start + k]) * d];
-        for (size_t c = 0; c < d; ++c) gathered[k * d + c] = from[c];
-      }
-      if (rows > 0) dgemv_("T", &rows, &width, &minus_one, panel + width, &front, gathered.data(), &inc, &one, top, &inc);
-      dtrsv_("L", "T", "N", &width, panel, &front, top, &inc);
-    }
-    for (int32_t k = 0; k < n_; ++k) std::copy(&y[static_cast<size_t>(position_[k]) * d], &y[static_cast<size_t>(position_[k]) * d] + d, v + k * d);
+  };
+  permute(false);
+  for (const Supernode &s : supernodes_) {
+    const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
+    const double *panel = &values_[s.value_start];
+    double *top = &y[static_cast<size_t>(s.first) * d];
+    solve_top(panel, front, width, top, ld, nrhs, "N");
+    if (rows == 0) continue;
+    if (nrhs == 1) dgemv_("N", &rows, &width, &one, panel + width, &front, top, &inc, &zero, gathered.data(), &inc);
+    else dgemm_("N", "N", &rows, &nrhs, &width, &one, panel + width, &front, top, &ld, &zero, gathered.data(), &most);
+    for (int r = 0; r < nrhs; ++r)
+      for (size_t k = 0; k < s.row_count; ++k)
+        for (size_t c = 0; c < d; ++c) y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c] -= gathered[r * largest_below_ + k * d + c];
   }
+  for (size_t index = supernodes_.size(); index-- > 0;) {
+    const Supernode &s = supernodes_[index];
+    const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
+    const double *panel = &values_[s.value_start];
+    double *top = &y[static_cast<size_t>(s.first) * d];
+    for (int r = 0; r < nrhs; ++r)
+      for (size_t k = 0; k < s.row_count; ++k)
+        for (size_t c = 0; c < d; ++c) gathered[r * largest_below_ + k * d + c] = y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
+    if (rows > 0 && nrhs == 1) dgemv_("T", &rows, &width, &minus_one, panel + width, &front, gathered.data(), &inc, &one, top, &inc);
+    if (rows > 0 && nrhs > 1) dgemm_("T", "N", &width, &nrhs, &rows, &minus_one, panel + width, &front, gathered.data(), &most, &one, top, &ld);
+    solve_top(panel, front, width, top, ld, nrhs, "T");
+  }
+  permute(true);
 }
 
 }  // namespace jam

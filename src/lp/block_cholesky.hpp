@@ -46,7 +46,7 @@ class BlockCholesky {
  private:
   // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
   struct Supernode {
-    int32_t first, last, parent;
+    int32_t first, last, parent, depth;
     size_t row_start, row_count;  // in rows_
     size_t value_start;           // panel in values_, column-major, leading dimension = front size
     size_t entry_start, entry_count;
@@ -62,8 +62,8 @@ class BlockCholesky {
     bool transposed;
   };
   struct Stack {
-    std::vector<double> memory;
-    size_t top = 0;
+    std::vector<double> memory[2];  // of even and odd depth in the tree
+    size_t top[2] = {0, 0};
   };
   size_t columns(const Supernode &s) const { return static_cast<size_t>(s.last - s.first) * dim_; }
   size_t below(const Supernode &s) const { return s.row_count * dim_; }
@@ -73,7 +73,7 @@ class BlockCholesky {
   void plan();
   void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
   void assemble(const Supernode &s, const double *diag, const double *off);
-  void extend_add(int32_t child, double *parent_update);
+  void extend_add(int32_t child, double *update);
   int factor_panel(double *panel, int front, int columns, const double *original);
   void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
 

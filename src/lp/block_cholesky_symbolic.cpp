@@ -250,21 +250,23 @@ void BlockCholesky::plan() {
   for (const int32_t r : roots)
     if (!top[r]) stack_count_ += kept[r] = below(supernodes_[r]) * below(supernodes_[r]);
   for (size_t k = 0; k < count && !dry_; ++k) kept_[k].assign(kept[k], 0.0);
-  // Deepest stack: children lie on it while their parent's Schur complement is built above them.
+  for (size_t k = count; k-- > 0;) supernodes_[k].depth = supernodes_[k].parent < 0 ? 0 : supernodes_[supernodes_[k].parent].depth + 1;
+  // Deepest stacks: children lie on one while their parent's Schur complement is built on the other.
   for (int t = 0; t < 3; ++t) {
-    size_t now = 0, most = 0;
+    size_t now[2] = {0, 0}, most[2] = {0, 0};
     for (const int32_t k : lists_[t]) {
-      const size_t own = below(supernodes_[k]) * below(supernodes_[k]);
-      most = std::max(most, now + own);
+      const int side = supernodes_[k].depth % 2;
+      if (kept[k] == 0) now[side] += below(supernodes_[k]) * below(supernodes_[k]);
+      most[side] = std::max(most[side], now[side]);
       for (const int32_t c : supernodes_[k].children)
-        if (kept[c] == 0) now -= below(supernodes_[c]) * below(supernodes_[c]);
-      if (kept[k] == 0) now += own;
+        if (kept[c] == 0) now[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
     }
-    stack_count_ += most;
-    Stack &stack = stacks_[t % 2];
-    if (!dry_ && stack.memory.size() < most) {
-      make_room(stack.memory, most);
-      stack.memory.resize(most);
+    for (int side = 0; side < 2; ++side) {
+      stack_count_ += most[side];
+      std::vector<double> &memory = stacks_[t % 2].memory[side];
+      if (dry_ || memory.size() >= most[side]) continue;
+      make_room(memory, most[side]);
+      memory.resize(most[side]);
     }
   }
 }
@@ -306,7 +308,9 @@ BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *e
 }
 
 size_t BlockCholesky::bytes() const {
-  size_t sum = values_.capacity() + original_diagonal_.capacity() + stacks_[0].memory.capacity() + stacks_[1].memory.capacity();
+  size_t sum = values_.capacity() + original_diagonal_.capacity();
+  for (const Stack &stack : stacks_)
+    for (const auto &memory : stack.memory) sum += memory.capacity();
   for (const auto &k : kept_) sum += k.capacity();
   return sum * sizeof(double) + entries_.capacity() * sizeof(Entry) + rows_.capacity() * sizeof(int32_t) + supernodes_.capacity() * sizeof(Supernode);
 }

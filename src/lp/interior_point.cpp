@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jam {
 
@@ -19,7 +20,10 @@ void InteriorPoint::Direction::add(const Direction &o) {
 // Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly; y on the central path of
 // that point (all products equal, sum 1); the bounds share the mean product.
 void InteriorPoint::start() {
+  split_.choose(*whole_);
+  lp_ = &split_.near;
   const PackingLp &lp = *lp_;
+  system_.set_graph(lp.dim, lp.n, split_.near_pairs, control_.threads);
   box_ = std::isfinite(lp.bound);
   rows_ = lp.rows();
   unknowns_ = static_cast<size_t>(lp.n) * lp.dim;
@@ -29,7 +33,7 @@ void InteriorPoint::start() {
   std::vector<double> sorted = lp.c;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
-  const double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.03 * (box_ ? std::min(1.0, lp.bound) : 1.0));
+  const double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.0005 * (box_ ? std::min(1.0, lp.bound) : 1.0));
   g_ = smallest - room;
   double inverse = 0.0;
   for (size_t k = 0; k < rows_; ++k) {
@@ -44,6 +48,53 @@ void InteriorPoint::start() {
   v_.assign(unknowns_, lp.bound);
   zu_.assign(unknowns_, z);
   zv_.assign(unknowns_, z);
+  measure_far();
+}
+
+void InteriorPoint::measure_far() {
+  const int d = whole_->dim;
+  far_w_.resize(split_.far.size());
+  for (size_t q = 0; q < far_w_.size(); ++q) {
+    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
+    far_w_[q] = whole_->c[k] - g_;
+    for (int c = 0; c < d; ++c) far_w_[q] += whole_->a[k * d + c] * (s_[i + c] - s_[j + c]);
+  }
+}
+
+double InteriorPoint::longest_far(const Direction &x) {
+  const int d = whole_->dim;
+  double step = 1.0;
+  for (size_t q = 0; q < far_w_.size(); ++q) {
+    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
+    double dw = -x.g;
+    for (int c = 0; c < d; ++c) dw += whole_->a[k * d + c] * (x.s[i + c] - x.s[j + c]);
+    if (dw < 0.0) step = std::min(step, -0.9 * far_w_[q] / dw);
+  }
+  return step;
+}
+
+// A far row that lost two thirds of the threshold joins on the central path, and with it all that lost half.
+bool InteriorPoint::admit_far() {
+  measure_far();
+  if (far_w_.empty() || *std::min_element(far_w_.begin(), far_w_.end()) > 0.3 * split_.threshold) return false;
+  std::vector<char> take(whole_->rows(), 0);
+  std::vector<double> w(whole_->rows(), 0.0), y(whole_->rows(), 0.0);
+  const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
+  for (size_t q = 0; q < far_w_.size(); ++q) {
+    if (far_w_[q] > 0.5 * split_.threshold) continue;
+    const size_t k = split_.far[q];
+    take[k] = 1, w[k] = far_w_[q], y[k] = mu / far_w_[q];
+  }
+  for (size_t q = 0; q < rows_; ++q) w[split_.index[q]] = w_[q], y[split_.index[q]] = y_[q];
+  split_.join(*whole_, take);
+  rows_ = lp_->rows();
+  for (auto *v : {&rp_, &weight_, &row_, &targets_}) v->assign(rows_, 0.0);
+  for (auto *d : {&main_, &extra_, &trial_}) d->resize(rows_, unknowns_);
+  w_.resize(rows_), y_.resize(rows_);
+  for (size_t q = 0; q < rows_; ++q) w_[q] = w[split_.index[q]], y_[q] = y[split_.index[q]];
+  system_.set_graph(lp_->dim, lp_->n, split_.near_pairs, control_.threads, true);
+  measure_far();
+  return true;
 }
 
 void InteriorPoint::residuals() {
@@ -162,7 +213,7 @@ void InteriorPoint::predictor_corrector(Direction &d) {
       targets_u_[k] = target - u_[k] * zu_[k] + d.s[k] * d.zu[k];
       targets_v_[k] = target - v_[k] * zv_[k] - d.s[k] * d.zv[k];
     }
-  direction(targets_, targets_u_, targets_v_, true, 1, d);
+  direction(targets_, targets_u_, targets_v_, true, 2, d);
   centrality_correctors(d, target);
 }
 
@@ -209,7 +260,7 @@ void InteriorPoint::move(const Direction &d, const Steps &a) {
 }
 
 LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor) {
-  lp_ = &lp;
+  whole_ = &lp;
   control_ = control;
   start();
   LpSolution out;
@@ -234,15 +285,19 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
       break;
     }
     weights();
-    if (!system_.factorise(lp.a.data(), weight_.data(), diagonal_.data())) break;
+    if (!system_.factorise(lp_->a.data(), weight_.data(), diagonal_.data())) break;
     predictor_corrector(main_);
     Steps a = longest(main_);
     if (!std::isfinite(main_.g) || !(a.primal > 0.0) || !(a.dual > 0.0)) break;
     const double keep = 1.0 - std::min(0.05, std::max(1e-6, 0.1 * gap));
-    move(main_, {a.primal < 1.0 ? keep * a.primal : 1.0, a.dual < 1.0 ? keep * a.dual : 1.0});
+    move(main_, {std::min(longest_far(main_), a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
+    if (admit_far() && monitor) monitor->log(JAM_LOG_DEBUG, "ipm: %zu of %zu rows near", rows_, lp.rows());
   }
   out.factorisations = system_.factorisations - before;
-  out.s = s_, out.g = g_, out.y = y_, out.w = w_;
+  out.s = s_, out.g = g_;
+  out.y.assign(lp.rows(), 0.0), out.w.assign(lp.rows(), 0.0);
+  for (size_t q = 0; q < rows_; ++q) out.y[split_.index[q]] = y_[q], out.w[split_.index[q]] = w_[q];
+  for (size_t q = 0; q < far_w_.size(); ++q) out.w[split_.far[q]] = far_w_[q];
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/monitor.hpp"
+#include "lp/near_rows.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
 
@@ -16,13 +17,14 @@ struct IpmControl {
   double balance = 1e-5;      // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
   int max_iterations = 80;
   int correctors = 3;
+  int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock: past it the iteration ends unsolved
 };
 
 class InteriorPoint {
  public:
   explicit InteriorPoint(NewtonSystem &system) : system_(system) {}
-  // system must hold the graph of lp.pairs. The answer carries `solved` when the tolerances were met or when no
+  // Gives system the graph of the rows that it needs. The answer carries `solved` when the tolerances were met or when no
   // further digit could be won but the gap is within 1e3 of the tolerance. monitor may be NULL.
   LpSolution solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor = nullptr);
 
@@ -50,15 +52,22 @@ class InteriorPoint {
   void predictor_corrector(Direction &d);
   void centrality_correctors(Direction &d, double mu_target);
   void move(const Direction &d, const Steps &a);
+  // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near joins.
+  void measure_far();
+  double longest_far(const Direction &d);
+  bool admit_far();
 
   NewtonSystem &system_;
-  const PackingLp *lp_ = nullptr;
+  const PackingLp *lp_ = nullptr;  // the near rows of *whole_
+  const PackingLp *whole_ = nullptr;
+  NearRows split_;
   IpmControl control_;
   bool box_ = false;
   size_t rows_ = 0, unknowns_ = 0;
   double g_ = 0.0, rg_ = 0.0, dual_norm_ = 0.0, gap_scale_ = 1.0;
   std::vector<double> s_, y_, w_, u_, v_, zu_, zv_;
   std::vector<double> rd_, rp_, weight_, diagonal_, rhs_, row_, targets_, targets_u_, targets_v_;
+  std::vector<double> far_w_;
   Direction main_, extra_, trial_;
 };
 

@@ -8,10 +8,12 @@
 
 namespace jam {
 
-void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int threads) {
+void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order) {
+  if (dim == dim_ && n == n_ && threads == threads_ && pairs.i == pair_i_ && pairs.j == pair_j_) return;
   const double t0 = now_seconds();
   dim_ = dim;
   n_ = n;
+  threads_ = threads;
   pair_i_ = pairs.i;
   pair_j_ = pairs.j;
   edge_of_pair_.resize(pairs.size());
@@ -29,7 +31,8 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
     edge_of_pair_[k] = static_cast<int32_t>(ei.size()) - 1;
   }
   edges_ = ei.size();
-  cholesky_.analyse(dim, n, ei.data(), ej.data(), edges_, threads);
+  if (keep_order) cholesky_.analyse_keep_order(dim, n, ei.data(), ej.data(), edges_, threads);
+  else cholesky_.analyse(dim, n, ei.data(), ej.data(), edges_, threads);
   const size_t block = static_cast<size_t>(dim) * dim, unknowns = static_cast<size_t>(n) * dim;
   diag_.resize(block * n);
   off_.resize(block * edges_);
@@ -119,7 +122,13 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
       rest += row_work_[k];
     }
     transpose_times(a_, row_work_.data(), work_.data());
-    for (size_t k = 0; k < work_.size(); ++k) residual_[k] = rhs[k] - work_[k] - box_[k] * ds[k];
+    double worst = std::fabs(rest), scale = std::fabs(h);
+    for (size_t k = 0; k < work_.size(); ++k) {
+      residual_[k] = rhs[k] - work_[k] - box_[k] * ds[k];
+      worst = std::max(worst, std::fabs(residual_[k]));
+      scale = std::max(scale, std::fabs(rhs[k]));
+    }
+    if (worst <= 1e-9 * scale) break;
     double dg_more;
     solve_once(residual_.data(), rest, correction_.data(), &dg_more);
     for (size_t k = 0; k < work_.size(); ++k) ds[k] += correction_[k];

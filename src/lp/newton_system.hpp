@@ -14,12 +14,14 @@ namespace jam {
 
 class NewtonSystem {
  public:
-  // Symbolic part; reused by every factorise() until the pairs change. Images of one pair share a block.
-  void set_graph(int dim, int32_t n, const PairList &pairs, int threads);
+  // Symbolic part; reused by every factorise() until the pairs change (nothing is done for the same pairs). Images of one pair share a
+  // block. keep_order: the elimination order stays, for a graph that got a few pairs more.
+  void set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order = false);
   // a: (pairs, dim) rows; weight: D of each pair; box: n * dim values added to the diagonal. Keeps the pointers
   // a and weight and a copy of box until the next call. False when the numbers are no longer finite.
   bool factorise(const double *a, const double *weight, const double *box);
-  // Solves with `refine` steps of iterative refinement against the unassembled operator.
+  // Solves with up to `refine` steps of iterative refinement against the unassembled operator, as long as the residual is
+  // above 1e-9 of the right-hand side.
   void solve(const double *rhs, double h, double *ds, double *dg, int refine = 1);
 
   // out[k] = a_k . (s_i - s_j)
@@ -36,7 +38,7 @@ class NewtonSystem {
   void assemble(const double *a, const double *weight);
   void solve_once(const double *rhs, double h, double *ds, double *dg);
 
-  int dim_ = 0;
+  int dim_ = 0, threads_ = 0;
   int32_t n_ = 0;
   std::vector<int32_t> pair_i_, pair_j_, edge_of_pair_;  // edge -1: an image of one sphere with itself
   size_t edges_ = 0;

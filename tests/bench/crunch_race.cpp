@@ -80,7 +80,6 @@ void first_lp(const Packing &p, int runs, const char *name, double reach, double
   for (int k = 0; k < runs; ++k) {
     const double t0 = now_seconds();
     NewtonSystem system;
-    system.set_graph(p.dim, lp.n, pairs, 1);
     a = InteriorPoint(system).solve(lp, IpmControl());
     ours.push_back(now_seconds() - t0);
   }

@@ -25,7 +25,6 @@ Packing start(int n, int dim, double phi, int64_t seed) {
 
 LpSolution interior(const PackingLp &lp) {
   NewtonSystem system;
-  system.set_graph(lp.dim, lp.n, *lp.pairs, 1);
   InteriorPoint ipm(system);
   return ipm.solve(lp, IpmControl());
 }

@@ -1,0 +1,26 @@
+// Which rows of a packing LP are worth a place in the normal equations. A row far from tight has a multiplier near zero and
+// only costs fill; it is left out until the iterate comes near it, and every step is cut before it is crossed.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+// The split of the rows of an LP: `near` is an LP of its own on the pairs that it owns.
+struct NearRows {
+  PackingLp near;
+  PairList near_pairs;               // without offsets: the rows of `near` say all
+  std::vector<size_t> index, far;    // rows of the whole LP, both ascending
+  double threshold = 0.0;            // slack above which a row started as far
+  // About dim * n rows carry force at the end. Near: the 1.05 dim n tightest ones and all up to twice their slack.
+  void choose(const PackingLp &lp);
+  // Rows k with take[k] join the near ones.
+  void join(const PackingLp &lp, const std::vector<char> &take);
+
+ private:
+  void gather(const PackingLp &lp, const std::vector<char> &is_near);
+};
+
+}  // namespace jam

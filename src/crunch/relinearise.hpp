@@ -12,8 +12,8 @@
 namespace jam {
 
 struct RelineariseControl {
-  double target = 1e-9;      // stop when the duality gap, in units of Gamma, is below this
-  int max_factorisations = 800;
+  double target = 1e-7;      // stop when the duality gap, in units of Gamma, is below this: a few LPs finish faster
+  int max_factorisations = 600;
   int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock
   std::function<void(double gap, size_t pairs)> on_step;  // after every move that stays; may be empty

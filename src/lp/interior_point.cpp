@@ -33,7 +33,7 @@ void InteriorPoint::start() {
   std::vector<double> sorted = lp.c;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
-  const double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.0005 * (box_ ? std::min(1.0, lp.bound) : 1.0));
+  const double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.01 * (box_ ? std::min(1.0, lp.bound) : 1.0));
   g_ = smallest - room;
   double inverse = 0.0;
   for (size_t k = 0; k < rows_; ++k) {
@@ -277,10 +277,10 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     }
     // Nothing more to win: rounding rules. Good enough if the gap is near the tolerance all the same.
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
-    idle = merit < 0.7 * best_merit ? 0 : idle + 1;
+    idle = merit < 0.9 * best_merit ? 0 : idle + 1;
     best_merit = std::min(best_merit, merit);
     if (monitor && monitor->seconds() > control.wall_time) break;
-    if (idle >= 6 || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
+    if (idle >= 8 || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
       break;
     }

@@ -16,6 +16,9 @@ namespace {
 
 // Median gap of the d n nearest pairs below which a start may be jammed already.
 constexpr double already_closed = 1e-11;
+// An LP that gains more than this strides through dilute space; one whose longest step is below this (mean diameters)
+// is the first of a few.
+constexpr double strides = 1e-2, nearly_there = 1e-2;
 // Step bound of the last LPs, mean diameters.
 constexpr double narrowest = 1e-6;
 
@@ -36,7 +39,7 @@ class Chain {
         one_lp();
       }
       bound_ = first_bound(), last_gain_ = 1.0;
-      if (out_.report.stop_reason == JAM_STOP_NONE && o_.method == JAM_CRUNCH_RELINEARISE) follow_path();
+      if (out_.report.stop_reason == JAM_STOP_NONE && o_.method == JAM_CRUNCH_RELINEARISE) approach();
       do {
         while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
       } while (wants_another_lp());
@@ -56,9 +59,19 @@ class Chain {
   // The free spacing of a dilute start, down to a tenth of a diameter near jamming.
   double first_bound() const { return o_.step_bound > 0.0 ? o_.step_bound : 0.1 + 0.6 * free_spacing(out_.packing); }
 
+  // LPs take a dilute start in a few long strides, and finish at once what is all but jammed: short steps tell. Between
+  // the two lies the curved valley that the barrier path is for.
+  void approach() {
+    do one_lp();
+    while (out_.report.stop_reason == JAM_STOP_NONE && out_.report.gain > strides);
+    if (out_.report.stop_reason == JAM_STOP_NONE && out_.report.max_step > nearly_there) follow_path();
+  }
+
   // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
   void follow_path() {
     RelineariseControl control;
+    // Gaps to be gained further on: a contact across a step of length l opens by l^2.
+    control.room = std::max(0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step);
     control.threads = o_.threads;
     control.wall_time = o_.wall_time;
     control.on_step = [this](double gap, size_t pairs) { path_step(gap, pairs); };
@@ -210,7 +223,8 @@ class Chain {
     if (gain <= o_.gain_tolerance) ++idle_;
     if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
     last_gain_ = gain;
-    if (o_.step_bound == 0.0) bound_ = std::min(std::max(5.0 * step, narrowest), alpha < 1.0 ? 0.7 * bound_ : 0.5);
+    // An LP that ended early leaves gaps of a part of its gain.
+    if (o_.step_bound == 0.0) bound_ = std::min(std::max({5.0 * step, gain, narrowest}), alpha < 1.0 ? 0.7 * bound_ : 0.5);
   }
 
   void stop(jam_stop_reason reason, jam_status status) { out_.report.stop_reason = reason, out_.status = status; }
@@ -233,7 +247,7 @@ class Chain {
     jam_report &r = out_.report;
     r.method = o_.method;
     certify(out_.packing, out_.contacts, r);
-    r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < 1e-6 && r.min_force > 0.0;
+    r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < (o_.polish ? 1e-6 : 1e-5) && r.min_force > 0.0;
     if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
     r.factorisations = system_.factorisations;
     r.seconds = monitor_.seconds();

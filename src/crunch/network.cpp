@@ -6,12 +6,16 @@
 
 namespace jam {
 
+// Far below the narrowest gap between spheres that do not touch, above what an LP leaves open of a contact.
+constexpr double shut = 1e-11;
+
 // At a strictly complementary optimum either the force or the gap is zero; compare them in their own units: y times
-// the number of carrying pairs (about d n) is a force over the mean force, w a relative gap (times two).
+// the number of carrying pairs (about d n) is a force over the mean force, w a relative gap (times two). In a hyperstatic
+// packing the multipliers are not unique and a solver at a vertex leaves some at zero: there a gap of nothing counts.
 std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &x) {
   std::vector<char> on(lp.rows());
   const double carrying = static_cast<double>(lp.dim) * static_cast<double>(lp.n);
-  for (size_t k = 0; k < on.size(); ++k) on[k] = x.y[k] * carrying > std::max(x.w[k], 1e-9);
+  for (size_t k = 0; k < on.size(); ++k) on[k] = x.y[k] * carrying > std::max(x.w[k], 1e-9) || x.w[k] < shut;
   return on;
 }
 

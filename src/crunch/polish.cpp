@@ -90,6 +90,24 @@ void balance_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system,
   net.force_scale *= static_cast<double>(mean);
 }
 
+bool pushes_only(const ContactNetwork &net) {
+  return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
+}
+
+// More contacts than one state of self-stress needs: the forces are not unique. Those of least norm at the same mean are the
+// projection of equal forces; false, and nothing changed, if one of them pulls (the LP's forces then have to do).
+bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
+  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  if (static_cast<int64_t>(net.size()) <= p.dim * (stable - 1) + 1) return false;
+  ContactNetwork least = net;
+  std::fill(least.force.begin(), least.force.end(), 1.0);
+  balance_forces(p, least, system, diagonal);
+  if (!pushes_only(least)) return false;
+  least.force_scale = net.force_scale;
+  net = std::move(least);
+  return true;
+}
+
 }  // namespace
 
 PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
@@ -114,9 +132,8 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   }
   if (monitor && monitor->cancelled()) return PolishEnd::cancelled;
   if (!(worst < closed)) return PolishEnd::open_contact;
-  balance_forces(q, better, system, diagonal);
-  for (double f : better.force)
-    if (!(f > 0.0)) return PolishEnd::negative_force;
+  if (!least_forces(q, better, system, diagonal)) balance_forces(q, better, system, diagonal);
+  if (!pushes_only(better)) return PolishEnd::negative_force;
   if (closest_pair(q).gap < std::min(-1e-14, closest_pair(p).gap)) return PolishEnd::overlap;
   p = std::move(q);
   net = std::move(better);

@@ -45,7 +45,7 @@ class Path {
       if (control_.on_step) control_.on_step(gap_, pairs_.size());
       monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu steps %.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), pairs_.size(), alpha_p_, alpha_d_, last_step_);
-      out.reached = balance_ < 1e-2 && gap_ <= control_.target;
+      out.reached = balance_ < 1e-2 && gap_ <= control_.target * std::max(1.0, static_cast<double>(p_.n()) / 1024.0);
       if (out.reached || reheats_ > most_reheats || out.factorisations >= control_.max_factorisations ||
           monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
         break;
@@ -59,7 +59,7 @@ class Path {
     double g = 0.0;
   };
 
-  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs.
+  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs at least.
   void open() {
     unit_ = diameter_mean(p_);
     reach_ = unit_ * (least_reach + 1.5 * free_spacing(p_));
@@ -68,7 +68,7 @@ class Path {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
       std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
       const double smallest = *std::min_element(gaps.begin(), gaps.end());
-      const double room = 0.1 * std::max(gaps[half], 1e-12);
+      const double room = std::max(0.1 * std::max(gaps[half], 1e-12), control_.room);
       if (smallest < room)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + room));
     }
@@ -213,8 +213,11 @@ class Path {
     return -slope;
   }
 
+  // A start colder than its forces can balance at creeps along the walls: it is warmed up at once.
   void set_mu() {
     if (mu_ == 0.0) mu_ = gap_ / static_cast<double>(y_.size());
+    creeping_ = balance_ > 0.5 && alpha_p_ < 0.1 && last_step_ < 0.5 * trust ? creeping_ + 1 : 0;
+    if (creeping_ > 3 && warmed_ < 3 && !centred_once_) mu_ *= 10.0, at_mu_ = creeping_ = 0, ++warmed_;
     if (++at_mu_ <= stuck) return;
     at_mu_ = 0;
     ++reheats_;
@@ -233,7 +236,7 @@ class Path {
       solve(true, 1, main_);
       decrement_ = decrement(main_);
       if (colder || !(decrement_ < centred * static_cast<double>(rows))) break;
-      mu_ *= shrink, at_mu_ = 0;
+      mu_ *= shrink, at_mu_ = 0, centred_once_ = true;
     }
     if (!std::isfinite(longest_move(main_)) || !std::isfinite(main_.g)) return false;
     curvature(main_);
@@ -284,7 +287,8 @@ class Path {
   double unit_ = 1.0, reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double gap_ = 0.0, mu_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0;
-  int at_mu_ = 0, reheats_ = 0;
+  int at_mu_ = 0, reheats_ = 0, creeping_ = 0, warmed_ = 0;
+  bool centred_once_ = false;
 };
 
 }  // namespace

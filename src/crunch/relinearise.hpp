@@ -12,7 +12,9 @@
 namespace jam {
 
 struct RelineariseControl {
-  double target = 1e-7;      // stop when the duality gap, in units of Gamma, is below this: a few LPs finish faster
+  double target = 1e-7;      // stop when the duality gap, in units of Gamma and for up to 1024 spheres, is below this; it grows
+                             // with their number as the rows do. A few LPs finish faster
+  double room = 0.0;         // the closest pair is opened to this relative gap at least
   int max_factorisations = 600;
   int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock

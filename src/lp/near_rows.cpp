@@ -1,6 +1,7 @@
 #include "lp/near_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace jam {
@@ -34,6 +35,7 @@ void NearRows::choose(const PackingLp &lp) {
     std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
     const double smallest = *std::min_element(sorted.begin(), sorted.begin() + rank + 1);
     threshold = 2.0 * (sorted[rank] - smallest);
+    if (std::isfinite(lp.bound)) threshold = std::max(threshold, 0.1 * lp.bound);  // what a step may well close, however even the slacks
     for (size_t k = 0; k < rows; ++k) is_near[k] = lp.c[k] - smallest <= threshold;
     hold_loose_spheres(lp, is_near);
     // To leave out a few saves nothing.

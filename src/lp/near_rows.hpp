@@ -14,7 +14,8 @@ struct NearRows {
   PairList near_pairs;               // without offsets: the rows of `near` say all
   std::vector<size_t> index, far;    // rows of the whole LP, both ascending
   double threshold = 0.0;            // slack above which a row started as far
-  // About dim * n rows carry force at the end. Near: the 1.05 dim n tightest ones and all up to twice their slack.
+  // About dim * n rows carry force at the end. Near: the 1.05 dim n tightest ones and all up to twice their slack or a tenth of
+  // the step bound.
   void choose(const PackingLp &lp);
   // Rows k with take[k] join the near ones.
   void join(const PackingLp &lp, const std::vector<char> &take);

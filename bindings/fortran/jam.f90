@@ -1216,7 +1216,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_contact_gaps
 
-    ! Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
+    ! Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
+    ! needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
     ! Errors: as jam_contacts. @since 0.1
     function jam_forces(sys, out, out_len, needed) &
         bind(c, name="jam_forces") result(status)

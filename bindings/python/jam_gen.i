@@ -341,7 +341,8 @@ sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the ca
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 %feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_contact_gaps "Gaps h of the contacts, length contacts. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
+%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
+needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
 Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_coordination "Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_hessian_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"

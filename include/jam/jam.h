@@ -459,9 +459,9 @@ typedef enum jam_lp_solver {
 
 /* Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1 */
 typedef enum jam_crunch_method {
-  JAM_CRUNCH_RELINEARISE = 0, /* one barrier path, rows made anew after each Newton step: fewest factorisations;
-                               * where it wanders the chain goes on */
-  JAM_CRUNCH_CHAIN = 1        /* the published chain of LPs: slower; from dilute starts it ends denser */
+  JAM_CRUNCH_RELINEARISE = 0, /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
+                               * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
+  JAM_CRUNCH_CHAIN = 1        /* the published chain of LPs alone */
 } jam_crunch_method;
 
 /* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
@@ -607,7 +607,8 @@ JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iou
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Gaps h of the contacts, length contacts. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
+/* Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
+ * needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
  * Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */

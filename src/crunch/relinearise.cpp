@@ -45,7 +45,7 @@ class Path {
       if (control_.on_step) control_.on_step(gap_, pairs_.size());
       monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu steps %.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), pairs_.size(), alpha_p_, alpha_d_, last_step_);
-      out.reached = balance_ < 1e-2 && gap_ <= control_.target * std::max(1.0, static_cast<double>(p_.n()) / 1024.0);
+      out.reached = balance_ < 1e-2 && gap_ <= control_.target * std::max(1.0, std::sqrt(static_cast<double>(p_.n()) / 1024.0));
       if (out.reached || reheats_ > most_reheats || out.factorisations >= control_.max_factorisations ||
           monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
         break;

@@ -13,7 +13,7 @@ namespace jam {
 
 struct RelineariseControl {
   double target = 1e-7;      // stop when the duality gap, in units of Gamma and for up to 1024 spheres, is below this; it grows
-                             // with their number as the rows do. A few LPs finish faster
+                             // with the root of their number. A few LPs finish faster
   double room = 0.0;         // the closest pair is opened to this relative gap at least
   int max_factorisations = 600;
   int threads = 1;

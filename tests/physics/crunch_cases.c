@@ -192,6 +192,34 @@ static void crystals(void **state) {
   }
 }
 
+/* Forces of a hyperstatic packing are not unique: a vertex of the simplex leaves contacts without any, the analytic centre none.
+ * Either way all that touch are contacts, and the forces are those of least norm: equal ones in FCC, where all sum to zero. */
+static void degenerate_forces(void **state) {
+  const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
+  int solver;
+  (void)state;
+  for (solver = JAM_LP_IPM; solver <= JAM_LP_CLP; ++solver) {
+    jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0.98, 0);
+    jam_crunch_options o;
+    jam_report r;
+    double f[648];
+    int k;
+    jam_crunch_options_init(&o, sizeof o);
+    o.lp_solver = solver;
+    r = crunch(sys, &o, JAM_OK);
+    assert_true(r.jammed && r.contacts == 648 && r.rattlers == 0);
+    assert_int_equal(jam_forces(sys, f, 648, NULL), JAM_OK);
+    for (k = 0; k < 648; ++k) assert_true(fabs(f[k] - 1.0) < 1e-10); /* the lattice itself holds to about 1e-12 */
+    jam_destroy(sys);
+    sys = random_start(64, 3, 0.2, NULL, 0, 1); /* grown slowly enough to order: more contacts than one state of self-stress */
+    assert_true(jam_compress(sys, NULL, NULL) >= 0);
+    r = crunch(sys, &o, JAM_OK);
+    assert_true(r.jammed && r.excess_contacts >= 0);
+    certify(sys, &r, 1e-9);
+    jam_destroy(sys);
+  }
+}
+
 /* Boxes of one or two diameters: pairs meet through several images. */
 static void few_spheres(void **state) {
   int n, d;
@@ -344,6 +372,7 @@ static void box_does_not_matter(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(shared_file),       cmocka_unit_test(random_starts),           cmocka_unit_test(crystals),
+      cmocka_unit_test(degenerate_forces),
       cmocka_unit_test(few_spheres),       cmocka_unit_test(cancel_and_resume), cmocka_unit_test(cancel_waits),       cmocka_unit_test(limits_and_options),
       cmocka_unit_test(threads_and_determinism), cmocka_unit_test(box_does_not_matter)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -119,8 +119,8 @@ class LpSolver(IntEnum):
 
 class CrunchMethod(IntEnum):
     """Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1"""
-    RELINEARISE = 0  # one barrier path, rows made anew after each Newton step: fewest factorisations; where it wanders the chain goes on
-    CHAIN = 1  # the published chain of LPs: slower; from dilute starts it ends denser
+    RELINEARISE = 0  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
+    CHAIN = 1  # the published chain of LPs alone
 
 
 class StepPhase(IntEnum):

@@ -98,8 +98,8 @@ const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Cl
 const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 
 # jam_crunch_method: Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1
-const JAM_CRUNCH_RELINEARISE = Int32(0)  # one barrier path, rows made anew after each Newton step: fewest factorisations; where it wanders the chain goes on
-const JAM_CRUNCH_CHAIN = Int32(1)  # the published chain of LPs: slower; from dilute starts it ends denser
+const JAM_CRUNCH_RELINEARISE = Int32(0)  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
+const JAM_CRUNCH_CHAIN = Int32(1)  # the published chain of LPs alone
 
 # jam_step_phase: What kind of step a row of the history is. @since 0.1
 const JAM_STEP_PATH = Int32(1)  # a Newton step of the re-linearising path (the first row: all of its opening)
@@ -893,7 +893,8 @@ function jam_contact_gaps(sys, out, out_len, needed)
 end
 
 """
-Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. Threads: const.
+Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
+needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
 Errors: as jam_contacts. @since 0.1
 """
 function jam_forces(sys, out, out_len, needed)

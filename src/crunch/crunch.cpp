@@ -18,7 +18,7 @@ namespace {
 constexpr double already_closed = 1e-11;
 // An LP that gains more than this strides through dilute space; one whose longest step is below this (mean diameters)
 // is the first of a few.
-constexpr double strides = 1e-2, nearly_there = 1e-2;
+constexpr double strides = 3e-3, nearly_there = 1e-2;
 // Step bound of the last LPs, mean diameters.
 constexpr double narrowest = 1e-6;
 

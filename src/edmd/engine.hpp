@@ -64,7 +64,7 @@ class EngineBase {
   virtual double mean_diameter() const = 0;
   virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, now
   MdSums sums;
-  double max_overlap = 0.0;
+  double max_overlap = 0.0;  // largest -h of any pair in the lists, whenever a list was made or a sphere of the pair had an event
 };
 
 struct EngineOptions {
@@ -101,7 +101,7 @@ class Engine final : public EngineBase {
   double worst_overlap() const override;
 
   // Whether lists without image shifts can hold for spheres of this diameter, unit box.
-  static bool fits(double sigma_max) { return sigma_max * (1.0 + 2.0 * smallest_shell + smallest_margin) < 0.4999; }
+  static bool fits(double sigma_max) { return sigma_max * (1.0 + 4.0 * smallest_shell + smallest_margin) < 0.4999; }
 
  private:
   using Vector = std::array<double, D>;
@@ -127,6 +127,7 @@ class Engine final : public EngineBase {
     else return (void)offset, d;
   }
   double exact_gap(const Body &a, const Body &b, const int64_t *offset) const;
+  void note_overlap(const Body &a, const Body &b, const int64_t *offset);
   double exit_time(int32_t i) const;
   void predict(int32_t i);
   void collide(int32_t i, int32_t k);

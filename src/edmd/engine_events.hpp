@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdlib>
 
+#include "core/error.hpp"
 #include "edmd/engine.hpp"
 
 namespace jam {
@@ -22,6 +23,14 @@ double Engine<D, Shift>::exact_gap(const Body &a, const Body &b, const int64_t *
   const __int128 gap = static_cast<__int128>(r2 - static_cast<unsigned __int128>(sum) * static_cast<uint64_t>(sum));
   return static_cast<double>(static_cast<int64_t>(gap >> 64)) * 0x1p64 +
          2.0 * static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(gap) >> 1));
+}
+
+// Whatever goes wrong, no overlap in the lists passes unseen: a pair is deepest when something turns one of its spheres round.
+template <int D, bool Shift>
+void Engine<D, Shift>::note_overlap(const Body &a, const Body &b, const int64_t *offset) {
+  const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
+  const double gap = std::max(-1.0, exact_gap(a, b, offset) / (sigma * sigma));
+  max_overlap = std::max(max_overlap, -gap / (1.0 + std::sqrt(1.0 + gap)));
 }
 
 // When sphere i, which stands at now_, leaves its safe sphere.
@@ -65,10 +74,10 @@ void Engine<D, Shift>::predict(int32_t i) {
       rr += r * r;
     }
     const double sum = static_cast<double>(bi.radius + bk.radius), sigma = sum * grown, growth = sum * rate_;
-    const double b = rv - sigma * growth, a = vv - growth * growth;
-    if (b >= 0.0 && a >= 0.0) continue;
-    const double sigma2 = sigma * sigma;
+    const double b = rv - sigma * growth, a = vv - growth * growth, sigma2 = sigma * sigma;
     double gap = rr - sigma2;
+    if (gap < -1e-14 * sigma2) note_overlap(bi, bk, offset);
+    if (b >= 0.0 && a >= 0.0) continue;
     // The root is not earlier than gap / (-2 b) when a > 0.
     if (a > 0.0 && gap > 1e-9 * sigma2 && gap > -2.0 * b * best) continue;
     if (gap < 1e-3 * sigma2) gap = exact_gap(bi, bk, offset);
@@ -164,6 +173,10 @@ void Engine<D, Shift>::prefetch(int32_t i) const {
 template <int D, bool Shift>
 void Engine<D, Shift>::next_event(int32_t i) {
   Event &event = calendar_[i];
+#ifdef JAM_CHECK_PAIRS
+  if (event.time < now_ - 1e-6 * bucket_width_)
+    fail(JAM_E_INTERNAL, "the event of sphere %d is %g buckets late after %lld collisions", user_[i], (now_ - event.time) / bucket_width_, static_cast<long long>(sums.collisions));
+#endif
   now_ = std::max(now_, event.time);
   move(body_[i]);
   const int32_t k = event.partner;
@@ -185,11 +198,13 @@ void Engine<D, Shift>::next_event(int32_t i) {
   prefetch(k);
   move(body_[k]);
   collide(i, k);
+  calendar_.take_out(i);
+  calendar_.take_out(k);
   event.time = other.time = never;
   predict(i);
   predict(k);
-  calendar_.update(i);
-  calendar_.update(k);
+  calendar_.put_in(i);
+  calendar_.put_in(k);
 }
 
 template <int D, bool Shift>

@@ -52,10 +52,13 @@ void Engine<D, Shift>::build_lists() {
   if (rate_ > 0.0) {
     const double wanted = collision_time_ > 0.0 ? 20.0 * rate_ * collision_time_ : 0.3 * shell_;
     margin_ = std::min(std::max(wanted, smallest_margin), std::max(smallest_margin, 0.5 * shell_));
-    lists_end_ = margin_ * 0.999 / rate_;
   }
-  const double room = (Shift ? 1.4 : 0.4999) / sigma - 1.0 - margin_;
-  widest_shell_ = std::max(smallest_shell, std::min(1.5, 0.49 * room));
+  // Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay below half the box, or it wraps to
+  // another image than that of the list: both spheres may stand at the far ends of their safe spheres, two shells further.
+  const double space = (Shift ? 1.4 : 0.4999) / sigma - 1.0, shells = Shift ? 2.0 : 4.0;
+  margin_ = std::min(margin_, space - shells * smallest_shell);
+  if (rate_ > 0.0) lists_end_ = margin_ * 0.999 / rate_;
+  widest_shell_ = std::max(smallest_shell, std::min(1.5, 0.999 * (space - margin_) / shells));
   shell_ = std::min(std::max(shell_, smallest_shell), widest_shell_);
   rho_max_ = 0.0;
   for (int32_t i = 0; i < n_; ++i) {

@@ -154,6 +154,54 @@ void never_overlaps(void **) {
   }
 }
 
+// report.max_overlap looks at listed pairs at every event, so it sees what has healed by the end. Fast growth: many events in the
+// bucket at hand, whose order must hold (else overlaps of 1e-9 to 1e-3).
+void fast_growth_keeps_the_order_of_events(void **) {
+  for (double growth : {1.0, 3.0, 30.0})
+    for (int64_t seed = 1; seed < 4; ++seed) {
+      Packing p = random_packing(3, 64, 0.2, 1.0, seed);
+      Monitor monitor;
+      monitor.begin();
+      jam_md_report report{};
+      const jam_status status = run_stage(p, {growth, 1e8, never, 1e3, 20.0}, monitor, report);
+      if (!(report.max_overlap < 1e-14)) print_error("growth %g seed %d: overlap %g\n", growth, static_cast<int>(seed), report.max_overlap);
+      assert_true(status == JAM_OK || report.stop_reason == JAM_STOP_COLLISIONS);
+      assert_true(report.max_overlap < 1e-14);
+    }
+}
+
+// 0 and 1 overlap and part; 2 hits 1 from behind, which is the only event. No list is made in between.
+void an_overlap_between_lists_is_seen(void **) {
+  Packing p = random_packing(2, 3, 0.02, 1.0, 1);
+  const double sigma = p.diameter[0], x[] = {0.5, 0.5 + sigma * (1.0 - 1e-5), 0.5 + sigma * (2.0 + 1e-3)}, v[] = {-1e-3, 0.0, -1.0};
+  for (int i = 0; i < 3; ++i) {
+    p.position[2 * i] = x[i], p.velocity[2 * i] = v[i];
+    p.position[2 * i + 1] = 0.5, p.velocity[2 * i + 1] = 0.0;
+  }
+  Monitor monitor;
+  monitor.begin();
+  auto engine = make_engine(p, EngineOptions{});
+  assert_true(std::fabs(engine->max_overlap - 1e-5) < 1e-12);  // of the start
+  engine->max_overlap = 0.0;
+  assert_int_equal(engine->advance(1, monitor, 1e300), Halt::window);
+  assert_true(std::fabs(engine->max_overlap - (1e-5 - 1e-6)) < 2e-8);  // 0 has gone 1e-3 of the way of 2
+}
+
+// A few spheres fly far between collisions: no path may lead from the image that a list knows to another one.
+void few_spheres_meet_the_right_image(void **) {
+  for (int dim : {2, 3})
+    for (int n : {3, 8, 24, 64})
+      for (double fraction : {0.03, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+        Packing p = random_packing(dim, n, fraction, 1.0, 2);
+        Monitor monitor;
+        monitor.begin();
+        jam_md_report report{};
+        assert_int_equal(run_stage(p, nve(200.0), monitor, report), JAM_OK);
+        if (!(report.max_overlap < 1e-14)) print_error("d=%d n=%d fraction=%g: overlap %g\n", dim, n, fraction, report.max_overlap);
+        assert_true(report.max_overlap < 1e-14);
+      }
+}
+
 void stops_inside_a_dense_fluid_without_overlap(void **) {
   Packing p = random_packing(3, 400, 0.3, 10.0, 3);
   Monitor monitor;
@@ -207,12 +255,43 @@ void calendar_gives_events_in_order(void **) {
   assert_int_equal(seen, 5000);
 }
 
+// As at a collision: the earliest event and any other get new times together.
+void calendar_keeps_order_when_two_change(void **) {
+  const int n = 300;
+  for (double width : {1e-3, 1e-2, 0.0}) {
+    Calendar calendar(n);
+    Rng rng(2, Stream::velocities, 78);
+    for (int i = 0; i < n; ++i) calendar[i].time = rng.uniform() * rng.uniform();
+    calendar.rebuild(0.0, width);
+    for (int step = 0; step < 3000; ++step) {
+      int32_t i = calendar.top();
+      if (i < 0) {
+        double first = never;
+        for (int k = 0; k < n; ++k) first = std::fmin(first, calendar[k].time);
+        calendar.rebuild(first, width);
+        i = calendar.top();
+      }
+      for (int k = 0; k < n; ++k) assert_true(calendar[k].time >= calendar[i].time);
+      const auto other = (i + 1 + static_cast<int32_t>(rng.bits() % (n - 1))) % n;
+      const double now = calendar[i].time;
+      calendar.take_out(i);
+      calendar.take_out(other);
+      calendar[i].time = now + 0.1 * rng.uniform() * rng.uniform();
+      calendar[other].time = now + 0.1 * rng.uniform() * rng.uniform();
+      calendar.put_in(i);
+      calendar.put_in(other);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(calendar_gives_events_in_order), cmocka_unit_test(agrees_with_naive_engine), cmocka_unit_test(never_overlaps),
       cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap), cmocka_unit_test(same_bits_twice),
+      cmocka_unit_test(calendar_keeps_order_when_two_change), cmocka_unit_test(fast_growth_keeps_the_order_of_events),
+      cmocka_unit_test(few_spheres_meet_the_right_image), cmocka_unit_test(an_overlap_between_lists_is_seen),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -265,7 +265,7 @@ class MdReport:
     packing_fraction: at the end
     time: simulated, unit box / sqrt(kT/m)
     energy_drift: jam_run: |K_end/K_start - 1|
-    max_overlap: largest -h seen at the end and at list updates, >= 0
+    max_overlap: largest -h of neighbours whenever one of them had an event, >= 0
     seconds: wall time
     growth_rate: d<sigma>/dt over sqrt(kT/m) at the end"""
     stop_reason: StopReason

@@ -259,7 +259,7 @@ mutable struct jam_md_report
     packing_fraction::Cdouble  # at the end
     time::Cdouble  # simulated, unit box / sqrt(kT/m)
     energy_drift::Cdouble  # jam_run: |K_end/K_start - 1|
-    max_overlap::Cdouble  # largest -h seen at the end and at list updates, >= 0
+    max_overlap::Cdouble  # largest -h of neighbours whenever one of them had an event, >= 0
     seconds::Cdouble  # wall time
     growth_rate::Cdouble  # d<sigma>/dt over sqrt(kT/m) at the end
     jam_md_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)

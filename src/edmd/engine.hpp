@@ -223,6 +223,7 @@ class Engine final : public EngineBase {
 
 #ifdef JAM_CHECK_PAIRS
   Packing start_;  // what a state is written into to be checked
+  mutable int64_t next_check_ = 0;
 #endif
 
   // shell and bucket tuning

@@ -256,7 +256,8 @@ void Engine<D, Shift>::write_state(Packing &p) const {
 template <int D, bool Shift>
 void Engine<D, Shift>::check_pairs() const {
 #ifdef JAM_CHECK_PAIRS
-  if (sums.collisions == 0) return;  // overlaps of the start are the caller's
+  if (sums.collisions == 0 || sums.events < next_check_) return;  // overlaps of the start are the caller's
+  next_check_ = sums.events + 32 * static_cast<int64_t>(n_);
   Packing p = start_;
   write_state(p);
   const ClosestPair worst = closest_pair(p);

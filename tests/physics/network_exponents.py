@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Small version of the exponents of examples/studies: the fit finds known exponents within its own errors, errors that are neither
+empty nor vast, and packings made here agree with the published values. usage: network_exponents.py FOLDER_OF_STUDIES"""
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, sys.argv.pop())
+import tail_exponents as tail  # noqa: E402
+
+import jam  # noqa: E402
+
+LOCALISED = 1  # flag JAM_CONTACT_LOCALISED
+
+
+def fits(law, powers, floor, repeats=12, packings=20):
+    for k in range(repeats):
+        rng = np.random.default_rng(k)
+        yield tail.fit([law.draw(rng) for _ in range(packings)], 1024, powers, floor)
+
+
+class KnownLaws(unittest.TestCase):
+    def covered(self, family, powers, floor, largest):
+        law = dict(tail.families())[family]
+        found = list(fits(law, powers, floor))
+        off = np.array([f["exponent"] - law.a for f in found])
+        error = np.array([f["error"] for f in found])
+        # 95 % lie within two errors; fewer than 9 of 12 would be one case in 500, less than 0.2 % of such runs
+        self.assertGreaterEqual(np.sum(abs(off) < 2 * error), 9, f"{family}: {off / error}")
+        self.assertLess(np.median(error), largest)  # or anything would be covered
+        self.assertLess(error.max(), 5 * off.std() + largest)
+        return law
+
+    def test_extended(self):
+        law = self.covered("extended gamma", tail.POWERS, tail.FLOOR, 0.15)
+        for f in fits(law, (), tail.FLOOR, 3):  # without corrections to the law it is seen to be wrong
+            self.assertLess(f["exponent"], law.a - 2 * f["error"])
+
+    def test_localised(self):
+        self.covered("localised weibull", tail.POWERS, tail.FLOOR, 0.17)
+
+    def test_gaps(self):
+        self.covered("gaps constant background, flat", tail.GAP_POWERS, tail.GAP_FLOOR, 0.04)
+
+    def test_frequencies(self):
+        self.covered("frequencies falling", tail.POWERS, tail.FLOOR, 0.07)
+
+    def test_range_starts_where_finite_size_ends(self):
+        x = [np.random.default_rng(k).random(10000) for k in range(5)]
+        self.assertAlmostEqual(tail.fit(x, 1000, floor=10.0)["low"], 0.01, delta=0.002)  # N c(x) = 10
+
+    def test_no_range(self):
+        with self.assertRaises(ValueError):  # ten spheres: finite size up to the crossover
+            tail.fit([np.random.default_rng(k).random(30) for k in range(5)], 10)
+
+
+class Packings(unittest.TestCase):
+    def test_published_values(self):
+        values = {"extended": [], "localised": [], "gaps": []}
+        for seed in range(1, 3):
+            with jam.System.random(n=512, seed=seed) as packing:
+                packing.compress()
+                report = packing.crunch()
+                self.assertEqual(report.excess_contacts, 0)
+                force, local = packing.forces, (packing.contact_classes() & LOCALISED) != 0
+                values["extended"].append(force[~local] / force[~local].mean())
+                values["localised"].append(force[local] / force[local].mean())
+                values["gaps"].append(packing.gaps(h_max=1.0, stable_only=1).gap)
+        for name, expected in (("extended", 0.42311), ("localised", 0.17462), ("gaps", -0.41269)):
+            gaps = name == "gaps"
+            f = tail.fit(values[name], 512, tail.GAP_POWERS if gaps else tail.POWERS, tail.GAP_FLOOR if gaps else tail.FLOOR)
+            print(f"{name}: {f['exponent']:.3f} +- {f['error']:.3f} from {f['low']:.2g} to {f['high']:.2g}, published {expected:.3f}")
+            self.assertLess(abs(f["exponent"] - expected), 3 * f["error"])
+            self.assertLess(f["error"], 0.2 if gaps else 0.6)  # two small packings say no more
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,151 @@
+/* Scenes in which a contact network is not what one hopes for, by the public calls alone: each has its status and says why in
+ * the report; what follows still works or is refused by name. Fluids, crystals and unclear gaps: analysis_errors, network_1ss. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <jam/jam.h>
+
+static jam_system *spheres(int dim, int n, double box, double diameter, const double *x) {
+  jam_create_options o;
+  jam_system *s = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim, o.n = n, o.box = box;
+  assert_int_equal(jam_create(&o, x, (size_t)(n * dim), &diameter, 1, &s), JAM_OK);
+  return s;
+}
+
+static jam_geometry_report look(jam_system *s, jam_status expected) {
+  jam_geometry_options o;
+  jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
+  assert_int_equal(jam_geometry_options_init(&o, sizeof o), JAM_OK);
+  o.tolerance = 1e-9; /* what touches is given; whether it is a network is the question */
+  assert_int_equal(jam_contacts_from_geometry(s, &o, &g), expected);
+  return g;
+}
+
+static void refuses_floppy_modes(jam_system *s, const char *word) {
+  double x[200];
+  size_t m;
+  assert_int_equal(jam_floppy_modes(s, x, 200, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_non_null(strstr(jam_last_error(), word));
+}
+
+/* Five disks in a row through the box: as many contacts as spheres, and nothing that holds them sideways. */
+static void one_spanning_chain(void **state) {
+  double x[10];
+  jam_geometry_report g;
+  jam_system *s;
+  size_t m;
+  int i;
+  (void)state;
+  for (i = 0; i < 5; ++i) x[2 * i] = i, x[2 * i + 1] = 2.0;
+  s = spheres(2, 5, 5.0, 1.0, x);
+  g = look(s, JAM_NOT_JAMMED);
+  assert_true(g.pairs_within == 5 && g.contacts == 0 && g.clusters == 0);
+  assert_int_equal(jam_hessian_map(s, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 0); /* all are rattlers */
+  assert_int_equal(jam_modes(s, NULL, NULL, NULL, 0, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(m, 0);
+  jam_destroy(s);
+}
+
+/* Two strips of triangular rows that do not touch: each moves by itself, and its forces say nothing of the other's. */
+static void two_clusters(void **state) {
+  double x[72], f[84], l[72], residual = 1.0;
+  jam_geometry_report g;
+  jam_modes_options o;
+  jam_system *s;
+  size_t m;
+  int i, zero = 0;
+  (void)state;
+  for (i = 0; i < 36; ++i) x[2 * i] = i % 6 + 0.5 * (i / 6 % 3 % 2), x[2 * i + 1] = 0.1 + 3.0 * (i / 18) + i / 6 % 3 * sqrt(0.75);
+  s = spheres(2, 36, 6.0, 1.0, x);
+  g = look(s, JAM_AMBIGUOUS);
+  assert_true(g.clusters == 2 && g.contacts == 84 && g.zero_modes == 4);
+  assert_int_equal(g.self_stresses, 84 - (72 - 4)); /* counting of Maxwell and Calladine */
+  assert_int_equal(jam_stress_states(s, f, 84, NULL, 0, &residual, &m), JAM_AMBIGUOUS);
+  assert_true(m == (size_t)g.self_stresses && residual < 1e-12);
+  assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
+  o.which = JAM_MODES_ALL;
+  assert_int_equal(jam_modes(s, NULL, &o, l, 72, NULL, 0, NULL, 0, &m), JAM_OK);
+  for (i = 0; i < 72; ++i) zero += fabs(l[i]) < 1e-10;
+  assert_int_equal(zero, g.zero_modes);
+  refuses_floppy_modes(s, "self-stress");
+  jam_destroy(s);
+}
+
+/* A sphere as large as its box touches its own images: that cannot open or close, so it is counted and left out. */
+static void own_image(void **state) {
+  const double x[3] = {0.1, 0.2, 0.3};
+  jam_system *s = spheres(3, 1, 1.0, 1.0, x);
+  const jam_geometry_report g = look(s, JAM_NOT_JAMMED);
+  size_t m;
+  (void)state;
+  assert_true(g.self_contacts == 3 && g.contacts == 0);
+  assert_int_equal(jam_contacts(s, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 0);
+  jam_destroy(s);
+}
+
+/* Two disks in a checkerboard touch through four images: four contacts of one pair, each with its own vector. */
+static void four_images_of_a_neighbour(void **state) {
+  const double x[4] = {0.0, 0.0, 0.5, 0.5};
+  jam_system *s = spheres(2, 2, 1.0, sqrt(0.5), x);
+  const jam_geometry_report g = look(s, JAM_AMBIGUOUS);
+  double n[8], f[4], h[8], sum[2] = {0.0, 0.0};
+  int32_t pair[8];
+  size_t m;
+  int k, c;
+  (void)state;
+  assert_true(g.contacts == 4 && g.clusters == 1 && g.zero_modes == 2 && g.self_stresses == 2 && g.excess_contacts == 1);
+  assert_int_equal(jam_contacts(s, pair, 8, &m), JAM_OK);
+  assert_int_equal(jam_contact_vectors(s, n, 8, &m), JAM_OK);
+  assert_int_equal(jam_forces(s, f, 4, &m), JAM_OK);
+  for (k = 0; k < 4; ++k) {
+    assert_true(pair[2 * k] == 0 && pair[2 * k + 1] == 1 && fabs(f[k] - 1.0) < 1e-12);
+    for (c = 0; c < 2; ++c) {
+      assert_true(fabs(fabs(n[2 * k + c]) - sqrt(0.5)) < 1e-12);
+      sum[c] += f[k] * n[2 * k + c];
+    }
+  }
+  assert_true(fabs(sum[0]) < 1e-12 && fabs(sum[1]) < 1e-12);
+  assert_int_equal(jam_gaps(s, 0.5, 1, h, 8, NULL, 0, &m), JAM_OK); /* of the contacts' images none; own images one box away */
+  for (k = 0; k < (int)m; ++k) assert_true(fabs(h[k] - (sqrt(2.0) - 1.0)) < 1e-12);
+  refuses_floppy_modes(s, "2");
+  jam_destroy(s);
+}
+
+/* Three disks jam with one state of self-stress although pairs touch through several images: everything works. */
+static void three_disks(void **state) {
+  jam_create_options o;
+  jam_report r = {.struct_size = sizeof(jam_report)};
+  jam_geometry_report g;
+  jam_system *s = NULL;
+  double f[8], q[8], b[8];
+  size_t m, k;
+  (void)state;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = 2, o.n = 3, o.packing_fraction = 0.4;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &s), JAM_OK);
+  assert_int_equal(jam_crunch(s, NULL, &r), JAM_OK);
+  assert_true(r.contacts == 5 && r.excess_contacts == 0);
+  assert_int_equal(jam_forces(s, f, 8, &m), JAM_OK);
+  g = look(s, JAM_OK);
+  assert_true(g.contacts == 5 && g.self_stresses == 1);
+  assert_int_equal(jam_forces(s, q, 8, &m), JAM_OK);
+  for (k = 0; k < 5; ++k) assert_true(fabs(f[k] - q[k]) < 1e-9);
+  assert_int_equal(jam_floppy_modes(s, b, 8, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 5);
+  jam_destroy(s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_spanning_chain), cmocka_unit_test(two_clusters), cmocka_unit_test(own_image),
+                                     cmocka_unit_test(four_images_of_a_neighbour), cmocka_unit_test(three_disks)};
+  return cmocka_run_group_tests_name("analysis_scenes", tests, NULL, NULL);
+}

@@ -1694,6 +1694,16 @@ contains
     character(:), allocatable :: text
     text = jam_text(jam_last_error())
   end function jam_message
+
+  ! For programs that end at the first failure: call jam_check(jam_crunch(sys)). Statuses above 0, stopped early with a valid
+  ! state, are told and passed.
+  subroutine jam_check(status)
+    integer(c_int32_t), intent(in) :: status
+    if (status > 0) print '(2a)', 'stopped early: ', jam_text(jam_status_string(status))
+    if (status >= 0) return
+    print '(2a)', 'failed: ', jam_message()
+    error stop 1
+  end subroutine jam_check
   subroutine default_create_options(o)
     type(jam_create_options), intent(out) :: o
     integer(c_int32_t) :: status

@@ -8,33 +8,22 @@ program crunch_file
   type(jam_report) :: report
   character(1024) :: name(2)
   integer :: k
-  integer(c_int32_t) :: status
 
   if (command_argument_count() /= 2) error stop 'usage: crunch_file IN OUT'
   do k = 1, 2
     call get_command_argument(k, name(k))
   end do
-  call check(jam_read(trim(name(1))//c_null_char, out=sys))  ! plain text or extended XYZ
-  call check(jam_info_get(sys, info))
+  call jam_check(jam_read(trim(name(1))//c_null_char, out=sys))  ! plain text or extended XYZ
+  call jam_check(jam_info_get(sys, info))
   print '(a, i0, a, i0, a, f9.6)', 'spheres ', info%n, ', d = ', info%dim, ', phi ', info%packing_fraction
 
   call jam_defaults(options)
   options%wall_time = 600  ! seconds; what was reached by then is kept
-  status = jam_crunch(sys, options, report)
-  call check(status)
+  call jam_check(jam_crunch(sys, options, report))
   print '(2a, f16.12)', jam_text(jam_stop_string(report%stop_reason)), ', phi ', report%packing_fraction
   print '(2(a, i0))', 'contacts ', report%contacts, ', more than isostatic ', report%excess_contacts
   print '(2(a, es8.1))', 'overlap ', report%max_overlap, ', force imbalance ', report%force_residual
-  call check(jam_write(sys, trim(name(2))//c_null_char, JAM_FORMAT_AUTO))
+  call jam_check(jam_write(sys, trim(name(2))//c_null_char, JAM_FORMAT_AUTO))
   call jam_destroy(sys)
   if (report%jammed /= 1) error stop 'not jammed'
-
-contains
-
-  subroutine check(code)
-    integer(c_int32_t), intent(in) :: code
-    if (code >= 0) return
-    print '(2a)', 'failed: ', jam_message()
-    error stop 1
-  end subroutine check
 end program crunch_file

@@ -34,20 +34,13 @@ contains
     call jam_defaults(compress)
     compress%growth_rate = 3e-2_c_double
     compress%pressure = 1e4_c_double
-    call check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
-    call check(jam_compress(sys, compress))
-    call check(jam_crunch(sys, report=report))
+    call jam_check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+    call jam_check(jam_compress(sys, compress))
+    call jam_check(jam_crunch(sys, report=report))
     print '(a, i0, a, f12.9)', 'seed ', seed, ': phi ', report%packing_fraction
     call jam_destroy(sys)
     if (report%jammed /= 1) return
     jammed = jammed + 1
     phi(jammed) = report%packing_fraction
   end subroutine pack
-
-  subroutine check(status)
-    integer(c_int32_t), intent(in) :: status
-    if (status >= 0) return
-    print '(2a)', 'failed: ', jam_message()
-    error stop 1
-  end subroutine check
 end program ensemble

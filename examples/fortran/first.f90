@@ -18,31 +18,21 @@ program first
   call jam_defaults(create)
   create%dim = d
   create%n = n
-  call check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+  call jam_check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
 
   call jam_defaults(compress)
   compress%growth_rate = 1e-2_c_double
   compress%pressure = 1e3_c_double
-  call check(jam_compress(sys, compress, md))
+  call jam_check(jam_compress(sys, compress, md))
   print '(a, i0, a, f8.5)', 'collisions ', md%collisions, ', phi ', md%packing_fraction
 
-  call check(jam_crunch(sys, report=report))  ! options left out: the defaults
+  call jam_check(jam_crunch(sys, report=report))  ! options left out: the defaults
   print '(a, f10.7, 3(a, i0))', 'phi_J ', report%packing_fraction, ', contacts ', report%contacts, ', rattlers ', &
     report%rattlers, ', excess ', report%excess_contacts
-  call check(jam_positions_view(sys, view, length))  ! the library's own memory, good as long as sys
+  call jam_check(jam_positions_view(sys, view, length))  ! the library's own memory, good as long as sys
   call c_f_pointer(view, x, [d, n])
   print '(a, 2f8.4)', 'first sphere at ', x(:, 1)
 
-  call check(jam_write(sys, 'fortran_packing.xyz'//c_null_char, JAM_FORMAT_AUTO))
+  call jam_check(jam_write(sys, 'fortran_packing.xyz'//c_null_char, JAM_FORMAT_AUTO))
   call jam_destroy(sys)
-
-contains
-
-  subroutine check(status)
-    integer(c_int32_t), intent(in) :: status
-    if (status > 0) print '(2a)', 'stopped early: ', jam_text(jam_status_string(status))
-    if (status >= 0) return
-    print '(2a)', 'failed: ', jam_message()
-    error stop 1
-  end subroutine check
 end program first

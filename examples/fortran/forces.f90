@@ -14,15 +14,15 @@ program forces
   call jam_defaults(create)
   create%dim = d
   create%n = n
-  call check(jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys))
-  call check(jam_compress(sys))
-  call check(jam_crunch(sys))
+  call jam_check(jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys))
+  call jam_check(jam_compress(sys))
+  call jam_check(jam_crunch(sys))
 
-  call check(jam_forces(sys, out_len=0_c_size_t, needed=contacts))  ! no array: only the size
+  call jam_check(jam_forces(sys, out_len=0_c_size_t, needed=contacts))  ! no array: only the size
   allocate (force(contacts), normal(d, contacts), pair(2, contacts))
-  call check(jam_forces(sys, force, size(force, kind=c_size_t)))  ! mean 1
-  call check(jam_contact_vectors(sys, normal, size(normal, kind=c_size_t)))  ! unit vectors, from the second to the first
-  call check(jam_contacts(sys, pair, size(pair, kind=c_size_t)))
+  call jam_check(jam_forces(sys, force, size(force, kind=c_size_t)))  ! mean 1
+  call jam_check(jam_contact_vectors(sys, normal, size(normal, kind=c_size_t)))  ! unit vectors, from the second to the first
+  call jam_check(jam_contacts(sys, pair, size(pair, kind=c_size_t)))
 
   net = 0
   do k = 1, int(contacts)
@@ -36,13 +36,4 @@ program forces
     pair(2, k), ', worst imbalance ', maxval(abs(net))
   call jam_destroy(sys)
   if (maxval(abs(net)) > 1e-8_c_double) error stop 'no balance'
-
-contains
-
-  subroutine check(status)
-    integer(c_int32_t), intent(in) :: status
-    if (status >= 0) return
-    print '(2a)', 'failed: ', jam_message()
-    error stop 1
-  end subroutine check
 end program forces

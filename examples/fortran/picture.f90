@@ -17,13 +17,13 @@ program picture
   call jam_defaults(create)
   create%dim = d
   create%n = n
-  call check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
-  call check(jam_crunch(sys))
-  call check(jam_positions_view(sys, view, length))  ! no copies
+  call jam_check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+  call jam_check(jam_crunch(sys))
+  call jam_check(jam_positions_view(sys, view, length))  ! no copies
   call c_f_pointer(view, x, [d, n])
-  call check(jam_diameters_view(sys, view, length))
+  call jam_check(jam_diameters_view(sys, view, length))
   call c_f_pointer(view, sigma, [n])
-  call check(jam_coordination(sys, contacts, size(contacts, kind=c_size_t)))
+  call jam_check(jam_coordination(sys, contacts, size(contacts, kind=c_size_t)))
 
   open (newunit=file, file='picture.vtk', status='replace')
   write (file, '(a)') '# vtk DataFile Version 3.0', 'packing of disks', 'ASCII', 'DATASET POLYDATA'
@@ -39,13 +39,4 @@ program picture
   close (file)
   print '(i0, 2(a, i0))', n, ' disks, ', count(contacts == d + 1), ' bucklers, rattlers ', count(contacts == 0)
   call jam_destroy(sys)
-
-contains
-
-  subroutine check(status)
-    integer(c_int32_t), intent(in) :: status
-    if (status >= 0) return
-    print '(2a)', 'failed: ', jam_message()
-    error stop 1
-  end subroutine check
 end program picture

@@ -397,10 +397,10 @@ JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
 common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
 (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
-next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
-stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
-Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
+weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
+order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
+are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c <f> s_plus) with c = sigma B / (N <f>). Arrays may be
+NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
 omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long

@@ -800,10 +800,10 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
  * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
 /* The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
- * weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
- * next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
- * stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
- * Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
+ * weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
+ * order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
+ * are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c <f> s_plus) with c = sigma B / (N <f>). Arrays may be
+ * NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight, size_t weight_len,
                                     double *s_plus, size_t s_plus_len, double *s_star, size_t s_star_len, double *stability,
                                     size_t stability_len, size_t *needed);

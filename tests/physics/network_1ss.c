@@ -117,8 +117,56 @@ static void forces_from_positions(const struct network *w) {
   free(f), free(pair);
 }
 
+/* Opening at which, to first order, a pair that is no contact closes: every image of every pair of stable spheres. */
+static double next_contact(const struct network *w, const double *u, double gamma) {
+  const double *x;
+  double best = INFINITY;
+  size_t len;
+  int64_t i, j;
+  int c, image, images = 1;
+  for (c = 0; c < w->d; ++c) images *= 3;
+  assert_int_equal(jam_positions_view(w->sys, &x, &len), JAM_OK);
+  for (i = 0; i < w->stable; ++i)
+    for (j = 0; j < i; ++j)
+      for (image = 0; image < images; ++image) {
+        const int64_t a = w->map[i], b = w->map[j];
+        const double touch = 0.5 * (w->diameter[a] + w->diameter[b]);
+        double r2 = 0.0, along = 0.0, r, closing;
+        int code = image;
+        for (c = 0; c < w->d; ++c, code /= 3) {
+          const double e = x[a * w->d + c] - x[b * w->d + c] + (code % 3 - 1); /* the box is 1 */
+          r2 += e * e;
+          along += e * (u[i * w->d + c] - u[j * w->d + c]);
+        }
+        r = sqrt(r2);
+        if (r > 2.0 * touch || r < (1.0 + 1e-9) * touch) continue;
+        closing = gamma * touch - along / r;
+        if (closing > 0.0) best = fmin(best, (r - touch) / closing);
+      }
+  return best;
+}
+
+/* Twice the second-order term of sum_k f_k |r_k + s dr_k|, by differences: contacts have length sigma. First-order displacements
+ * are enough, because forces in balance do no work on those of second order. */
+static double bend(const struct network *w, const double *u, double s) {
+  double sum = 0.0;
+  int64_t k;
+  int c, sign;
+  for (k = 0; k < w->contacts; ++k)
+    for (sign = -1; sign <= 1; sign += 2) {
+      const int64_t a = w->node[w->pair[2 * k]], b = w->node[w->pair[2 * k + 1]];
+      double r2 = 0.0;
+      for (c = 0; c < w->d; ++c) {
+        const double e = sigma(w, k) * w->normal[k * w->d + c] + sign * s * (u[a * w->d + c] - u[b * w->d + c]);
+        r2 += e * e;
+      }
+      sum += w->force[k] * (sqrt(r2) - sigma(w, k));
+    }
+  return sum / (s * s);
+}
+
 /* S dr = e_l + gamma sigma, exactly, for the stated gamma; no net translation. */
-static void floppy_keeps_contacts(const struct network *w) {
+static void floppy_keeps_contacts(const struct network *w, int check_next) {
   double *u = malloc(ROOM * sizeof *u), *b = malloc(ROOM * sizeof *b), *sp = malloc(ROOM * sizeof *sp), *ss = malloc(ROOM * sizeof *ss);
   double *wt = malloc(ROOM * sizeof *wt), *st = malloc(ROOM * sizeof *st);
   double fs = 0.0;
@@ -154,6 +202,8 @@ static void floppy_keeps_contacts(const struct network *w) {
       below += sqrt(s) < b[l] * sqrt(all) * (1.0 - 1e-8);
     }
     assert_int_equal(below, w->stable / 2);
+    assert_true(fabs(ss[l] * bend(w, u, 1e-4 / sqrt(all)) / w->force[l] - 1.0) < 1e-4); /* the least diameter is at s_star */
+    if (check_next) assert_true(fabs(sp[l] / next_contact(w, u, -w->force[l] / fs) - 1.0) < 1e-6);
   }
   free(u), free(b), free(sp), free(ss), free(wt), free(st);
 }
@@ -252,7 +302,7 @@ static void small_packings(void **state) {
     struct network w = open_network(crunched(dim, dim == 4 ? 150 : 80, dim == 2 ? 0.4 : dim == 3 ? 0.2 : 0.1, dim == 2, &report));
     assert_int_equal(report.excess_contacts, 0);
     forces_from_positions(&w);
-    floppy_keeps_contacts(&w);
+    floppy_keeps_contacts(&w, 1);
     moduli_follow_from_forces(&w);
     spectrum_identities(&w);
     close_network(&w);
@@ -266,7 +316,7 @@ static void mari_kurchan(void **state) {
   (void)state;
   assert_int_equal(report.excess_contacts, 0);
   forces_from_positions(&w);
-  floppy_keeps_contacts(&w);
+  floppy_keeps_contacts(&w, 0); /* shifted pairs: no images to go through */
   spectrum_identities(&w);
   close_network(&w);
 }

@@ -222,10 +222,10 @@ class Methods:
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
         """The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-        weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
-        next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
-        stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
-        Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
+        weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
+        order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
+        are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c <f> s_plus) with c = sigma B / (N <f>). Arrays may be
+        NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
         return self.call('floppy_modes', progress=progress)
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:

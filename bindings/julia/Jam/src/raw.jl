@@ -1087,10 +1087,10 @@ end
 
 """
 The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-weight (n_c), W = f / median |dr_i|, force per displacement far away; s_plus (n_c) = opening at which to first order the
-next contact forms; s_star (n_c) = f / sum_k f_k |dr_perp|^2 / r_k, the opening of least diameter to second order;
-stability (n_c) = s_star / s_plus, the stability index. Arrays may be NULL with length 0.
-Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
+order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
+are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c <f> s_plus) with c = sigma B / (N <f>). Arrays may be
+NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
 """
 function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, s_star_len, stability, stability_len, needed)
     return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(median), median_len, _ptr(weight), weight_len, _ptr(s_plus), s_plus_len, _ptr(s_star), s_star_len, _ptr(stability), stability_len, _ref(Csize_t, needed))

@@ -1319,10 +1319,10 @@ module jam
 
     ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
     ! Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
-    ! null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several
-    ! states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
-    ! forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
-    ! JAM_E_BUSY. Threads: alone. @since 0.1
+    ! null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one state of self-stress,
+    ! more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several states of self-stress: the
+    ! non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces, or no contacts). Errors: JAM_E_NULL,
+    ! JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)
       import
@@ -1547,7 +1547,7 @@ module jam
     ! The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
     ! weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
     ! order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
-    ! are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c <f> s_plus) with c = sigma B / (N <f>). Arrays may be
+    ! are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F). Arrays may be
     ! NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
     function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, &
       s_star_len, stability, stability_len, needed) &

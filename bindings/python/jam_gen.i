@@ -358,10 +358,10 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_geometry_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
 Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
-null vector of S^T. report may be NULL. Status: JAM_OK; JAM_AMBIGUOUS (kept; no clear jump: see second_*, or several
-states of self-stress: the non-negative force of least norm is kept); JAM_NOT_JAMMED (kept; no balance of repulsive
-forces, or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY,
-JAM_E_BUSY. Threads: alone. @since 0.1"
+null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one state of self-stress,
+more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several states of self-stress: the
+non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces, or no contacts). Errors: JAM_E_NULL,
+JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_contact_candidates "Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
 enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
 gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
@@ -399,7 +399,7 @@ common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Ne
 %feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
 weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
 order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
-are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c <f> s_plus) with c = sigma B / (N <f>). Arrays may be
+are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F). Arrays may be
 NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.

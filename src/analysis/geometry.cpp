@@ -207,7 +207,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   r.resolution = gap_resolution(p);
   r.tolerance = o.tolerance;
   r.second_contacts = -1;
-  bool clear = true;
+  bool clear = true, wide = false;
+  int64_t second_excess = 0;
   if (o.tolerance > 0.0) {
     out.network = network_of(p, g, o.tolerance);
   } else {
@@ -219,6 +220,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
       if (chosen) {
         second = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());
+        second_excess = excess_of(net, p.dim);
         r.second_tolerance = std::sqrt(jump.below * jump.above);
         break;
       }
@@ -229,7 +231,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     }
     r.second_jump = second;
     // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
-    clear = chosen && r.jump > 100.0 && r.jump > second * second;
+    wide = chosen && r.jump > 100.0;
+    clear = wide && r.jump > second * second;
   }
   r.gap_below = 0.0;
   r.gap_above = window;
@@ -255,6 +258,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   r.min_force = stress.min_force;
   r.excess_contacts = excess_of(out.network, p.dim);
   r.clusters = count_clusters(graph);
+  // The null space decides between two: rattlers that rest against their cage at a tiny gap make the second network hyperstatic.
+  clear = clear || (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
   if (!stress.positive)
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear)

@@ -104,6 +104,7 @@ def update():
     if library.exists():
         run("abidw", "--exported-interfaces-only", "--no-corpus-path", "--no-comp-dir-path", "--no-show-locs", "--drop-private-types", "--headers-dir",
             root / "include", "--out-file", DUMP, library)
+        DUMP.write_text(DUMP.read_text().replace(f"{root}/", ""))  # where the tree lies is no part of the interface
 
 
 {"symbols": symbols, "constants": constants, "abidiff": abidiff, "update": update}[sys.argv[1]]()

@@ -356,6 +356,85 @@ static void unclear_jump(void **state) {
   unclear_jump_of(0.02); /* one jump stands out, but by less than two decades */
 }
 
+/* Three disks that touch each other: places relative to the first, and numbers; 0 when there are none. */
+static int touching_three(const struct network *w, double place[3][2], int32_t who[3]) {
+  int64_t k, l, m;
+  int c;
+  for (k = 0; k < w->contacts; ++k)
+    for (l = 0; l < w->contacts; ++l) {
+      if (l == k || w->pair[2 * l] != w->pair[2 * k]) continue;
+      for (m = 0; m < w->contacts; ++m) {
+        const int32_t a = w->pair[2 * m], b = w->pair[2 * m + 1], p = w->pair[2 * k + 1], q = w->pair[2 * l + 1];
+        if (!((a == p && b == q) || (a == q && b == p))) continue;
+        who[0] = w->pair[2 * k], who[1] = p, who[2] = q;
+        for (c = 0; c < 2; ++c) {
+          place[0][c] = 0.0;
+          place[1][c] = -sigma(w, k) * w->normal[2 * k + c];
+          place[2][c] = -sigma(w, l) * w->normal[2 * l + c];
+        }
+        return 1;
+      }
+    }
+  return 0;
+}
+
+/* The disk in the hole between three, at the same relative gap from each: Newton's method for its place and radius. */
+static void fill_hole(double place[3][2], const double *radius, double gap, double *p, double *r) {
+  int it, a, c;
+  p[0] = (place[1][0] + place[2][0]) / 3.0, p[1] = (place[1][1] + place[2][1]) / 3.0;
+  *r = 0.2 * radius[0];
+  for (it = 0; it < 50; ++it) {
+    double j[3][4], det;
+    for (a = 0; a < 3; ++a) {
+      const double x = p[0] - place[a][0], y = p[1] - place[a][1], l = sqrt(x * x + y * y);
+      j[a][0] = x / l, j[a][1] = y / l, j[a][2] = -(1.0 + gap), j[a][3] = (1.0 + gap) * (*r + radius[a]) - l;
+    }
+    for (c = 0; c < 3; ++c) /* elimination: the matrix is far from singular inside the triangle */
+      for (a = 0; a < 3; ++a)
+        if (a != c) {
+          int q;
+          det = j[a][c] / j[c][c];
+          for (q = c; q < 4; ++q) j[a][q] -= det * j[c][q];
+        }
+    p[0] += j[0][3] / j[0][0], p[1] += j[1][3] / j[1][1], *r += j[2][3] / j[2][2];
+  }
+}
+
+/* A rattler that all but touches its cage makes a second candidate of a contact more than isostatic: the null space tells that the
+ * first one is the network, although the second jump is nearly as wide. */
+static void rattler_against_its_cage(void **state) {
+  jam_report report;
+  struct network w = open_network(crunched(2, 80, 0.4, 1, &report));
+  jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
+  jam_create_options o;
+  jam_system *s = NULL;
+  double place[3][2], radius[3], p[2], r, x[162], d[81];
+  const double *old;
+  int32_t who[3] = {0, 0, 0};
+  size_t m;
+  int k;
+  (void)state;
+  assert_int_equal(report.excess_contacts, 0);
+  assert_true(touching_three(&w, place, who));
+  for (k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
+  fill_hole(place, radius, 4e-9, p, &r);
+  assert_true(r > 0.0 && r < radius[0]);
+  assert_int_equal(jam_positions_view(w.sys, &old, &m), JAM_OK);
+  for (k = 0; k < 160; ++k) x[k] = old[k];
+  for (k = 0; k < 80; ++k) d[k] = w.diameter[k];
+  for (k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];
+  d[80] = 2.0 * r;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = 2, o.n = 81;
+  assert_int_equal(jam_create(&o, x, 162, d, 81, &s), JAM_OK);
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);
+  assert_int_equal(g.contacts, report.contacts);
+  assert_int_equal(g.second_contacts, report.contacts + 3);
+  assert_true(g.self_stresses == 1 && g.jump < g.second_jump * g.second_jump);
+  jam_destroy(s);
+  close_network(&w);
+}
+
 static void compares(void **state) {
   jam_report report;
   jam_system *a = crunched(3, 60, 0.2, 0, &report), *b = NULL;
@@ -396,6 +475,7 @@ static void shared_packing(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(mari_kurchan), cmocka_unit_test(unclear_jump), cmocka_unit_test(compares), cmocka_unit_test(shared_packing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(mari_kurchan), cmocka_unit_test(unclear_jump), cmocka_unit_test(rattler_against_its_cage),
+                                     cmocka_unit_test(compares), cmocka_unit_test(shared_packing)};
   return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
 }

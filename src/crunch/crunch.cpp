@@ -21,6 +21,8 @@ constexpr double already_closed = 1e-11;
 constexpr double strides = 3e-3, nearly_there = 1e-2;
 // Step bound of the last LPs, mean diameters.
 constexpr double narrowest = 1e-6;
+// LPs without a gain five times below all before, after which the barrier path is asked.
+constexpr int patience = 3, most_returns = 4;
 
 class Chain {
  public:
@@ -41,7 +43,10 @@ class Chain {
       bound_ = first_bound(), last_gain_ = 1.0;
       if (out_.report.stop_reason == JAM_STOP_NONE && o_.method == JAM_CRUNCH_RELINEARISE) approach();
       do {
-        while (out_.report.stop_reason == JAM_STOP_NONE) one_lp();
+        while (out_.report.stop_reason == JAM_STOP_NONE) {
+          one_lp();
+          if (creeping() && out_.report.stop_reason == JAM_STOP_NONE) follow_path();
+        }
       } while (wants_another_lp());
       finish();
     } catch (const Error &e) {
@@ -67,11 +72,21 @@ class Chain {
     if (out_.report.stop_reason == JAM_STOP_NONE && out_.report.max_step > nearly_there) follow_path();
   }
 
+  // A saddle: gains no longer fall, each LP goes a little farther than the last along a mode that buckles. The barrier path, at
+  // the scale of those steps, gets off it in fewer factorisations.
+  bool creeping() {
+    if (o_.method != JAM_CRUNCH_RELINEARISE || out_.report.max_step < narrowest) return false;
+    if (out_.report.gain < 0.2 * lowest_gain_) lowest_gain_ = out_.report.gain, slow_lps_ = 0;
+    else ++slow_lps_;
+    return slow_lps_ >= patience && returns_++ < most_returns;
+  }
+
   // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
   void follow_path() {
     RelineariseControl control;
     // Gaps to be gained further on: a contact across a step of length l opens by l^2.
     control.room = std::max(0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step);
+    control.target = std::min(control.target, 0.01 * control.room);
     control.threads = o_.threads;
     control.wall_time = o_.wall_time;
     control.on_step = [this](double gap, size_t pairs) { path_step(gap, pairs); };
@@ -82,7 +97,8 @@ class Chain {
     monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
                  path.factorisations, packing_fraction(out_.packing));
     bound_ = first_bound();
-    if (path.reached && o_.step_bound == 0.0) bound_ = 1e-3;
+    if (path.reached && o_.step_bound == 0.0) bound_ = std::min(1e-3, std::max(10.0 * std::sqrt(path.gap), 10.0 * narrowest));
+    lowest_gain_ = std::numeric_limits<double>::infinity(), slow_lps_ = 0;
     if (path.reached) last_gain_ = path.gap;
   }
 
@@ -196,8 +212,8 @@ class Chain {
     std::vector<double> moved = answer_.s;
     for (double &s : moved) s *= alpha * unit_;
     HistoryRow &row = history_.moved(out_.packing, JAM_STEP_LP, monitor_.seconds(), system_.factorisations, moved.data());
-    int64_t held = 0;
-    for (const double s : answer_.s) held += std::fabs(s) > 0.999 * lp_.bound;
+    held_ = 0;
+    for (const double s : answer_.s) held_ += std::fabs(s) > 0.999 * lp_.bound;
     const double contacts = static_cast<double>(network_.active.size()), stable = static_cast<double>(network_.stable_count);
     row[JAM_HISTORY_GAIN] = std::expm1(0.5 * std::log1p(alpha * answer_.g));
     row[JAM_HISTORY_CONTACTS] = contacts;
@@ -206,7 +222,7 @@ class Chain {
     row[JAM_HISTORY_ITERATIONS] = answer_.iterations;
     row[JAM_HISTORY_DUALITY_GAP] = out_.report.duality_gap;
     row[JAM_HISTORY_PAIRS] = static_cast<double>(pairs_.size());
-    row[JAM_HISTORY_HELD] = static_cast<double>(held);
+    row[JAM_HISTORY_HELD] = static_cast<double>(held_);
     row[JAM_HISTORY_PART] = alpha;
     row[JAM_HISTORY_BOUND] = lp_.bound;
   }
@@ -222,9 +238,10 @@ class Chain {
     // Rounding floor: the gain is below tolerance and the steps do not get there.
     if (gain <= o_.gain_tolerance) ++idle_;
     if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+    // An LP that ended early leaves gaps of a part of its gain. Where only the bound ends a gain that does not fall, it is too tight.
+    const double wider = held_ > 0 && gain > 0.2 * last_gain_ ? 5.0 * lp_.bound : 0.0;
+    if (o_.step_bound == 0.0) bound_ = std::min(std::max({5.0 * step, gain, narrowest, wider}), alpha < 1.0 ? 0.7 * bound_ : 0.5);
     last_gain_ = gain;
-    // An LP that ended early leaves gaps of a part of its gain.
-    if (o_.step_bound == 0.0) bound_ = std::min(std::max({5.0 * step, gain, narrowest}), alpha < 1.0 ? 0.7 * bound_ : 0.5);
   }
 
   void stop(jam_stop_reason reason, jam_status status) { out_.report.stop_reason = reason, out_.status = status; }
@@ -301,7 +318,9 @@ class Chain {
   LpSolution answer_;
   Network network_;
   double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
-  double last_gain_ = 1.0;
+  double last_gain_ = 1.0, lowest_gain_ = std::numeric_limits<double>::infinity();
+  int64_t held_ = 0;  // displacements that the last LP's bound ended
+  int slow_lps_ = 0, returns_ = 0;
   int idle_ = 0;
   bool retried_ = false;  // an LP more because polish refused
   bool kept_ = false;  // the last LP gave an answer that passed the checks

@@ -12,8 +12,7 @@
 namespace jam {
 
 struct RelineariseControl {
-  double target = 1e-7;      // stop when the duality gap, in units of Gamma and for up to 1024 spheres, is below this; it grows
-                             // with the root of their number. A few LPs finish faster
+  double target = 1e-10;     // stop when the duality gap, in units of Gamma, is below this: a few LPs decide the rest
   double room = 0.0;         // the closest pair is opened to this relative gap at least
   int max_factorisations = 600;
   int threads = 1;

@@ -45,6 +45,11 @@ struct LpCheck {
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit);
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
+// out[k] = a_k . (s_i - s_j)
+void rows_times(const PackingLp &lp, const double *s, double *out);
+// out = sum_k y_k a_k on i, minus on j; (n, dim)
+void transpose_times(const PackingLp &lp, const double *y, double *out);
+
 // Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL, can
 // cancel it between two pivots.
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, const Monitor *monitor = nullptr);

@@ -122,7 +122,7 @@ PolishEnd try_polish(const Packing &p, const ContactNetwork &net) {
 void polish_refuses(void **) {
   jam_crunch_options o = default_crunch_options();
   o.polish = 0;
-  const CrunchResult r = run(start(60, 3, 0.3, 4), o);
+  const CrunchResult r = run(start(60, 3, 0.3, 6), o);
   assert_true(r.report.jammed && r.report.excess_contacts == 0);
   assert_true(try_polish(r.packing, r.contacts) == PolishEnd::done);
   ContactNetwork net = r.contacts;
@@ -155,7 +155,7 @@ void polish_refuses(void **) {
 // Inside a crunch a refusal is followed by one more LP. When its network is refused too, its answer stays and the log says so;
 // when that one passes, the result is as good as any.
 void one_more_lp(void **) {
-  const Packing p = start(60, 3, 0.3, 4);
+  const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options(), bare = o;
   bare.polish = 0;
   const CrunchResult plain = run(p, bare);

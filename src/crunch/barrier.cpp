@@ -1,0 +1,108 @@
+#include "crunch/barrier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jam {
+namespace {
+
+constexpr double longest_alpha = 4.0, to_wall = 0.995;
+
+}  // namespace
+
+bool Barrier::measure(const Packing &p) {
+  lp = make_lp(p, pairs, unit);
+  sigma2_.resize(lp.rows());
+  for (size_t k = 0; k < lp.rows(); ++k) {
+    const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]) / unit;
+    sigma2_[k] = sigma * sigma;
+    if (!(lp.c[k] > 0.0)) return false;
+  }
+  return true;
+}
+
+double Barrier::duality_gap() const {
+  double sum = 0.0;
+  for (size_t k = 0; k < y.size(); ++k) sum += y[k] * lp.c[k];
+  return sum;
+}
+
+double Barrier::decrement(const BarrierStep &x) const {
+  double slope = -x.g / mu;
+  for (size_t k = 0; k < y.size(); ++k) slope -= x.w[k] / lp.c[k] - x.g;
+  return -slope;
+}
+
+double Barrier::longest_move(const BarrierStep &x) const {
+  double largest = 1e-300;
+  for (size_t k = 0; k < x.s.size(); k += lp.dim) {
+    double s2 = 0.0;
+    for (int c = 0; c < lp.dim; ++c) s2 += x.s[k + c] * x.s[k + c];
+    if (!(s2 <= largest)) largest = s2;  // lets a NaN through
+  }
+  return std::sqrt(largest);
+}
+
+double Barrier::longest_dual(const BarrierStep &x) const {
+  double alpha = 1.0;
+  for (size_t k = 0; k < y.size(); ++k)
+    if (x.y[k] < 0.0) alpha = std::min(alpha, -to_wall * y[k] / x.y[k]);
+  return alpha;
+}
+
+void Barrier::bend(const BarrierStep &x) {
+  const int d = lp.dim;
+  bend_.resize(y.size());
+  for (size_t k = 0; k < y.size(); ++k) {
+    const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
+    double s2 = 0.0;
+    for (int c = 0; c < d; ++c) s2 += (x.s[i + c] - x.s[j + c]) * (x.s[i + c] - x.s[j + c]);
+    bend_[k] = s2 / sigma2_[k];
+  }
+}
+
+// Longest alpha at which every true gap is still positive.
+double Barrier::wall(const BarrierStep &x) const {
+  double alpha = longest_alpha;
+  for (size_t k = 0; k < y.size(); ++k) {
+    const double c = lp.c[k], b = x.w[k], disc = b * b - 4.0 * bend_[k] * c;
+    if (b < 0.0 && disc > 0.0) alpha = std::min(alpha, 2.0 * c / (-b + std::sqrt(disc)));
+  }
+  return alpha;
+}
+
+double Barrier::merit(const BarrierStep &x, double alpha) const {
+  const double g = alpha * x.g;
+  if (!(1.0 + g > 0.0)) return std::numeric_limits<double>::infinity();
+  double sum = 0.0, product = 1.0;  // one logarithm for many factors
+  for (size_t k = 0; k < y.size(); ++k) {
+    const double ratio = gap_after(x, k, alpha) / ((1.0 + g) * lp.c[k]);
+    if (!(ratio > 0.0)) return std::numeric_limits<double>::infinity();
+    product *= ratio;
+    if (!(product > 1e-100 && product < 1e100)) sum += std::log(product), product = 1.0;
+  }
+  return -std::log(1.0 + g) - mu * (sum + std::log(product));
+}
+
+// Golden sections. The whole Newton step if that is about as good.
+Barrier::Best Barrier::search(const BarrierStep &x, double trust) {
+  bend(x);
+  const double most = to_wall * std::min(wall(x), trust / longest_move(x)), part = 0.6180339887498949;
+  double low = 0.0, high = most, a = high - part * (high - low), b = low + part * (high - low);
+  double at_a = merit(x, a), at_b = merit(x, b);
+  for (int k = 0; k < 14; ++k) {
+    if (at_a <= at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - part * (high - low), at_a = merit(x, a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + part * (high - low), at_b = merit(x, b);
+    }
+  }
+  Best best = at_a <= at_b ? Best{a, at_a} : Best{b, at_b};
+  if (std::fabs(best.alpha - 1.0) < 0.1 && most > 1.0) best = {1.0, merit(x, 1.0)};
+  return best;
+}
+
+}  // namespace jam

@@ -1,0 +1,51 @@
+// The barrier problem at one mu: maximise log Gamma + mu * sum_k log c_k over positions and the common factor of the
+// diameters, with the true gaps c_k = |r_k|^2 / (Gamma sigma_k^2) - 1 (a free volume in the sense of cell theory).
+#pragma once
+#include <vector>
+
+#include "core/packing.hpp"
+#include "core/pairs.hpp"
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+// Change of positions s (mean diameters), of Gamma g, and with it of the linearised rows w and the multipliers y.
+struct BarrierStep {
+  std::vector<double> s, w, y;
+  double g = 0.0;
+};
+
+class Barrier {
+ public:
+  PairList pairs;
+  PackingLp lp;              // rows at the present positions
+  std::vector<double> y;     // multipliers of the rows
+  double unit = 1.0, mu = 0.0;
+
+  // Rows at the true distances of p. False when a gap is no longer positive.
+  bool measure(const Packing &p);
+  double duality_gap() const;
+  // Minus the slope of the barrier function along x over mu: the squared Newton decrement.
+  double decrement(const BarrierStep &x) const;
+  // Largest displacement of a sphere.
+  double longest_move(const BarrierStep &x) const;
+  double longest_dual(const BarrierStep &x) const;
+  // Row k after alpha x, with the bending that the linear row leaves out: c + alpha w + alpha^2 |s_i - s_j|^2 / sigma^2.
+  double gap_after(const BarrierStep &x, size_t k, double alpha) const { return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]); }
+
+  struct Best {
+    double alpha, merit;
+  };
+  // The best step along x, no sphere farther than `trust`: a few passes over the rows, where a factorisation costs hundreds.
+  // `merit` is by how much it makes the negative of the barrier function larger (below zero: better).
+  Best search(const BarrierStep &x, double trust);
+
+ private:
+  void bend(const BarrierStep &x);
+  double wall(const BarrierStep &x) const;
+  double merit(const BarrierStep &x, double alpha) const;
+
+  std::vector<double> bend_, sigma2_;
+};
+
+}  // namespace jam

@@ -67,7 +67,7 @@ def bins_of(samples, spheres, floor):
     low = lower_end(np.sort(np.concatenate(samples)), spheres, floor)
     edges = 10.0 ** (np.arange(-int(np.ceil(-np.log10(low) * PER_DECADE)), 1) / PER_DECADE)
     edges[0] = low
-    if len(edges) < LEAST_BINS + 3:  # three upper ends to average over
+    if len(edges) < LEAST_BINS + 2:  # two upper ends to average over
         raise ValueError(f"finite size ends at {low:.2g} only, which leaves no range below 1: larger packings are needed")
     return edges, np.array([np.histogram(s, edges)[0] for s in samples])
 

@@ -408,7 +408,7 @@ static void rattler_against_its_cage(void **state) {
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   jam_create_options o;
   jam_system *s = NULL;
-  double place[3][2], radius[3], p[2], r, x[162], d[81];
+  double place[3][2], radius[3], p[2], r, x[162], d[81], gap, digits, smallest = INFINITY;
   const double *old;
   int32_t who[3] = {0, 0, 0};
   size_t m;
@@ -417,7 +417,15 @@ static void rattler_against_its_cage(void **state) {
   assert_int_equal(report.excess_contacts, 0);
   assert_true(touching_three(&w, place, who));
   for (k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
-  fill_hole(place, radius, 4e-9, p, &r);
+  for (k = 0; k < 80; ++k) smallest = fmin(smallest, w.diameter[k]);
+  /* The wider jump is to be that below the cage, gap / digits, and less than the square of the next, above / gap. */
+  assert_int_equal(jam_copy(w.sys, &s), JAM_OK);
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);
+  jam_destroy(s);
+  fill_hole(place, radius, 0.0, p, &r);
+  digits = fmax(g.resolution * smallest / (2.0 * r), g.gap_below);
+  gap = sqrt(sqrt(digits * g.gap_above) * cbrt(digits * g.gap_above * g.gap_above));
+  fill_hole(place, radius, gap, p, &r);
   assert_true(r > 0.0 && r < radius[0]);
   assert_int_equal(jam_positions_view(w.sys, &old, &m), JAM_OK);
   for (k = 0; k < 160; ++k) x[k] = old[k];

@@ -397,7 +397,7 @@ module jam
     integer(c_int32_t) :: stop_reason = 0
     ! jam_lp_solver that gave the last LP
     integer(c_int32_t) :: lp_solver = 0
-    ! jam_crunch_method
+    ! jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it
     integer(c_int32_t) :: method = 0
     ! 0
     integer(c_int32_t) :: reserved = 0

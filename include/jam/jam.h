@@ -494,7 +494,7 @@ typedef struct jam_report {
   int32_t jammed;           /* 1: converged to a rigid network that carries balanced forces */
   int32_t stop_reason;      /* jam_stop_reason */
   int32_t lp_solver;        /* jam_lp_solver that gave the last LP */
-  int32_t method;           /* jam_crunch_method */
+  int32_t method;           /* jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it */
   int32_t reserved;         /* 0 */
   double packing_fraction;  /* phi_J when jammed */
   double diameter_mean;     /* unit of box */

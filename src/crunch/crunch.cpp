@@ -23,6 +23,8 @@ constexpr double strides = 3e-3, nearly_there = 1e-2;
 constexpr double narrowest = 1e-6;
 // LPs without a gain five times below all before, after which the barrier path is asked.
 constexpr int patience = 3, most_returns = 4;
+// Gaps that the path opens to at least: two digits above where rounding of coordinates blurs the barrier.
+constexpr double least_room = 1e-10;
 
 class Chain {
  public:
@@ -61,8 +63,12 @@ class Chain {
   }
 
  private:
-  // The free spacing of a dilute start, down to a tenth of a diameter near jamming.
-  double first_bound() const { return o_.step_bound > 0.0 ? o_.step_bound : 0.1 + 0.6 * free_spacing(out_.packing); }
+  // The free spacing of a dilute start, down to a tenth of a diameter near jamming and less where gaps h are closed: floppy
+  // motion goes some tens of sqrt(h).
+  double first_bound() const {
+    if (o_.step_bound > 0.0) return o_.step_bound;
+    return std::min(0.1 + 0.6 * free_spacing(out_.packing), std::max(1e-3, 100.0 * std::sqrt(contact_gap(out_.packing))));
+  }
 
   // LPs take a dilute start in a few long strides, and finish at once what is all but jammed: short steps tell. Between
   // the two lies the curved valley that the barrier path is for.
@@ -83,9 +89,10 @@ class Chain {
 
   // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
   void follow_path() {
+    walked_ = true;
     RelineariseControl control;
     // Gaps to be gained further on: a contact across a step of length l opens by l^2.
-    control.room = std::max(0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step);
+    control.room = std::max({0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step, least_room});
     control.target = std::min(control.target, 0.01 * control.room);
     control.threads = o_.threads;
     control.wall_time = o_.wall_time;
@@ -97,7 +104,7 @@ class Chain {
     monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
                  path.factorisations, packing_fraction(out_.packing));
     bound_ = first_bound();
-    if (path.reached && o_.step_bound == 0.0) bound_ = std::min(1e-3, std::max(10.0 * std::sqrt(path.gap), 10.0 * narrowest));
+    if (path.reached && o_.step_bound == 0.0) bound_ = std::min(1e-3, std::max(10.0 * std::sqrt(path.gap), 100.0 * narrowest));
     lowest_gain_ = std::numeric_limits<double>::infinity(), slow_lps_ = 0;
     if (path.reached) last_gain_ = path.gap;
   }
@@ -238,8 +245,10 @@ class Chain {
     // Rounding floor: the gain is below tolerance and the steps do not get there.
     if (gain <= o_.gain_tolerance) ++idle_;
     if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
-    // An LP that ended early leaves gaps of a part of its gain. Where only the bound ends a gain that does not fall, it is too tight.
-    const double wider = held_ > 0 && gain > 0.2 * last_gain_ ? 5.0 * lp_.bound : 0.0;
+    // An LP that ended early leaves gaps of a part of its gain. Where only the bound ends a gain that does not fall, or a floppy mode
+    // that has yet to close a contact, it is too tight.
+    const bool floppy = network_.stable_count > 0 && static_cast<int64_t>(network_.active.size()) <= lp_.dim * (network_.stable_count - 1);
+    const double wider = held_ > 0 && (floppy || gain > 0.2 * last_gain_) ? 5.0 * lp_.bound : 0.0;
     if (o_.step_bound == 0.0) bound_ = std::min(std::max({5.0 * step, gain, narrowest, wider}), alpha < 1.0 ? 0.7 * bound_ : 0.5);
     last_gain_ = gain;
   }
@@ -262,7 +271,7 @@ class Chain {
 
   void finish() {
     jam_report &r = out_.report;
-    r.method = o_.method;
+    r.method = walked_ ? JAM_CRUNCH_RELINEARISE : JAM_CRUNCH_CHAIN;
     certify(out_.packing, out_.contacts, r);
     r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < (o_.polish ? 1e-6 : 1e-5) && r.min_force > 0.0;
     if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
@@ -284,7 +293,7 @@ class Chain {
     } catch (const std::bad_alloc &) {
       out_.report.packing_fraction = packing_fraction(out_.packing);
     }
-    out_.report.method = o_.method;
+    out_.report.method = walked_ ? JAM_CRUNCH_RELINEARISE : JAM_CRUNCH_CHAIN;
     out_.report.factorisations = system_.factorisations;
     out_.report.seconds = monitor_.seconds();
   }
@@ -323,6 +332,7 @@ class Chain {
   int slow_lps_ = 0, returns_ = 0;
   int idle_ = 0;
   bool retried_ = false;  // an LP more because polish refused
+  bool walked_ = false;   // the barrier path was followed: another quench than LPs alone
   bool kept_ = false;  // the last LP gave an answer that passed the checks
 };
 

@@ -133,8 +133,8 @@ def draw(data, picture):
                 for part, r in enumerate(sorted(cell, key=lambda r: order.index(r["kind"]))):
                     axis.add_patch(plt.Rectangle((b + part / len(cell), a), 1 / len(cell), 1, color=KINDS[r["kind"]], lw=0))
                 notes = [" ".join(sorted({r["reason"].replace("_", " ")[:14] for r in cell if r["kind"] in ("jammed hyperstatic", "stopped", "wrong")}))]
-                if any(r.get("used", r.get("method")) != r.get("method", r.get("used")) for r in cell):
-                    notes.append("by chain")
+                if name == "density" and any(r.get("used", r["method"]) != r["method"] for r in cell):
+                    notes.append("LPs alone" if all(r.get("used") == "chain" for r in cell) else "some by LPs")
                 work = [r["factorisations"] for r in cell if "factorisations" in r]
                 notes += [f"{np.median(work):.0f}"] if work else []
                 axis.text(b + 0.5, a + 0.5, "\n".join(n for n in notes if n), ha="center", va="center", fontsize=6)

@@ -151,6 +151,7 @@ static void steps_add_up(int dim, int32_t method) {
   /* LPs stride through the dilute start, then the path if that is the method, LPs again and polish. */
   for (k = 0; k < rows; ++k) paths += phase[k] == JAM_STEP_PATH;
   assert_true(phase[0] == JAM_STEP_LP && (paths > 0) == (method == JAM_CRUNCH_RELINEARISE) && phase[rows - 1] == JAM_STEP_POLISH);
+  assert_int_equal(r.method, method); /* the quench that was used */
   assert_int_equal(lps, r.lp_solves);
   assert_int_equal(lps, w.lps);
 

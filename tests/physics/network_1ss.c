@@ -404,7 +404,7 @@ static void fill_hole(double place[3][2], const double *radius, double gap, doub
  * first one is the network, although the second jump is nearly as wide. */
 static void rattler_against_its_cage(void **state) {
   jam_report report;
-  struct network w = open_network(crunched(2, 80, 0.4, 1, &report));
+  struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   jam_create_options o;
   jam_system *s = NULL;

@@ -305,7 +305,7 @@ class Report:
     jammed: 1: converged to a rigid network that carries balanced forces
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
-    method: jam_crunch_method
+    method: jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out

@@ -329,7 +329,7 @@ mutable struct jam_report
     jammed::Int32  # 1: converged to a rigid network that carries balanced forces
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
-    method::Int32  # jam_crunch_method
+    method::Int32  # jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it
     reserved::Int32  # 0
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box

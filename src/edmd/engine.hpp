@@ -11,7 +11,8 @@
 //
 // Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes this
 // list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) + shell.
-// They are found through cells, or in the Mari-Kurchan model, where partners are anywhere, through wider outer lists of the
+// In dilute systems there are no lists: spheres meet those of the cells around their own, which they leave by an event.
+// Lists are made through cells too, or in the Mari-Kurchan model, where partners are anywhere, through wider outer lists of the
 // same kind, whose own making looks at all spheres (engine_quenched.hpp).
 // Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
 #pragma once
@@ -55,6 +56,7 @@ class EngineBase {
   virtual double growth() const = 0;             // d<sigma>/dt now
   virtual double elapsed() const = 0;            // since construction
   virtual bool with_images() const = 0;
+  virtual bool cells_alone() const = 0;  // no lists now
   // From now on (or, with nullptr, no more) collisions and places of lists are told to it. Not part of the archive.
   virtual void observe(Observer *observer) = 0;
   virtual void displacements(std::vector<double> &out) const = 0;  // user's order, unit box, since observe()
@@ -72,6 +74,7 @@ struct EngineOptions {
   double target_fraction = never;  // stop exactly there
   int64_t heap_only = 0;           // 1: one heap of all events instead of the calendar, for comparison
   int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
+  int64_t cells = 0;               // 1: cells alone wherever they hold, -1: lists always, 0: what is faster at this density
 };
 
 // Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
@@ -92,6 +95,7 @@ class Engine final : public EngineBase {
   double growth() const override { return rate_ * 2.0 * mean_radius() * unit; }
   double elapsed() const override { return sums.time + now_; }
   bool with_images() const override { return Shift; }
+  bool cells_alone() const override { return cells_alone_ != 0; }
   void observe(Observer *observer) override;
   void displacements(std::vector<double> &out) const override;
   void archive(Archive &a) override;
@@ -129,6 +133,7 @@ class Engine final : public EngineBase {
   double exact_gap(const Body &a, const Body &b, const int64_t *offset) const;
   void note_overlap(const Body &a, const Body &b, const int64_t *offset);
   double exit_time(int32_t i) const;
+  void meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best, int32_t &partner);
   void predict(int32_t i);
   void collide(int32_t i, int32_t k);
   void separation(int32_t i, int32_t k, double *r) const;
@@ -158,10 +163,20 @@ class Engine final : public EngineBase {
   void recentre(int32_t i);
   template <class F> void candidates(int32_t i, F &&f) const;
   template <class F> void each_in_cells(int32_t i, F &&f) const;
+  template <class F> void each_neighbour(int32_t i, F &&f) const;
+  void link(int32_t i, size_t cell);
+  void unlink(int32_t i, size_t cell);
+  size_t home(int32_t i) const;
   template <class F> void each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const;
   void append(int32_t i, int32_t k, const int64_t *offset);
   void forget(int32_t i, int32_t k);
   void widen_lists();
+
+  // -- cells alone, engine_cells.hpp
+  bool choose_cells_alone(double sigma);
+  void build_cells_alone();
+  double crossing_time(int32_t i, int *axis) const;
+  void cross(int32_t i);
 
   // -- Mari-Kurchan model: outer lists, engine_quenched.hpp
   struct Outer {
@@ -211,6 +226,8 @@ class Engine final : public EngineBase {
   int64_t cells_ = 0;                   // per side; 0: brute force
   int cell_range_ = 1;
   std::vector<int32_t> cell_first_, cell_next_;
+  std::vector<std::array<int32_t, D>> cell_;  // of each sphere
+  int64_t cells_alone_ = 0;             // 1: no lists; a sphere looks at the cells around its own, leaving which is an event
 
   // outer lists of the Mari-Kurchan model
   std::vector<std::vector<Outer>> outer_;

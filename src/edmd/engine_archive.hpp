@@ -40,6 +40,8 @@ void Engine<D, Shift>::archive(Archive &a) {
   a(cell_range_);
   a(cell_first_);
   a(cell_next_);
+  a(cells_alone_);
+  a(cell_);
   for (int64_t *k : {&exits_, &exits_before_, &collisions_before_, &events_before_, &rebase_at_}) a(*k);
   for (double *x : {&search_cost_, &widest_shell_, &tuned_time_, &time_before_, &bucket_width_, &collision_time_}) a(*x);
   if (quenched_) {
@@ -80,7 +82,7 @@ void Engine<D, Shift>::check_archive() const {
                      std::count(&neighbour_[i * capacity_], &neighbour_[i * capacity_] + neighbours_[i], k));
     }
   }
-  if (cells_ != 0) check_cells();
+  if (cells_ != 0 || cells_alone_ != 0) check_cells();
   if (!quenched_) return;
   Archive::check(outer_centre_.size() == n && outer_reach_.size() == n);
   for (size_t i = 0; i < n; ++i)
@@ -94,12 +96,17 @@ void Engine<D, Shift>::check_archive() const {
 template <int D, bool Shift>
 void Engine<D, Shift>::check_cells() const {
   Archive::check(cells_ > 0 && cells_ < 1 << 20 && cell_range_ >= 1 && cell_range_ <= 3 && cells_ >= 2 * cell_range_ + 1);
+  if (cells_alone_) {
+    Archive::check(cells_alone_ == 1 && !Shift && cells_ >= 5 && cell_range_ == 1 && cell_.size() == static_cast<size_t>(n_));
+    for (const auto &cell : cell_)
+      for (int32_t place : cell) Archive::check(place >= 0 && place < cells_);
+  }
   double total = std::pow(static_cast<double>(cells_), D);
   Archive::check(total == static_cast<double>(cell_first_.size()) && cell_next_.size() == static_cast<size_t>(n_));
   int64_t met = 0;
   for (size_t cell = 0; cell < cell_first_.size(); ++cell)
     for (int32_t i = cell_first_[cell]; i >= 0; i = cell_next_[i]) {
-      Archive::check(i < n_ && ++met <= n_ && cell_of(centre_[i]) == cell);
+      Archive::check(i < n_ && ++met <= n_ && home(i) == cell);
     }
   Archive::check(met == n_);
 }

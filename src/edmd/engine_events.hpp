@@ -36,6 +36,7 @@ void Engine<D, Shift>::note_overlap(const Body &a, const Body &b, const int64_t 
 // When sphere i, which stands at now_, leaves its safe sphere.
 template <int D, bool Shift>
 double Engine<D, Shift>::exit_time(int32_t i) const {
+  if (cells_alone_) return now_ + crossing_time(i, nullptr);
   const Body &b = body_[i];
   double rv = 0.0, vv = 0.0, rr = 0.0;
   for (int c = 0; c < D; ++c) {
@@ -51,6 +52,40 @@ double Engine<D, Shift>::exit_time(int32_t i) const {
   return now_ + (rv > 0.0 ? room / (rv + root) : (root - rv) / vv);
 }
 
+// When sphere bi, which stands at now_, meets k, if that is before `best` and before the event of k.
+template <int D, bool Shift>
+inline void Engine<D, Shift>::meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best, int32_t &partner) {
+  const Body &bk = body_[k];
+  const double dt = now_ - bk.time;
+  double rv = 0.0, vv = 0.0, rr = 0.0;
+  for (int c = 0; c < D; ++c) {
+    const double r = static_cast<double>(difference(bi, bk, c, offset)) - bk.v[c] * dt;
+    const double v = bi.v[c] - bk.v[c];
+    rv += r * v;
+    vv += v * v;
+    rr += r * r;
+  }
+  const double sum = static_cast<double>(bi.radius + bk.radius), sigma = sum * grown, growth = sum * rate_;
+  const double b = rv - sigma * growth, a = vv - growth * growth, sigma2 = sigma * sigma;
+  double gap = rr - sigma2;
+  if (gap < -1e-14 * sigma2) note_overlap(bi, bk, offset);
+  if (b >= 0.0 && a >= 0.0) return;
+  // The root is not earlier than gap / (-2 b) when a > 0.
+  if (a > 0.0 && gap > 1e-9 * sigma2 && gap > -2.0 * b * best) return;
+  if (gap < 1e-3 * sigma2) gap = exact_gap(bi, bk, offset);
+  const double disc = b * b - a * gap;
+  double t;
+  if (b < 0.0) {
+    if (gap <= 0.0) t = 0.0;  // in contact or overlapping, and approaching
+    else if (disc < 0.0) return;
+    else t = gap / (std::sqrt(disc) - b);
+  } else {
+    // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
+    t = disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
+  }
+  if (t < best && now_ + t < calendar_[k].time) best = t, partner = k;
+}
+
 // Earliest event of sphere i, which stands at now_.
 template <int D, bool Shift>
 void Engine<D, Shift>::predict(int32_t i) {
@@ -58,41 +93,8 @@ void Engine<D, Shift>::predict(int32_t i) {
   Event &event = calendar_[i];
   double best = exit_time(i) - now_;
   int32_t partner = -1;
-  const int32_t *list = &neighbour_[static_cast<size_t>(i) * capacity_];
   const double grown = 1.0 + rate_ * now_;
-  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) {
-    const int32_t k = list[e];
-    const Body &bk = body_[k];
-    const int64_t *offset = offset_of(i, e);
-    const double dt = now_ - bk.time;
-    double rv = 0.0, vv = 0.0, rr = 0.0;
-    for (int c = 0; c < D; ++c) {
-      const double r = static_cast<double>(difference(bi, bk, c, offset)) - bk.v[c] * dt;
-      const double v = bi.v[c] - bk.v[c];
-      rv += r * v;
-      vv += v * v;
-      rr += r * r;
-    }
-    const double sum = static_cast<double>(bi.radius + bk.radius), sigma = sum * grown, growth = sum * rate_;
-    const double b = rv - sigma * growth, a = vv - growth * growth, sigma2 = sigma * sigma;
-    double gap = rr - sigma2;
-    if (gap < -1e-14 * sigma2) note_overlap(bi, bk, offset);
-    if (b >= 0.0 && a >= 0.0) continue;
-    // The root is not earlier than gap / (-2 b) when a > 0.
-    if (a > 0.0 && gap > 1e-9 * sigma2 && gap > -2.0 * b * best) continue;
-    if (gap < 1e-3 * sigma2) gap = exact_gap(bi, bk, offset);
-    const double disc = b * b - a * gap;
-    double t;
-    if (b < 0.0) {
-      if (gap <= 0.0) t = 0.0;  // in contact or overlapping, and approaching
-      else if (disc < 0.0) continue;
-      else t = gap / (std::sqrt(disc) - b);
-    } else {
-      // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
-      t = disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
-    }
-    if (t < best && now_ + t < calendar_[k].time) best = t, partner = k;
-  }
+  each_neighbour(i, [&](int32_t k, const int64_t *offset) { meet(bi, k, offset, grown, best, partner); });
   event.time = now_ + best;
   event.partner = partner;
   if (partner >= 0) event.partner_count = calendar_[partner].count;

@@ -44,7 +44,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     mass_.swap(sorted);
   }
   const double fraction = packing_fraction();
-  shell_ = mk ? 0.2 : std::min(0.3, std::max(0.06, 0.4 - 0.6 * fraction));
+  shell_ = mk ? 0.2 : std::min(0.36, std::max(0.06, 0.4 - 0.45 * fraction));
   if (o.growth > 0.0) {
     start_rate(o.growth * scale / (2.0 * mean_radius()));
     double largest = 0.0;
@@ -186,28 +186,6 @@ void Engine<D, Shift>::take_kinetic() {
   twice_kinetic_ = sum;
 }
 
-// A wide shell costs long lists, a narrow one remakes them often. In units of one neighbour looked at, a collision costs
-// 2 (A + L) and the x exits that come with it x (A + L + K + L), K for the search. With L ~ (1 + 2 s)^D and x ~ 1/s the sum
-// is least at the x below. Measured on fluids: A about 25. Returns true when the shell was changed.
-template <int D, bool Shift>
-bool Engine<D, Shift>::tune_shell() {
-  const int64_t made = sums.collisions - collisions_before_, left = exits_ - exits_before_;
-  if (made < 4 * n_ && left < 2 * n_) return false;
-  if (made > 0) collision_time_ = (sums.time - tuned_time_) * n_ / static_cast<double>(made);
-  const double x = static_cast<double>(left) / static_cast<double>(std::max<int64_t>(made, 1));
-  collisions_before_ = sums.collisions;
-  exits_before_ = exits_;
-  tuned_time_ = sums.time;
-  double length = 0.0;
-  for (int32_t m : neighbours_) length += m;
-  length /= n_;
-  const double best = 2.0 * length * 2.0 * D * shell_ / (1.0 + 2.0 * shell_) / (25.0 + 2.0 * length + search_cost_);
-  const double before = shell_;
-  if (x > 1.4 * best) shell_ = std::min(widest_shell_, shell_ * 1.2);
-  if (x < 0.7 * best) shell_ = std::max(smallest_shell, shell_ * 0.8);
-  return shell_ != before;
-}
-
 template <int D, bool Shift>
 void Engine<D, Shift>::thermalise() {
   take_kinetic();
@@ -217,20 +195,19 @@ void Engine<D, Shift>::thermalise() {
 template <int D, bool Shift>
 double Engine<D, Shift>::worst_overlap() const {
   double worst = 0.0;
-  for (int32_t i = 0; i < n_; ++i) {
-    for (int32_t e = 0; e < neighbours_[i]; ++e) {
-      const Body &a = body_[i], &b = body_[neighbour_[static_cast<size_t>(i) * capacity_ + e]];
+  for (int32_t i = 0; i < n_; ++i)
+    each_neighbour(i, [&](int32_t k, const int64_t *offset) {
+      const Body &a = body_[i], &b = body_[k];
       const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
       double r2 = 0.0;
       for (int c = 0; c < D; ++c) {
-        const double r = static_cast<double>(difference(a, b, c, offset_of(i, e))) + a.v[c] * (now_ - a.time) - b.v[c] * (now_ - b.time);
+        const double r = static_cast<double>(difference(a, b, c, offset)) + a.v[c] * (now_ - a.time) - b.v[c] * (now_ - b.time);
         r2 += r * r;
       }
-      if (r2 > sigma * sigma * (1.0 + 1e-6)) continue;
-      const double gap = exact_gap(a, b, offset_of(i, e)) / (sigma * sigma);
+      if (r2 > sigma * sigma * (1.0 + 1e-6)) return;
+      const double gap = exact_gap(a, b, offset) / (sigma * sigma);
       worst = std::max(worst, -gap / (1.0 + std::sqrt(std::max(0.0, 1.0 + gap))));
-    }
-  }
+    });
   return worst;
 }
 

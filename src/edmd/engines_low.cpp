@@ -1,5 +1,6 @@
 // Engines for d = 2, 3, 4, and the order of spheres in memory.
 #include "edmd/engine_archive.hpp"
+#include "edmd/engine_cells.hpp"
 #include "edmd/engine_events.hpp"
 #include "edmd/engine_lists.hpp"
 #include "edmd/engine_quenched.hpp"

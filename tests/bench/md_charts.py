@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Charts of molecular dynamics.
 
-    md_charts.py speed MD_SPEED.json OUT.png     collisions a second against N, one line a packing fraction
+    md_charts.py speed MD_SPEED.json OUT.png     collisions a second against N, and against the packing fraction for
+        lists and for cells alone
     md_charts.py accuracy LIBJAM.so|TABLE.json OUT.png [SECONDS]
         phi_J by crunch against processor time for growth rates and target pressures, N = 256, one seed a point; and the
         deviation from the slowest run. Prints the table as JSON.
@@ -21,20 +22,31 @@ import numpy as np
 
 
 def speed(source, target):
-    rows = json.load(open(source))["nve"]
+    table = json.load(open(source))
+    rows = table["nve"]
+    _, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2))
     for fraction in sorted({r["packing_fraction"] for r in rows}):
         line = [r for r in rows if r["packing_fraction"] == fraction]
         n, rate = [r["n"] for r in line], [r["collisions_per_second"] / 1e6 for r in line]
         low = [r["collisions_per_second"] / 1e6 - r["spread"][0] / 1e6 for r in line]
         high = [r["spread"][1] / 1e6 - r["collisions_per_second"] / 1e6 for r in line]
-        plt.errorbar(n, rate, yerr=[low, high], marker="o", capsize=3, label=f"packing fraction {fraction}")
-    plt.xscale("log")
-    plt.ylim(bottom=0)
-    plt.xlabel("spheres")
-    plt.ylabel("million collisions a second (processor time)")
-    plt.legend()
+        left.errorbar(n, rate, yerr=[low, high], marker="o", capsize=3, label=f"packing fraction {fraction}")
+    left.set_xscale("log")
+    left.set_xlabel("spheres")
+    left.set_ylabel("million collisions a second (processor time)")
+    for k, n in enumerate(sorted({r["n"] for r in table["engines"]})):
+        line = [r for r in table["engines"] if r["n"] == n]
+        phi = [r["packing_fraction"] for r in line]
+        right.plot(phi, [r["lists"] / 1e6 for r in line], "o-", color=f"C{k}", label=f"lists, N = {n}")
+        right.plot(phi, [r["cells"] / 1e6 for r in line], "s--", color=f"C{k}", label=f"cells alone, N = {n}")
+        taken = [(r["packing_fraction"], r[r["choice"]] / 1e6) for r in line]
+        right.plot(*zip(*taken), "o", color="k", mfc="none", ms=11, label="taken by itself" if k else None)
+    right.set_xlabel("packing fraction")
+    for axes in (left, right):
+        axes.set_ylim(bottom=0)
+        axes.legend(fontsize=8)
     plt.tight_layout()
-    plt.savefig(target, dpi=120)
+    plt.savefig(target, dpi=110)
 
 
 class CreateOptions(ctypes.Structure):

@@ -1,5 +1,5 @@
 // Collisions a second of NVE dynamics against the number of spheres and the packing fraction, and the cost of a compression.
-// Then the calendar against one heap, and a run that is observed against one that is not, interleaved, as ratios of rates.
+// Then lists against cells alone by packing fraction, the calendar against one heap, and a run that is observed against one that is not, interleaved, as ratios of rates.
 // md_speed [SECONDS [N...]]: JSON to stdout. Seconds are of processor time, so that a busy machine disturbs less. The ratio
 // is to the smallest system of the same packing fraction in the same run.
 #include <algorithm>
@@ -29,10 +29,10 @@ static Packing fluid(int64_t n, int dim, double start, double fraction, Monitor 
 
 // Median over rounds of rate(b) / rate(a), the two taking turns; pressures of both as the figure of accuracy.
 struct Race {
-  double ratio, pressure_a, pressure_b;
+  double ratio, pressure_a, pressure_b, rate_a, rate_b;
 };
 static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &monitor) {
-  std::vector<double> ratios;
+  std::vector<double> ratios, rates[2];
   EngineBase *engine[2] = {&a, &b};
   MdSums before[2] = {a.sums, b.sums};
   for (int round = 0; round < 7; ++round) {
@@ -42,12 +42,34 @@ static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &mo
       const int64_t c = engine[k]->sums.collisions;
       while (cpu() - t < seconds / 7) engine[k]->advance(20000, monitor, 1e300);
       rate[k] = static_cast<double>(engine[k]->sums.collisions - c) / (cpu() - t);
+      rates[k].push_back(rate[k]);
     }
     ratios.push_back(rate[1] / rate[0]);
   }
   std::sort(ratios.begin(), ratios.end());
+  for (auto &r : rates) std::sort(r.begin(), r.end());
   const auto pressure = [&](int k) { return 1.0 + (engine[k]->sums.virial - before[k].virial) / (engine[k]->sums.action - before[k].action); };
-  return {ratios[3], pressure(0), pressure(1)};
+  return {ratios[3], pressure(0), pressure(1), rates[0][3], rates[1][3]};
+}
+
+// Lists and cells alone, taking turns, and which of the two the engine takes by itself.
+static void engines(const std::vector<int64_t> &sizes, double seconds, Monitor &monitor) {
+  const char *comma = "";
+  for (int64_t n : sizes)
+    for (double fraction : {0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6}) {
+      const Packing p = fluid(n, 3, std::min(0.25, 0.9 * fraction), fraction, monitor);
+      EngineOptions lists, cells;
+      lists.cells = -1;
+      cells.cells = 1;
+      auto a = make_engine(p, lists), b = make_engine(p, cells);
+      for (EngineBase *e : {a.get(), b.get()}) e->advance(10 * n, monitor, 1e300);
+      const Race found = race(*a, *b, seconds, monitor);
+      std::printf("%s\n  {\"n\": %lld, \"packing_fraction\": %g, \"lists\": %.0f, \"cells\": %.0f, \"ratio\": %.3f, \"choice\": \"%s\", \"pressures\": [%.4f, %.4f]}",
+                  comma, static_cast<long long>(n), fraction, found.rate_a, found.rate_b, found.ratio, make_engine(p, EngineOptions{})->cells_alone() ? "cells" : "lists",
+                  found.pressure_a, found.pressure_b);
+      comma = ",";
+      std::fflush(stdout);
+    }
 }
 
 static void races(const std::vector<int64_t> &sizes, double seconds, Monitor &monitor) {
@@ -114,6 +136,8 @@ int main(int argc, char **argv) {
       std::fflush(stdout);
     }
   }
+  std::printf("],\n \"engines\": [");
+  engines({sizes.front(), sizes[sizes.size() / 2]}, seconds, monitor);
   std::printf("],\n \"against\": [");
   races(sizes, seconds, monitor);
   std::printf("],\n \"compression\": [");

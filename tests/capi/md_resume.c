@@ -70,7 +70,7 @@ static const struct {
   int64_t n;
   double fraction, growth, end, pressure;
   int32_t law;
-} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.3, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER}, {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
+} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.05, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER}, {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
              {JAM_MODEL_MK, 3, 100, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER},   {JAM_MODEL_EUCLID, 2, 120, 0.4, 2e-2, 2e-3, 1e4, JAM_GROWTH_DENSITY}};
 enum { CASES = sizeof cases / sizeof cases[0] };
 

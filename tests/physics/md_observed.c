@@ -40,6 +40,26 @@ static jam_md_report run(jam_system *sys, double collisions) {
   return report;
 }
 
+/* Rattlers exchange energy with the others so slowly that growth leaves them hotter or colder: one temperature for all again. */
+static void draw_velocities(jam_system *sys) {
+  double v[3 * 1000], square = 0;
+  const double *old;
+  size_t len, k;
+  uint64_t bits = 88172645463325252u;
+  assert_int_equal(jam_velocities_view(sys, &old, &len), JAM_OK);
+  assert_true(len <= sizeof v / sizeof v[0]);
+  for (k = 0; k < len; ++k) { /* sums of twelve uniform numbers are normal enough */
+    int draw;
+    for (v[k] = -6, draw = 0; draw < 12; ++draw) {
+      bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+      v[k] += (double)(bits >> 11) * 0x1p-53;
+    }
+    square += v[k] * v[k];
+  }
+  for (k = 0; k < len; ++k) v[k] *= sqrt((double)len / square);
+  assert_int_equal(jam_set_velocities(sys, v, len), JAM_OK);
+}
+
 /* Pairs in contact are flat up to h ~ 1/p: g(sigma) = (p - 1) / (4 phi) for equal spheres. Beyond it falls. */
 static void gap_plateau(void **state) {
   const double pressures[] = {1e4, 1e6, 1e8};
@@ -54,6 +74,7 @@ static void gap_plateau(void **state) {
     double edge[13], density[12], error[12], height;
     size_t needed;
     compress(sys, 3e-3, pressures[k]);
+    draw_velocities(sys);
     run(sys, 200);
     jam_observe_options_init(&o, sizeof o);
     o.gap_bins = 12;
@@ -70,7 +91,7 @@ static void gap_plateau(void **state) {
                   edge[1], edge[2], density[1], edge[11], edge[12], density[11]);
     /* A first bin of a tenth of 1/p: about 75 of 800 contacts at a time, 200 samples: noise of one per cent; g falls by some
      * per cent within it, as the force of a contact closes its gap on the scale of 1/p times the mean force over its own. */
-    assert_true(density[0] / height > 0.85 && density[0] / height < 1.05);
+    assert_true(density[0] / height > 0.88 && density[0] / height < 1.03);
     assert_true(density[1] < density[0] * 1.03 && density[11] < 0.02 * density[0]);
   }
   jam_destroy(sys);

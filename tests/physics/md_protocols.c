@@ -60,26 +60,36 @@ static void rates(void **state) {
   }
 }
 
-/* The rate falls as a power of p: at the geometric middle of the pressures it is the geometric middle of the rates. */
+/* The rate falls as a power of p, from 1e-2 at 1e3 to 1e-3 at 1e7: looked at between the ends, wherever the stage stops. How many
+ * collisions that takes is no measure: late rearrangements, and pairs that hold much of the energy, change it by factors. */
 static void quasi_static(void **state) {
-  jam_system *sys = start(200, 0.2, 1.4, 0, 1.0), *fast = NULL;
+  jam_system *sys = start(200, 0.2, 1.4, 0, 1.0);
   jam_compress_options c;
-  jam_md_report report, half;
+  jam_md_report report;
+  jam_status status;
+  double worst = 0;
+  int stops = 0;
   (void)state;
-  report.struct_size = half.struct_size = sizeof report;
+  report.struct_size = sizeof report;
   jam_compress_options_init(&c, sizeof c);
   c.pressure = 1e3;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
-  assert_int_equal(jam_copy(sys, &fast), JAM_OK);
   c.pressure = 1e7;
-  assert_int_equal(jam_compress(fast, &c, &half), JAM_OK);
   c.growth_rate_end = 1e-3;
-  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
-  print_message("growth rate at the end %.3g; %lld collisions, at a constant rate %lld\n", report.growth_rate, (long long)report.collisions, (long long)half.collisions);
+  do {
+    c.collisions_per_particle = 200.0 * ++stops;
+    status = jam_compress(sys, &c, &report);
+    c.resume = 1;
+    /* The first window may be 10 % above 1e3, p has moved for a window since, and changes below 2 % wait. */
+    worst = fmax(worst, fabs(log(report.growth_rate / (1e-2 * pow(fmax(report.pressure, 1e3) / 1e3, -0.25)))));
+  } while (status == JAM_LIMIT);
+  c.resume = 0;
+  c.collisions_per_particle = INFINITY;
+  print_message("growth rate at the end %.3g; %d stops, at most %.1f %% off\n", report.growth_rate, stops, 100 * worst);
+  assert_int_equal(status, JAM_OK);
+  assert_true(stops > 5 && worst < 0.1);
   assert_true(report.growth_rate < 1.1e-3 && report.growth_rate > 0.99e-3);
   assert_true(report.pressure >= 1e7 && report.max_overlap < 1e-13);
-  /* ln p a collision goes as G: the mean of 1/G over ln p is (10 - 1) / ln 10 = 3.9 times that of the constant rate. */
-  assert_true((double)report.collisions / (double)half.collisions > 3.0 && (double)report.collisions / (double)half.collisions < 5.0);
   c.growth_rate_end = 2e-2;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_E_ARGUMENT);
   c.growth_rate_end = 1e-3;
@@ -90,7 +100,6 @@ static void quasi_static(void **state) {
   c.growth_law = 7;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_E_ARGUMENT);
   jam_destroy(sys);
-  jam_destroy(fast);
 }
 
 static void time_limits(void **state) {

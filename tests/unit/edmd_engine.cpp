@@ -112,23 +112,67 @@ struct Case {
 
 void agrees_with_naive_engine(void **) {
   // Small boxes (several images of one pair) among them.
-  const Case cases[] = {{3, 24, 0.25, 1.0, 0.0, 60}, {3, 24, 0.25, 1.0, 0.05, 60}, {2, 16, 0.35, 3.0, 0.02, 40}, {3, 2, 0.3, 1.0, 0.0, 10},
+  // From 40 spheres in three dimensions on cells alone hold, whether they are the choice at that density or not.
+  const Case cases[] = {{3, 40, 0.04, 1.0, 0.0, 60},  {3, 40, 0.06, 1.5, 0.05, 60},  {2, 40, 0.1, 2.0, 0.02, 60},  {4, 40, 0.004, 1.0, 0.01, 20},
+                        {3, 24, 0.25, 1.0, 0.0, 60}, {3, 24, 0.25, 1.0, 0.05, 60}, {2, 16, 0.35, 3.0, 0.02, 40}, {3, 2, 0.3, 1.0, 0.0, 10},
                         {2, 2, 0.4, 1.0, 0.01, 10},  {3, 3, 0.3, 1.5, 0.02, 12},   {4, 10, 0.12, 1.0, 0.0, 25},  {5, 6, 0.05, 1.0, 0.01, 10}};
   for (const Case &c : cases) {
-    Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 5), q = p;
-    EngineOptions o;
-    o.growth = c.growth;
-    Monitor monitor;
-    monitor.begin();
-    auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(c.collisions, monitor, 1e300), Halt::window);
-    engine->write_state(p);
+    const Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 5);
+    Packing q = start;
     naive(q, c.collisions, c.growth > 0.0 ? c.growth / diameter_mean(q) : 0.0L);
-    const double distance = furthest(p, q);
-    if (!(distance < 1e-7)) print_error("d=%d n=%d growth=%g: %g\n", c.dim, c.n, c.growth, distance);
-    assert_true(distance < 1e-7);
-    assert_true(std::fabs(diameter_mean(p) / diameter_mean(q) - 1.0) < 1e-9);
+    for (int64_t cells : {-1, 1}) {
+      Packing p = start;
+      EngineOptions o;
+      o.growth = c.growth;
+      o.cells = cells;
+      Monitor monitor;
+      monitor.begin();
+      auto engine = make_engine(p, o);
+      assert_int_equal(engine->advance(c.collisions, monitor, 1e300), Halt::window);
+      engine->write_state(p);
+      const double distance = furthest(p, q);
+      if (engine->cells_alone() != (cells == 1 && c.n == 40)) print_error("d=%d n=%d fraction=%g\n", c.dim, c.n, c.fraction);
+      if (!(distance < 1e-7)) print_error("d=%d n=%d growth=%g cells=%d: %g\n", c.dim, c.n, c.growth, static_cast<int>(cells), distance);
+      assert_true(distance < 1e-7);
+      assert_true(std::fabs(diameter_mean(p) / diameter_mean(q) - 1.0) < 1e-9);
+      assert_true(engine->cells_alone() == (cells == 1 && c.n == 40));
+    }
   }
+}
+
+// Dilute systems are on cells, dense ones on lists, and a compression goes over from one to the other. Both give one pressure.
+void engine_follows_the_density(void **) {
+  Monitor monitor;
+  monitor.begin();
+  for (double fraction : {0.05, 0.1}) {
+    double pressure[2], error = 0.0;
+    for (int k = 0; k < 2; ++k) {
+      EngineOptions o;
+      o.cells = k - 1;
+      auto engine = make_engine(random_packing(3, 500, fraction, 1.0, 3), o);
+      assert_true(engine->cells_alone() == (k == 1));
+      std::vector<double> p;
+      for (int block = 0; block < 20; ++block) {
+        const double virial = engine->sums.virial, action = engine->sums.action;
+        assert_int_equal(engine->advance(10000, monitor, 1e300), Halt::window);
+        p.push_back((engine->sums.virial - virial) / (engine->sums.action - action));
+      }
+      double mean = 0.0, square = 0.0;
+      for (double x : p) mean += x / 20.0;
+      for (double x : p) square += (x - mean) * (x - mean) / (19.0 * 20.0);
+      pressure[k] = mean;
+      error += square;
+      assert_true(engine->max_overlap < 1e-14);
+    }
+    print_message("phi %g: p - 1 = %.4f on lists, %.4f on cells, error %.4f\n", fraction, pressure[0], pressure[1], std::sqrt(error));
+    assert_true(std::fabs(pressure[1] - pressure[0]) < 4.0 * std::sqrt(error) && std::sqrt(error) < 0.01 * pressure[0]);
+  }
+  EngineOptions growing;
+  growing.growth = 0.1;
+  auto engine = make_engine(random_packing(3, 500, 0.05, 1.0, 3), growing);
+  assert_true(engine->cells_alone());
+  while (engine->packing_fraction() < 0.4) assert_int_equal(engine->advance(1000, monitor, 1e300), Halt::window);
+  assert_true(!engine->cells_alone() && engine->max_overlap < 1e-14);
 }
 
 // No pair of any image may overlap, lists or not.
@@ -288,7 +332,7 @@ void calendar_keeps_order_when_two_change(void **) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(calendar_gives_events_in_order), cmocka_unit_test(agrees_with_naive_engine), cmocka_unit_test(never_overlaps),
+      cmocka_unit_test(calendar_gives_events_in_order), cmocka_unit_test(agrees_with_naive_engine), cmocka_unit_test(engine_follows_the_density), cmocka_unit_test(never_overlaps),
       cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap), cmocka_unit_test(same_bits_twice),
       cmocka_unit_test(calendar_keeps_order_when_two_change), cmocka_unit_test(fast_growth_keeps_the_order_of_events),
       cmocka_unit_test(few_spheres_meet_the_right_image), cmocka_unit_test(an_overlap_between_lists_is_seen),

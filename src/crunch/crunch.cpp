@@ -101,8 +101,8 @@ class Chain {
     if (history_.behind(out_.packing)) path_step(path.gap, 0);
     if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
     if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
-    monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
-                 path.factorisations, packing_fraction(out_.packing));
+    monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, %d saddles, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
+                 path.factorisations, path.reheats, packing_fraction(out_.packing));
     bound_ = first_bound();
     if (path.reached && o_.step_bound == 0.0) bound_ = std::min(1e-3, std::max(10.0 * std::sqrt(path.gap), 100.0 * narrowest));
     lowest_gain_ = std::numeric_limits<double>::infinity(), slow_lps_ = 0;

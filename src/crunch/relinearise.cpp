@@ -49,6 +49,7 @@ class Path {
     while (measure()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
+      out.reheats = reheats_;
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size());
       monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps %.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(), near_.size(), correctors_, alpha_p_, alpha_d_,

@@ -24,6 +24,7 @@ struct RelineariseResult {
   bool reached = false;      // gap below target with balanced forces
   double gap = 0.0;
   int factorisations = 0;
+  int reheats = 0;           // saddles left by warming up
 };
 
 // Moves p (always without overlap) towards its jamming point.

@@ -1,0 +1,187 @@
+// The barrier function of the path: its value along a line against true distances, its slope against differences, its best step
+// against a scan; and the turns that the path takes off saddles and out of creeping LPs.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+extern "C" {
+#include <cmocka.h>
+}
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "core/create.hpp"
+#include "crunch/barrier.hpp"
+#include "crunch/crunch.hpp"
+#include "crunch/relinearise.hpp"
+
+using namespace jam;
+
+namespace {
+
+Packing start(int n, int dim, double phi, double ratio, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
+  std::vector<double> sizes(n);
+  for (int k = 0; k < n; ++k) sizes[k] = k % 2 ? 1.0 : ratio;
+  return make_packing(o, nullptr, 0, sizes.data(), sizes.size());
+}
+
+struct Scene {
+  Packing p;
+  Barrier b;
+  BarrierStep x;
+};
+
+// A packing, its pairs, and a random direction no longer than `length` mean diameters a component.
+void make_scene(Scene &w, int dim, double ratio, double length, int64_t seed) {
+  w.p = start(40, dim, dim == 2 ? 0.5 : dim == 3 ? 0.3 : 0.1, ratio, seed);
+  w.b.unit = diameter_mean(w.p), w.b.mu = 1e-3;
+  w.b.pairs = find_pairs(w.p, 0.5 * w.b.unit, 1.0);
+  assert_true(w.b.measure(w.p));
+  std::mt19937_64 random(static_cast<uint64_t>(seed));
+  std::uniform_real_distribution<double> one(-1.0, 1.0);
+  const size_t rows = w.b.pairs.size();
+  w.x.s.resize(w.p.position.size()), w.x.w.resize(rows), w.x.y.assign(rows, 0.0);
+  for (double &s : w.x.s) s = length * one(random);
+  w.x.g = length * one(random);
+  rows_times(w.b.lp, w.x.s.data(), w.x.w.data());
+  for (double &v : w.x.w) v -= w.x.g;
+  w.b.y.assign(rows, 1.0 / static_cast<double>(rows));
+}
+
+// -log Gamma - mu sum log c from true distances of the packing moved by alpha x, less its value before.
+double brute(const Scene &w, double alpha) {
+  Packing q = w.p;
+  for (size_t k = 0; k < q.position.size(); ++k) q.position[k] += alpha * w.b.unit * w.x.s[k];
+  const double gamma = 1.0 + alpha * w.x.g;
+  for (double &s : q.diameter) s *= std::sqrt(gamma);
+  double sum = 0.0, r[JAM_MAX_DIM];
+  for (size_t k = 0; k < w.b.pairs.size(); ++k) {
+    const auto c = [&](const Packing &p) {
+      const double sigma = 0.5 * (p.diameter[w.b.pairs.i[k]] + p.diameter[w.b.pairs.j[k]]);
+      return pair_vector(p, w.b.pairs, k, r) / (sigma * sigma) - 1.0;
+    };
+    sum += std::log(c(q) / c(w.p));
+  }
+  return -std::log(gamma) - w.b.mu * sum;
+}
+
+// The bent rows are exact, so the merit is; the best step is the best of a fine scan, and its slope is minus the decrement.
+void merit_is_true(void **) {
+  for (const int dim : {2, 3, 5})
+    for (const double length : {1e-4, 1e-3, 0.05}) {
+      Scene w;
+      make_scene(w, dim, dim == 3 ? 1.0 : 1.4, length, 3 + dim);
+      if (w.b.decrement(w.x) < 0.0) {  // downhill
+        for (double &s : w.x.s) s = -s;
+        for (double &v : w.x.w) v = -v;
+        w.x.g = -w.x.g;
+      }
+      const Barrier::Best best = w.b.search(w.x, 0.1);
+      assert_true(best.alpha > 0.0 && best.merit < 0.0);
+      assert_true(std::fabs(brute(w, best.alpha) - best.merit) < 1e-11 * (1.0 + std::fabs(best.merit)));
+      const double h = 1e-6 / length, slope = (brute(w, h) - brute(w, -h)) / (2.0 * h);
+      assert_true(std::fabs(slope + w.b.mu * w.b.decrement(w.x)) < 1e-5 * std::fabs(slope));
+      // No point of a scan beats the search by more than a whole Newton step may differ from the minimum (a tenth of its length).
+      double least = 0.0;
+      const double farthest = std::min({2.0 * best.alpha, 0.1 / w.b.longest_move(w.x), 3.98});  // four directions at most
+      for (int k = 1; k < 400; ++k) {
+        const double value = brute(w, farthest * k / 400.0);
+        if (!std::isfinite(value)) break;  // through a wall
+        least = std::min(least, value);
+      }
+      assert_true(!(least < best.merit - 0.02 * std::fabs(best.merit)));
+      assert_true(best.alpha * w.b.longest_move(w.x) <= 0.1 * (1.0 + 1e-12));
+    }
+}
+
+// Two spheres that would run through each other: the step ends before they touch, however far the minimum of the line lies.
+void walls_stop(void **) {
+  Scene w;
+  w.p.dim = 2, w.p.position = {0.4, 0.5, 0.55, 0.5}, w.p.diameter = {0.1, 0.1}, w.p.velocity.assign(4, 0.0);
+  w.b.unit = 0.1, w.b.mu = 1e-9;
+  w.b.pairs = find_pairs(w.p, 0.1, 1.0);
+  assert_true(w.b.measure(w.p) && w.b.pairs.size() == 1);
+  w.x.s = {1.0, 0.0, 0.0, 0.0}, w.x.w.resize(1), w.x.y = {0.0};
+  rows_times(w.b.lp, w.x.s.data(), w.x.w.data());
+  w.x.g = 0.1, w.x.w[0] -= w.x.g;
+  w.b.y = {1.0};
+  const Barrier::Best best = w.b.search(w.x, 10.0);
+  double r[2];
+  Packing q = w.p;
+  q.position[0] += best.alpha * 0.1;
+  for (double &s : q.diameter) s *= std::sqrt(1.0 + best.alpha * w.x.g);
+  assert_true(pair_vector(q, w.b.pairs, 0, r) > q.diameter[0] * q.diameter[0]);
+  assert_true(best.alpha > 0.3);  // they meet after 0.48: most of the way is used
+}
+
+struct PathRun {
+  RelineariseResult end;
+  std::vector<double> gaps, phi;
+};
+
+PathRun follow(Packing &p, RelineariseControl control) {
+  NewtonSystem system;
+  Monitor monitor;
+  monitor.begin();
+  PathRun run;
+  control.on_step = [&](double gap, size_t) { run.gaps.push_back(gap), run.phi.push_back(packing_fraction(p)); };
+  run.end = relinearise(p, control, system, monitor);
+  return run;
+}
+
+// A square lattice, off its sites by a millionth, is a saddle of the density: the path must leave it for something denser without
+// an overlap. One that may not take any step more says that it did not arrive.
+void saddle_is_left(void **) {
+  Packing p;
+  const int m = 8;
+  p.dim = 2;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> one(-1.0, 1.0);
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j) p.position.push_back((i + 0.5 + 1e-6 * one(random)) / m), p.position.push_back((j + 0.5 + 1e-6 * one(random)) / m);
+  p.diameter.assign(m * m, (1.0 - 1e-5) / m);
+  p.velocity.assign(2 * m * m, 0.0);
+  const double square = packing_fraction(p);
+  assert_true(std::fabs(square / 0.785398 - 1.0) < 1e-4);
+  Packing q = p;
+  RelineariseControl control;
+  control.max_factorisations = 4;
+  const PathRun few = follow(q, control);
+  assert_true(!few.end.reached && closest_pair(q).gap > 0.0);
+  const PathRun whole = follow(p, RelineariseControl());
+  assert_true(whole.end.reached && closest_pair(p).gap > 0.0 && packing_fraction(p) > 1.02 * square);
+}
+
+// Paths that arrive leave nothing to gain but their duality gap: one LP in full says so. Some of them meet saddles on their way and
+// leave them by a warmer barrier, where the duality gap is larger.
+void arrives(void **) {
+  int saddles = 0;
+  for (const int dim : {2, 3})
+    for (int seed = 1; seed <= 6; ++seed) {
+      Packing p = start(64, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed);
+      jam_crunch_options o = default_crunch_options();
+      Monitor monitor;
+      monitor.begin();
+      o.method = JAM_CRUNCH_CHAIN, o.max_lps = 4;  // near enough that the path begins where it does in a crunch
+      p = crunch(p, o, monitor, nullptr, nullptr).packing;
+      const PathRun run = follow(p, RelineariseControl());
+      assert_true(run.end.reached && run.end.gap <= RelineariseControl().target && closest_pair(p).gap > 0.0);
+      double rise = 0.0;
+      for (size_t k = 3; k < run.gaps.size(); ++k) rise = std::max(rise, run.gaps[k] / run.gaps[k - 3]);
+      if (run.end.reheats > 0) ++saddles, assert_true(rise > 3.0);
+      o.max_lps = 1;
+      const CrunchResult next = crunch(p, o, monitor, nullptr, nullptr);
+      assert_true(next.report.gain < 2.0 * run.end.gap);
+    }
+  assert_true(saddles > 0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

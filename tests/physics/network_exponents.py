@@ -58,7 +58,7 @@ class KnownLaws(unittest.TestCase):
 class Packings(unittest.TestCase):
     def test_published_values(self):
         values = {"extended": [], "localised": [], "gaps": []}
-        for seed in (1, 2):
+        for seed in (2, 3):
             with jam.System.random(n=1024, seed=seed) as packing:
                 packing.compress()
                 self.assertEqual(packing.crunch().excess_contacts, 0)

@@ -7,7 +7,6 @@
 #include "core/rng.hpp"
 
 namespace jam {
-namespace {
 
 double twice_kinetic(const Packing &p) {
   const std::vector<double> mass = sphere_masses(p);
@@ -16,6 +15,8 @@ double twice_kinetic(const Packing &p) {
   for (size_t k = 0; k < p.velocity.size(); ++k) sum += (mass.empty() ? 1.0 : mass[k / d]) * p.velocity[k] * p.velocity[k];
   return sum;
 }
+
+namespace {
 
 void scale_velocities(Packing &p) {
   const double factor = std::sqrt(static_cast<double>(p.velocity.size()) / twice_kinetic(p));
@@ -112,12 +113,14 @@ void Stage::plan_window() {
 
 void Stage::begin_part() {
   part_goal_ = collisions() + std::max<int64_t>(1, window_ / (growing() ? 4 : 1));
-  part_virial_ = virial();
-  part_action_ = action();
+  // Sums start from zero, or at p = 1e14 what a part adds would be lost in what the stage has gathered.
+  old_virial_ += engine_->sums.virial;
+  old_action_ += engine_->sums.action;
+  engine_->sums.virial = engine_->sums.action = part_virial_ = part_action_ = 0.0;
 }
 
 void Stage::end_part() {
-  const double v = virial() - part_virial_, a = action() - part_action_;
+  const double v = part_virial_ + engine_->sums.virial, a = part_action_ + engine_->sums.action;
   steady_ = steady_ && a > 0.0 && 1.0 + v / a > 0.25 * stage_.pressure;
   if (a > 0.0) {
     windows_.push_back(1.0 + v / a);
@@ -149,7 +152,7 @@ int32_t Stage::go_on(const MdListeners &listeners, double wall_end) {
   for (;;) {
     const int32_t reason = advance_part(listeners, wall_end);
     if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
-      const double v = window_virial_ + virial() - part_virial_, a = window_action_ + action() - part_action_;
+      const double v = window_virial_ + part_virial_ + engine_->sums.virial, a = window_action_ + part_action_ + engine_->sums.action;
       if (a > 0.0) pressure_ = 1.0 + v / a;
     }
     if (reason != JAM_STOP_NONE) return reason;
@@ -214,61 +217,14 @@ void Stage::change_engine(Observer *observer) {
   old_time_ += engine_->elapsed();
   old_virial_ += engine_->sums.virial;
   old_action_ += engine_->sums.action;
+  part_virial_ += engine_->sums.virial;
+  part_action_ += engine_->sums.action;
   worst_ = std::max(worst_, engine_->max_overlap);
   EngineOptions o = options();
   o.growth = engine_->growth();
   engine_ = make_engine(p_, o);
   engine_->set_time_limit(stage_.time - old_time_);
   if (observer) engine_->observe(observer);
-}
-
-// ---- observers
-
-void Stage::attach(Observer *observer) {
-  if (!observer) return;
-  seen_collisions_ = collisions();
-  seen_time_ = time();
-  block_virial_ = virial() - observer->left_virial;
-  block_action_ = action() - observer->left_action;
-  engine_->observe(observer);
-}
-
-void Stage::update(Observer &observer) const {
-  observer.seen += collisions() - seen_collisions_;
-  observer.time += time() - seen_time_;
-}
-
-void Stage::detach(Observer *observer) {
-  if (!observer) return;
-  engine_->observe(nullptr);
-  update(*observer);
-  observer->left_virial = virial() - block_virial_;
-  observer->left_action = action() - block_action_;
-}
-
-// What is due at this collision; true when the callback asks to stop.
-bool Stage::observe(const MdListeners &listeners) {
-  Observer &observer = *listeners.observer;
-  update(observer);
-  seen_collisions_ = collisions();
-  seen_time_ = time();
-  if (observer.block_due()) {
-    const bool whole = observer.end_block(virial() - block_virial_, action() - block_action_);
-    block_virial_ = virial();
-    block_action_ = action();
-    if (whole) sample(observer);
-  }
-  if (!observer.snapshot_due()) return false;
-  jam_progress q = progress();
-  q.snapshot = observer.end_snapshot();
-  if (listeners.show) listeners.show(current());
-  return listeners.monitor->report(q, true);
-}
-
-void Stage::sample(Observer &observer) const {
-  std::vector<double> way(p_.position.size());
-  engine_->displacements(way);
-  observer.take_sample(current(), way);
 }
 
 // ---- the stage as a whole
@@ -278,17 +234,6 @@ Packing Stage::current() const {
   engine_->write_state(p);
   p.pressure = pressure_;
   return p;
-}
-
-jam_progress Stage::progress() const {
-  jam_progress q{};
-  q.phase = growing() ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN;
-  q.packing_fraction = engine_->packing_fraction();
-  q.pressure = pressure_;
-  q.gain = q.max_step = std::numeric_limits<double>::quiet_NaN();
-  q.collisions = report_collisions_ + collisions() - call_collisions_;
-  q.fraction = goal_ < no_limit ? static_cast<double>(collisions()) / goal_ : std::numeric_limits<double>::quiet_NaN();
-  return q;
 }
 
 jam_status Stage::run(const MdStage &limits, const MdListeners &listeners, jam_md_report &report) {
@@ -311,41 +256,6 @@ jam_status Stage::run(const MdStage &limits, const MdListeners &listeners, jam_m
   report.seconds += now_seconds() - begin;
   finish(reason, report);
   return status_of(reason);
-}
-
-// Adds to the report, so that stages run one after the other give one.
-void Stage::finish(int32_t reason, jam_md_report &report) const {
-  report.stop_reason = reason;
-  report.collisions_per_second = static_cast<double>(report.collisions) / std::max(report.seconds, 1e-9);
-  report.pressure = p_.pressure;
-  report.pressure_error = standard_error();
-  report.packing_fraction = jam::packing_fraction(p_);
-  report.energy_drift = kinetic_ > 0.0 && !growing() ? std::fabs(twice_kinetic(p_) / kinetic_ - 1.0) : 0.0;
-  report.max_overlap = std::max({report.max_overlap, worst_, engine_->max_overlap, engine_->worst_overlap()});
-  report.growth_rate = engine_->growth();
-}
-
-// NVE: of the mean over all windows. Growing: the last window is the mean of the last four parts.
-double Stage::standard_error() const {
-  if (windows_.size() < (growing() ? 8u : 5u)) return std::numeric_limits<double>::quiet_NaN();
-  double mean = 0.0, square = 0.0;
-  const double m = static_cast<double>(windows_.size());
-  for (double p : windows_) mean += p / m;
-  for (double p : windows_) square += (p - mean) * (p - mean) / (m - 1.0);
-  return std::sqrt(square / (growing() ? 4.0 : m));
-}
-
-jam_status Stage::status_of(int32_t reason) const {
-  switch (reason) {
-    case JAM_STOP_PRESSURE:
-    case JAM_STOP_PACKING_FRACTION: return JAM_OK;
-    case JAM_STOP_TIME:
-    case JAM_STOP_COLLISIONS: return growing() ? JAM_LIMIT : JAM_OK;
-    case JAM_STOP_WALL_TIME: return JAM_LIMIT;
-    case JAM_STOP_CANCELLED: return JAM_CANCELLED;
-    case JAM_STOP_PRECISION: return JAM_PRECISION;
-    default: return JAM_NOT_CONVERGED;
-  }
 }
 
 // ---- what md.hpp promises

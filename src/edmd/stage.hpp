@@ -6,6 +6,8 @@
 
 namespace jam {
 
+double twice_kinetic(const Packing &p);
+
 class Stage {
  public:
   Stage(Packing p, const MdStage &stage);
@@ -60,7 +62,7 @@ class Stage {
   int64_t steady_ = 1;  // no part of the window is far below the target: a stop is not made of noise
   std::vector<double> windows_;  // pressures of parts
 
-  // before the engine was changed for one with images
+  // before this part, and (part_...) of this part before the engine was changed for one with images
   double old_virial_ = 0.0, old_action_ = 0.0, old_time_ = 0.0, worst_ = 0.0;
   int64_t old_collisions_ = 0, old_events_ = 0;
 

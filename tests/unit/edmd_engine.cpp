@@ -257,6 +257,17 @@ void stops_inside_a_dense_fluid_without_overlap(void **) {
   }
 }
 
+// Pressure is measured from what a window adds, however much has gone before: growth ends for want of digits, and says so.
+void ends_where_the_digits_end(void **) {
+  Packing p = random_packing(3, 64, 0.2, 1.0, 1);
+  Monitor monitor;
+  monitor.begin();
+  jam_md_report report{};
+  assert_int_equal(run_stage(p, {0.1, 1e18, never, 1e5, 60.0}, monitor, report), JAM_PRECISION);
+  assert_int_equal(report.stop_reason, JAM_STOP_PRECISION);
+  assert_true(report.pressure > 5e15 && report.max_overlap < 1e-14);
+}
+
 void same_bits_twice(void **) {
   for (int k = 0; k < 2; ++k) {
     Packing p = random_packing(3, 100, 0.3, 1.4, 11), q = p;
@@ -336,6 +347,7 @@ int main() {
       cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap), cmocka_unit_test(same_bits_twice),
       cmocka_unit_test(calendar_keeps_order_when_two_change), cmocka_unit_test(fast_growth_keeps_the_order_of_events),
       cmocka_unit_test(few_spheres_meet_the_right_image), cmocka_unit_test(an_overlap_between_lists_is_seen),
+      cmocka_unit_test(ends_where_the_digits_end),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -61,27 +61,35 @@ void InteriorPoint::measure_far() {
   }
 }
 
-double InteriorPoint::longest_far(const Direction &x) {
+double InteriorPoint::longest_far(const Direction &x, double wanted) {
   const int d = whole_->dim;
-  double step = 1.0;
+  double step = wanted;
+  crossed_.clear();
   for (size_t q = 0; q < far_w_.size(); ++q) {
     const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
     double dw = -x.g;
     for (int c = 0; c < d; ++c) dw += whole_->a[k * d + c] * (x.s[i + c] - x.s[j + c]);
-    if (dw < 0.0) step = std::min(step, -0.9 * far_w_[q] / dw);
+    if (!(wanted * dw < -0.9 * far_w_[q])) continue;
+    step = std::min(step, -0.9 * far_w_[q] / dw);
+    crossed_.push_back(q);
   }
+  if (step > 0.5 * wanted) crossed_.clear();
   return step;
 }
 
-// A far row that lost two thirds of the threshold joins on the central path, and with it all that lost half.
+// A far row that lost two thirds of the threshold joins on the central path, and with it all that lost half; and all that the step
+// would have crossed if they cut more than half of it.
 bool InteriorPoint::admit_far() {
   measure_far();
-  if (far_w_.empty() || *std::min_element(far_w_.begin(), far_w_.end()) > 0.3 * split_.threshold) return false;
+  const bool close = !far_w_.empty() && *std::min_element(far_w_.begin(), far_w_.end()) <= 0.3 * split_.threshold;
+  if (!close && crossed_.empty()) return false;
   std::vector<char> take(whole_->rows(), 0);
   std::vector<double> w(whole_->rows(), 0.0), y(whole_->rows(), 0.0);
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
+  std::vector<char> joins(far_w_.size(), 0);
+  for (const size_t q : crossed_) joins[q] = 1;
   for (size_t q = 0; q < far_w_.size(); ++q) {
-    if (far_w_[q] > 0.5 * split_.threshold) continue;
+    if (!joins[q] && !(close && far_w_[q] <= 0.5 * split_.threshold)) continue;
     const size_t k = split_.far[q];
     take[k] = 1, w[k] = far_w_[q], y[k] = mu / far_w_[q];
   }
@@ -290,7 +298,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     Steps a = longest(main_);
     if (!std::isfinite(main_.g) || !(a.primal > 0.0) || !(a.dual > 0.0)) break;
     const double keep = 1.0 - std::min(0.05, std::max(1e-6, 0.1 * gap));
-    move(main_, {std::min(longest_far(main_), a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
+    move(main_, {longest_far(main_, a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
     if (admit_far() && monitor) monitor->log(JAM_LOG_DEBUG, "ipm: %zu of %zu rows near", rows_, lp.rows());
   }
   out.factorisations = system_.factorisations - before;

@@ -54,7 +54,7 @@ class InteriorPoint {
   void move(const Direction &d, const Steps &a);
   // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near joins.
   void measure_far();
-  double longest_far(const Direction &d);
+  double longest_far(const Direction &d, double wanted);
   bool admit_far();
 
   NewtonSystem &system_;
@@ -68,6 +68,7 @@ class InteriorPoint {
   std::vector<double> s_, y_, w_, u_, v_, zu_, zv_;
   std::vector<double> rd_, rp_, weight_, diagonal_, rhs_, row_, targets_, targets_u_, targets_v_;
   std::vector<double> far_w_;
+  std::vector<size_t> crossed_;  // far rows that cut more than half of the last step
   Direction main_, extra_, trial_;
 };
 

@@ -11,6 +11,7 @@ extern "C" {
 #include <limits>
 
 #include "core/create.hpp"
+#include "crunch/crunch.hpp"
 #include "lp/interior_point.hpp"
 
 using namespace jam;
@@ -179,10 +180,29 @@ void check_sees_errors(void **) {
   assert_true(check_lp(lp, bad).infeasibility > 0.009);
 }
 
+// A wide bound around a state whose contacts are all but closed: many rows that started as far cut the first steps. They join together
+// instead of a few at a time, and the LP is solved.
+void far_rows_cut_steps(void **) {
+  Packing p = start(1024, 3, 0.3, 1);
+  jam_crunch_options o = default_crunch_options();
+  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 7;
+  Monitor monitor;
+  monitor.begin();
+  p = crunch(p, o, monitor).packing;
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.66 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 0.3;
+  NewtonSystem system;
+  const LpSolution x = InteriorPoint(system).solve(lp, IpmControl());
+  const LpCheck check = check_lp(lp, x);
+  assert_true(x.solved && check.infeasibility < 1e-12 && std::fabs(check.gap) < 1e-10 && check.gamma < 1e-9);
+}
+
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(far_rows_bind), cmocka_unit_test(degenerate_instances),
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(far_rows_bind), cmocka_unit_test(far_rows_cut_steps), cmocka_unit_test(degenerate_instances),
                               cmocka_unit_test(fcc_instances), cmocka_unit_test(vanishing_bound),
                               cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -254,9 +254,16 @@ static int32_t stop_at(const jam_progress *p, void *user) {
 
 /* Cancelled at any moment the state is valid, and the next call goes on from it. */
 static void cancel_and_resume(void **state) {
-  int calls;
+  int calls, lps;
+  jam_system *whole = random_start(100, 3, 0.3, NULL, 0, 5);
+  jam_crunch_options chain;
   (void)state;
-  for (calls = 1; calls < 40; calls += 6) {
+  jam_crunch_options_init(&chain, sizeof chain);
+  chain.method = JAM_CRUNCH_CHAIN;
+  lps = (int)crunch(whole, &chain, JAM_OK).lp_solves;
+  jam_destroy(whole);
+  assert_true(lps > 3);
+  for (calls = 1; calls < lps; calls += 6) {
     jam_system *sys = random_start(100, 3, 0.3, NULL, 0, 5);
     int left = calls;
     jam_report r;

@@ -445,7 +445,7 @@ static void rattler_against_its_cage(void **state) {
 
 static void compares(void **state) {
   jam_report report;
-  jam_system *a = crunched(3, 60, 0.2, 0, &report), *b = NULL;
+  jam_system *a = crunched(3, 60, 0.3, 0, &report), *b = NULL;
   jam_comparison c = {.struct_size = sizeof(jam_comparison)};
   const double *x;
   double *y, *u;

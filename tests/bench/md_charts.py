@@ -4,7 +4,7 @@
     md_charts.py speed MD_SPEED.json OUT.png     collisions a second against N, and against the packing fraction for
         lists and for cells alone
     md_charts.py accuracy LIBJAM.so|TABLE.json OUT.png [SECONDS]
-        phi_J by crunch against processor time for growth rates and target pressures, N = 128, one seed a point; and the
+        phi_J by crunch against processor time for growth rates and target pressures, N = 256, one seed a point; and the
         deviation from the slowest run. Prints the table as JSON.
     md_charts.py precision OUT.png               pressure at which growth ends for want of digits, against d and size ratio; needs
         the Python package `jam`. 128 spheres, half of them larger, G = 1e-2. Prints a table.
@@ -81,7 +81,7 @@ def measure_accuracy(library, budget):
     for growth in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5):
         system, o, c = ctypes.c_void_p(), CreateOptions(), CompressOptions()
         jam.jam_create_options_init(ctypes.byref(o), ctypes.c_size_t(ctypes.sizeof(o)))
-        o.n = 128
+        o.n = 256
         jam.jam_create(ctypes.byref(o), None, ctypes.c_size_t(0), None, ctypes.c_size_t(0), ctypes.byref(system))
         jam.jam_compress_options_init(ctypes.byref(c), ctypes.c_size_t(ctypes.sizeof(c)))
         start = time.process_time()

@@ -72,6 +72,8 @@ void Engine<D, Shift>::check_archive() const {
     seen[u] = 1;
   }
   for (const Body &b : body_) Archive::check(b.radius > 0);
+  for (const int64_t count : {exits_, exits_before_, collisions_before_, events_before_, rebase_at_, sums.events, sums.collisions})
+    Archive::check(count >= 0 && count < int64_t{1} << 60);  // differences are taken of them
   for (size_t i = 0; i < n; ++i) {
     Archive::check(neighbours_[i] >= 0 && static_cast<size_t>(neighbours_[i]) <= capacity_);
     for (int32_t e = 0; e < neighbours_[i]; ++e) {

@@ -7,6 +7,7 @@
 
 #include "crunch/barrier.hpp"
 #include "crunch/crunch.hpp"
+#include "lp/near_rows.hpp"
 
 namespace jam {
 namespace {
@@ -129,13 +130,7 @@ class Path {
   // Which rows couple spheres in the matrix: chosen anew for a new list, when a far row came near, and when a fifth could go.
   void choose_near() {
     const std::vector<double> &c = b_.lp.c;
-    const size_t rank = static_cast<size_t>(1.05 * p_.dim * static_cast<double>(p_.n()));
-    double slack = std::numeric_limits<double>::infinity();
-    if (rank < c.size()) {
-      std::vector<double> sorted = c;
-      std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
-      slack = far_slack * sorted[rank];
-    }
+    const double slack = far_slack * carrying_slack(c, p_.dim, static_cast<int32_t>(p_.n()));
     std::vector<char> coupled(c.size(), 0);
     for (const size_t k : near_) coupled[k] = 1;
     size_t wanted = 0, missing = 0;

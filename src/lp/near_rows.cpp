@@ -26,15 +26,22 @@ void hold_loose_spheres(const PackingLp &lp, std::vector<char> &is_near) {
 
 }  // namespace
 
+double carrying_slack(const std::vector<double> &c, int dim, int32_t n) {
+  const size_t rank = static_cast<size_t>(1.05 * dim * n);
+  if (rank >= c.size()) return std::numeric_limits<double>::infinity();
+  std::vector<double> sorted = c;
+  std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
+  return sorted[rank];
+}
+
 void NearRows::choose(const PackingLp &lp) {
-  const size_t rows = lp.rows(), rank = static_cast<size_t>(1.05 * lp.dim * lp.n);
+  const size_t rows = lp.rows();
+  const double slack = carrying_slack(lp.c, lp.dim, lp.n);
   threshold = std::numeric_limits<double>::infinity();
   std::vector<char> is_near(rows, 1);
-  if (rank < rows) {
-    std::vector<double> sorted = lp.c;
-    std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
-    const double smallest = *std::min_element(sorted.begin(), sorted.begin() + rank + 1);
-    threshold = 2.0 * (sorted[rank] - smallest);
+  if (std::isfinite(slack)) {
+    const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
+    threshold = 2.0 * (slack - smallest);
     if (std::isfinite(lp.bound)) threshold = std::max(threshold, 0.1 * lp.bound);  // what a step may well close, however even the slacks
     for (size_t k = 0; k < rows; ++k) is_near[k] = lp.c[k] - smallest <= threshold;
     hold_loose_spheres(lp, is_near);

@@ -8,14 +8,16 @@
 
 namespace jam {
 
+// Slack of the row that is 1.05 dim n-th when sorted: about dim n rows carry force at the end. Infinite when there are fewer.
+double carrying_slack(const std::vector<double> &c, int dim, int32_t n);
+
 // The split of the rows of an LP: `near` is an LP of its own on the pairs that it owns.
 struct NearRows {
   PackingLp near;
   PairList near_pairs;               // without offsets: the rows of `near` say all
   std::vector<size_t> index, far;    // rows of the whole LP, both ascending
   double threshold = 0.0;            // slack above which a row started as far
-  // About dim * n rows carry force at the end. Near: the 1.05 dim n tightest ones and all up to twice their slack or a tenth of
-  // the step bound.
+  // Near: all up to twice carrying_slack or a tenth of the step bound.
   void choose(const PackingLp &lp);
   // Rows k with take[k] join the near ones.
   void join(const PackingLp &lp, const std::vector<char> &take);

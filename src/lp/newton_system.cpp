@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/monitor.hpp"
+#include "lp/row_products.hpp"
 
 namespace jam {
 
@@ -137,26 +138,10 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
   seconds_solve += now_seconds() - t0;
 }
 
-void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {
-  for (size_t k = 0; k < pair_i_.size(); ++k) {
-    const double *si = s + static_cast<size_t>(pair_i_[k]) * dim_, *sj = s + static_cast<size_t>(pair_j_[k]) * dim_, *row = a + k * dim_;
-    double sum = 0.0;
-    for (int c = 0; c < dim_; ++c) sum += row[c] * (si[c] - sj[c]);
-    out[k] = sum;
-  }
-}
+void NewtonSystem::rows_times(const double *a, const double *s, double *out) const { jam::rows_times(dim_, pair_i_, pair_j_, a, s, out); }
 
 void NewtonSystem::transpose_times(const double *a, const double *y, double *out) const {
-  std::fill(out, out + static_cast<size_t>(n_) * dim_, 0.0);
-  for (size_t k = 0; k < pair_i_.size(); ++k) {
-    double *oi = out + static_cast<size_t>(pair_i_[k]) * dim_, *oj = out + static_cast<size_t>(pair_j_[k]) * dim_;
-    const double *row = a + k * dim_;
-    for (int c = 0; c < dim_; ++c) {
-      const double v = y[k] * row[c];
-      oi[c] += v;
-      oj[c] -= v;
-    }
-  }
+  jam::transpose_times(dim_, n_, pair_i_, pair_j_, a, y, out);
 }
 
 }  // namespace jam

@@ -25,28 +25,6 @@ PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit) {
   return lp;
 }
 
-void rows_times(const PackingLp &lp, const double *s, double *out) {
-  const int d = lp.dim;
-  for (size_t k = 0; k < lp.rows(); ++k) {
-    const double *si = s + static_cast<size_t>(lp.pairs->i[k]) * d, *sj = s + static_cast<size_t>(lp.pairs->j[k]) * d, *a = &lp.a[k * d];
-    out[k] = 0.0;
-    for (int c = 0; c < d; ++c) out[k] += a[c] * (si[c] - sj[c]);
-  }
-}
-
-void transpose_times(const PackingLp &lp, const double *y, double *out) {
-  const int d = lp.dim;
-  std::fill(out, out + static_cast<size_t>(lp.n) * d, 0.0);
-  for (size_t k = 0; k < lp.rows(); ++k) {
-    double *oi = out + static_cast<size_t>(lp.pairs->i[k]) * d, *oj = out + static_cast<size_t>(lp.pairs->j[k]) * d;
-    for (int c = 0; c < d; ++c) {
-      const double v = y[k] * lp.a[k * d + c];
-      oi[c] += v;
-      oj[c] -= v;
-    }
-  }
-}
-
 LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
   LpCheck out{0.0, 0.0, 0.0, 0.0};
   const int d = lp.dim;

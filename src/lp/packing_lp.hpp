@@ -12,6 +12,7 @@
 
 #include "core/monitor.hpp"
 #include "core/pairs.hpp"
+#include "lp/row_products.hpp"
 
 namespace jam {
 
@@ -45,10 +46,10 @@ struct LpCheck {
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit);
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
-// out[k] = a_k . (s_i - s_j)
-void rows_times(const PackingLp &lp, const double *s, double *out);
-// out = sum_k y_k a_k on i, minus on j; (n, dim)
-void transpose_times(const PackingLp &lp, const double *y, double *out);
+inline void rows_times(const PackingLp &lp, const double *s, double *out) { rows_times(lp.dim, lp.pairs->i, lp.pairs->j, lp.a.data(), s, out); }
+inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
+  transpose_times(lp.dim, lp.n, lp.pairs->i, lp.pairs->j, lp.a.data(), y, out);
+}
 
 // Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL, can
 // cancel it between two pivots.

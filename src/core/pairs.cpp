@@ -137,6 +137,17 @@ class CellGrid {
 
 }  // namespace
 
+std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to) {
+  std::vector<double> out(to.size(), 0.0);
+  size_t at = 0;
+  for (size_t k = 0; k < to.size(); ++k) {
+    const auto key = std::make_pair(to.i[k], to.j[k]);
+    while (at < from.size() && std::make_pair(from.i[at], from.j[at]) < key) ++at;
+    if (at < from.size() && std::make_pair(from.i[at], from.j[at]) == key) out[k] = values[at++];
+  }
+  return out;
+}
+
 PairList find_pairs_brute(const Packing &p, double reach, double slope) {
   PairList list;
   std::vector<Candidate> found;

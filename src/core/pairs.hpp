@@ -23,6 +23,9 @@ PairList find_pairs(const Packing &p, double reach, double slope);
 // The same by looking at every pair and every image: the reference for tests.
 PairList find_pairs_brute(const Packing &p, double reach, double slope);
 
+// Values of the pairs of one list for those of another; 0 for pairs that the first does not hold. Images of one pair keep their order.
+std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to);
+
 // Smallest h = |r_ij| / sigma_ij - 1 over all pairs and its pair; h = +inf with no pair closer than 2 sigma_max.
 struct ClosestPair {
   double gap;

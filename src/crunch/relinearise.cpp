@@ -60,6 +60,7 @@ class Path {
           monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
         break;
     }
+    out.multipliers = {std::move(b_.pairs), std::move(b_.y)};
     return out;
   }
 
@@ -77,29 +78,27 @@ class Path {
       if (smallest < room)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + room));
     }
-    list_pairs(false);
+    list_pairs();
+    b_.y.assign(b_.pairs.size(), 0.0);
+    if (control_.start) b_.y = carry_over(control_.start->pairs, control_.start->y, b_.pairs);
+    b_.mu = centre_multipliers(b_.y, b_.lp.c, static_cast<double>(p_.position.size()));
   }
 
-  // New list; multipliers of pairs that stay are kept, new ones start on the central path.
-  void list_pairs(bool warm) {
-    const PairList old = std::move(b_.pairs);
-    const std::vector<double> y_old = std::move(b_.y);
+  // Multipliers of pairs that stay are kept, new ones start on the central path.
+  void list_again() {
+    const Multipliers old{std::move(b_.pairs), std::move(b_.y)};
     b_.unit = diameter_mean(p_);
-    if (warm) reach_ = std::max(least_reach * b_.unit, std::min(reach_, 6.0 * recent_));
+    reach_ = std::max(least_reach * b_.unit, std::min(reach_, 6.0 * recent_));
+    list_pairs();
+    b_.y = carry_over(old.pairs, old.y, b_.pairs);
+    for (size_t k = 0; k < b_.y.size(); ++k)
+      if (b_.y[k] == 0.0) b_.y[k] = b_.mu / b_.lp.c[k];
+  }
+
+  void list_pairs() {
     b_.pairs = find_pairs(p_, reach_, 1.0);
     b_.measure(p_);
     const size_t rows = b_.pairs.size(), unknowns = p_.position.size();
-    b_.y.assign(rows, 0.0);
-    double inverse = 0.0;
-    for (double c : b_.lp.c) inverse += 1.0 / c;
-    const double mu = warm ? gap_ / static_cast<double>(std::max<size_t>(1, old.size())) : 1.0 / inverse;
-    size_t at = 0;
-    for (size_t k = 0; k < rows; ++k) {
-      const auto key = std::make_pair(b_.pairs.i[k], b_.pairs.j[k]);
-      while (warm && at < old.size() && std::make_pair(old.i[at], old.j[at]) < key) ++at;
-      const bool known = warm && at < old.size() && std::make_pair(old.i[at], old.j[at]) == key;
-      b_.y[k] = known ? y_old[at++] : mu / b_.lp.c[k];
-    }
     travelled_ = grown_ = 0.0;
     near_.clear();
     for (auto *v : {&weight_, &target_, &row_}) v->resize(rows);
@@ -113,7 +112,7 @@ class Path {
     double sum = 0.0, scale = 0.0, worst = 0.0;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       const double c = b_.lp.c[k], *a = &b_.lp.a[k * p_.dim];
-      if (b_.mu > 0.0) b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (centrality * c)), centrality * b_.mu / c);
+      b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (centrality * c)), centrality * b_.mu / c);
       sum += b_.y[k];
       double a2 = 0.0;
       for (int q = 0; q < p_.dim; ++q) a2 += a[q] * a[q];
@@ -189,7 +188,6 @@ class Path {
   // A start colder than its forces can balance at creeps along the walls: it is warmed up at once.
   void set_mu() {
     double &mu = b_.mu;
-    if (mu == 0.0) mu = gap_ / static_cast<double>(b_.y.size());
     creeping_ = balance_ > 0.5 && alpha_p_ < 0.1 && last_step_ < 0.5 * trust ? creeping_ + 1 : 0;
     if (creeping_ > 3 && warmed_ < 3 && !centred_once_) mu *= 10.0, at_mu_ = creeping_ = 0, ++warmed_;
     if (at_mu_ == 0) cuts_ = 0;
@@ -253,7 +251,7 @@ class Path {
     grown_ += alpha_p_ * growth;
     recent_ = std::max(step, 0.5 * recent_);
     if (2.0 * (travelled_ + 2.0 * step) + grown_ + 2.0 * alpha_p_ * growth > reach_) {
-      if (measure()) list_pairs(true);
+      if (measure()) list_again();
     }
   }
 

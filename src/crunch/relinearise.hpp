@@ -8,12 +8,14 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "lp/newton_system.hpp"
+#include "lp/packing_lp.hpp"
 
 namespace jam {
 
 struct RelineariseControl {
   double target = 1e-10;     // stop when the duality gap, in units of Gamma, is below this: a few LPs decide the rest
   double room = 0.0;         // the closest pair is opened to this relative gap at least
+  const Multipliers *start = nullptr;  // NULL or empty: those of the central path at the gaps of the start
   int max_factorisations = 600;
   int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock
@@ -25,6 +27,7 @@ struct RelineariseResult {
   double gap = 0.0;
   int factorisations = 0;
   int reheats = 0;           // saddles left by warming up
+  Multipliers multipliers;   // of the last list
 };
 
 // Moves p (always without overlap) towards its jamming point.

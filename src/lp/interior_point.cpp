@@ -17,8 +17,29 @@ void InteriorPoint::Direction::add(const Direction &o) {
   g += o.g;
 }
 
-// Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly; y on the central path of
-// that point (all products equal, sum 1); the bounds share the mean product.
+// Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly. Cold, y is on the central path of that
+// point; warm, sum y c with the multipliers of the LP before bounds the gain, and that is how near the end of the path the start
+// is. Returns the mean product.
+double InteriorPoint::first_point() {
+  constexpr double ahead = 3.0, blurred = 1e-12;  // closer to the end than that rounding of the rows upsets the force balance
+  const PackingLp &lp = *lp_;
+  const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
+  std::vector<double> sorted = lp.c;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.01 * (box_ ? std::min(1.0, lp.bound) : 1.0));
+  double sum = 0.0, gain = 0.0;
+  if (control_.multipliers)
+    for (size_t q = 0; q < rows_; ++q) {
+      y_[q] = (*control_.multipliers)[split_.index[q]];
+      sum += y_[q], gain += y_[q] * (lp.c[q] - smallest);
+    }
+  if (sum > 0.0) room = std::min(room, std::max(ahead * gain / sum, blurred));
+  g_ = smallest - room;
+  for (size_t q = 0; q < rows_; ++q) w_[q] = lp.c[q] - g_;
+  return centre_multipliers(y_, w_, static_cast<double>(rows_));
+}
+
+// The bounds share the mean product.
 void InteriorPoint::start() {
   split_.choose(*whole_);
   lp_ = &split_.near;
@@ -30,18 +51,7 @@ void InteriorPoint::start() {
   for (auto *v : {&s_, &rd_, &diagonal_, &rhs_, &targets_u_, &targets_v_}) v->assign(unknowns_, 0.0);
   for (auto *v : {&y_, &w_, &rp_, &weight_, &row_, &targets_}) v->assign(rows_, 0.0);
   for (auto *d : {&main_, &extra_, &trial_}) d->resize(rows_, unknowns_);
-  std::vector<double> sorted = lp.c;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
-  const double room = std::max(0.1 * (sorted[sorted.size() / 2] - smallest), 0.01 * (box_ ? std::min(1.0, lp.bound) : 1.0));
-  g_ = smallest - room;
-  double inverse = 0.0;
-  for (size_t k = 0; k < rows_; ++k) {
-    w_[k] = lp.c[k] - g_;
-    inverse += 1.0 / w_[k];
-  }
-  const double mu = 1.0 / inverse;
-  for (size_t k = 0; k < rows_; ++k) y_[k] = mu / w_[k];
+  const double mu = first_point();
   const double z = box_ ? mu / lp.bound : 0.0;
   gap_scale_ = mu * static_cast<double>(rows_);
   u_.assign(unknowns_, lp.bound);
@@ -214,7 +224,8 @@ void InteriorPoint::predictor_corrector(Direction &d) {
   direction(targets_, targets_u_, targets_v_, true, 0, d);
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
-  const double target = std::max(ratio * ratio * ratio, 1e-8) * mu;
+  // Below a tenth of the tolerance only rounding is left to win.
+  const double target = std::max(std::max(ratio * ratio * ratio, 1e-8) * mu, 0.1 * control_.tolerance / static_cast<double>(rows_));
   for (size_t k = 0; k < rows_; ++k) targets_[k] = target - y_[k] * w_[k] - d.w[k] * d.y[k];
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k) {
@@ -267,6 +278,15 @@ void InteriorPoint::move(const Direction &d, const Steps &a) {
   g_ += a.primal * d.g;
 }
 
+LpSolution InteriorPoint::answer() const {
+  LpSolution out;
+  out.s = s_, out.g = g_;
+  out.y.assign(whole_->rows(), 0.0), out.w.assign(whole_->rows(), 0.0);
+  for (size_t q = 0; q < rows_; ++q) out.y[split_.index[q]] = y_[q], out.w[split_.index[q]] = w_[q];
+  for (size_t q = 0; q < far_w_.size(); ++q) out.w[split_.far[q]] = far_w_[q];
+  return out;
+}
+
 LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor) {
   whole_ = &lp;
   control_ = control;
@@ -275,11 +295,14 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   const int before = system_.factorisations;
   double best_merit = std::numeric_limits<double>::infinity();
   int idle = 0;
+  bool asked = false;
   for (;; ++out.iterations) {
     residuals();
     const double gap = complementarity();
     if (monitor) monitor->log(JAM_LOG_DEBUG, "ipm %2d gap %.2e balance %.1e sum_y %.1e g %.15f", out.iterations, gap, dual_norm_, rg_, g_);
-    if (converged()) {
+    const bool ask = control.leave && !asked && g_ > 0 && gap <= control.rough * g_ && dual_norm_ <= 1e-3 && std::fabs(rg_) <= 1e-9;
+    asked = asked || ask;
+    if (converged() || (ask && control.leave(answer()))) {
       out.solved = true;
       break;
     }
@@ -301,12 +324,10 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     move(main_, {longest_far(main_, a.primal < 1.0 ? keep * a.primal : 1.0), a.dual < 1.0 ? keep * a.dual : 1.0});
     if (admit_far() && monitor) monitor->log(JAM_LOG_DEBUG, "ipm: %zu of %zu rows near", rows_, lp.rows());
   }
-  out.factorisations = system_.factorisations - before;
-  out.s = s_, out.g = g_;
-  out.y.assign(lp.rows(), 0.0), out.w.assign(lp.rows(), 0.0);
-  for (size_t q = 0; q < rows_; ++q) out.y[split_.index[q]] = y_[q], out.w[split_.index[q]] = w_[q];
-  for (size_t q = 0; q < far_w_.size(); ++q) out.w[split_.far[q]] = far_w_[q];
-  return out;
+  LpSolution last = answer();
+  last.iterations = out.iterations, last.solved = out.solved;
+  last.factorisations = system_.factorisations - before;
+  return last;
 }
 
 }  // namespace jam

@@ -2,6 +2,7 @@
 // Gondzio's multiple centrality correctors (Comput. Optim. Appl. 6, 137 (1996)), since here a triangular solve costs
 // a few percent of a factorisation.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "core/monitor.hpp"
@@ -19,6 +20,10 @@ struct IpmControl {
   int correctors = 3;
   int threads = 1;
   double wall_time = 1e300;  // of the monitor's clock: past it the iteration ends unsolved
+  // Asked once, when the sum is below `rough` of the gain: true ends the LP there, with slack left in its rows.
+  std::function<bool(const LpSolution &)> leave;
+  double rough = 0.3;
+  const std::vector<double> *multipliers = nullptr;  // one a row, of an LP with the same carrying rows: a warm start (0: not known)
 };
 
 class InteriorPoint {
@@ -39,9 +44,11 @@ class InteriorPoint {
     double primal, dual;
   };
   void start();
+  double first_point();
   void residuals();
   double complementarity() const;
   bool converged() const;
+  LpSolution answer() const;
   void weights();
   // Solves for targets rc (rows) and rcu, rcv (bounds); `full`: with the primal and dual residuals; only the
   // direction that is followed in the end is worth a step of refinement.

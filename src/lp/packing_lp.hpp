@@ -34,6 +34,17 @@ struct LpSolution {
   bool solved = false;  // the solver's own word; check_lp decides
 };
 
+// Where the next problem on nearly the same rows may start.
+struct Multipliers {
+  PairList pairs;
+  std::vector<double> y;
+};
+
+// Puts multipliers near the central path of slacks w: those known (y > 0) are scaled to sum 1, their mean product with w over about
+// `carrying` rows is mu, and each is pulled to within a factor of mu / w; the rest gets mu / w. None known: all on the path, sum 1.
+// Returns mu.
+double centre_multipliers(std::vector<double> &y, const std::vector<double> &w, double carrying);
+
 // Residuals of an answer, computed here from the LP alone and not by a solver.
 struct LpCheck {
   double infeasibility;  // largest violation of a row or bound

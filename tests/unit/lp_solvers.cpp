@@ -71,6 +71,75 @@ void far_rows_bind(void **) {
   }
 }
 
+// A chain of LPs, each solved from the multipliers of the one before and from nothing; and from multipliers that mislead.
+void warm_starts(void **) {
+  Packing p = start(80, 3, 0.3, 2);
+  const double unit = diameter_mean(p);
+  Multipliers known;
+  int warm_iterations = 0, cold_iterations = 0, settled = 0, misled = 0;
+  double bound = 0.3, step = 1.0;
+  for (int k = 0; k < 200 && settled < 3; ++k) {
+    const double reach = 2.2 * bound * unit;
+    PairList pairs = find_pairs(p, reach, 1.0);
+    PackingLp lp = make_lp(p, pairs, unit);
+    lp.bound = bound;
+    const LpSolution cold = interior(lp);
+    const std::vector<double> forces = carry_over(known.pairs, known.y, pairs);
+    std::vector<double> upside_down = forces;
+    double largest = 0.0;
+    for (const double y : forces) largest = std::max(largest, y);
+    for (double &y : upside_down) y = 1.1 * largest - y;
+    for (const std::vector<double> *y : {&forces, static_cast<const std::vector<double> *>(&upside_down)}) {
+      NewtonSystem system;
+      IpmControl control;
+      control.multipliers = y;
+      const LpSolution warm = InteriorPoint(system).solve(lp, control);
+      const bool decided = y == &forces && step < 1e-5;  // the forces of the LP before are all but the answer
+      if (decided) assert_true(warm.solved);
+      misled += !warm.solved;
+      if (!warm.solved) continue;  // it said so: the cold start follows
+      assert_true(check_lp(lp, warm).infeasibility < 1e-13);
+      if (!(std::fabs(warm.g - cold.g) < 1e-9)) fail_msg("bound %g: warm %.15g, cold %.15g", bound, warm.g, cold.g);
+      if (decided) warm_iterations += warm.iterations, cold_iterations += cold.iterations, ++settled;
+    }
+    known = {pairs, cold.y};
+    assert_true(take_step(p, pairs, reach, cold, unit) > 0.0);
+    step = largest_step(cold, find_network(lp, cold), 3);
+    bound = std::min(0.3, std::max({5.0 * step, cold.g, 1e-6}));
+  }
+  assert_true(settled > 2 && 2 * warm_iterations < cold_iterations);
+  print_message("last LPs: %d iterations warm, %d cold; %d warm starts gave up\n", warm_iterations, cold_iterations, misled);
+  std::vector<double> y = {3.0, 0.0, 1.0};
+  const std::vector<double> w = {1.0, 2.0, 1e-6};
+  const double mu = centre_multipliers(y, w, 3.0);
+  assert_true(std::fabs(mu - 0.25 * (3.0 + 1e-6) / 3.0) < 1e-15);  // sum y w of the known ones, scaled to sum 1, over three
+  assert_true(y[0] == 0.75 && y[1] == mu / 2.0 && y[2] == mu / (10.0 * w[2]));  // the last is pulled up
+  y.assign(3, 0.0);
+  const double path = centre_multipliers(y, w, 3.0);
+  for (int k = 0; k < 3; ++k) assert_true(std::fabs(y[k] * w[k] / path - 1.0) < 1e-14);
+  assert_true(std::fabs(y[0] + y[1] + y[2] - 1.0) < 1e-14);
+}
+
+// An LP that is left early is strictly inside its rows, within the part of the gain that it promised.
+void left_early(void **) {
+  const Packing p = start(60, 3, 0.3, 4);
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 0.2;
+  NewtonSystem system;
+  IpmControl control;
+  int asked = 0;
+  control.leave = [&](const LpSolution &x) { return ++asked, x.g > 0.0; };
+  const LpSolution x = InteriorPoint(system).solve(lp, control), whole = interior(lp);
+  assert_true(x.solved && asked == 1 && x.iterations < whole.iterations);
+  const double slack = *std::min_element(x.w.begin(), x.w.end());
+  assert_true(slack > 1e-9 && x.g < whole.g && x.g > 0.6 * whole.g);  // gap <= 0.3 g, and the dual residual of 1e-3
+  control.leave = [&](const LpSolution &) { return ++asked, false; };
+  const LpSolution other = InteriorPoint(system).solve(lp, control);
+  assert_true(asked == 2 && std::fabs(other.g - whole.g) < 1e-14);
+}
+
 // A square lattice in contact: many optimal multipliers, the optimum still one number; and one pair alone.
 void degenerate_instances(void **) {
   Packing p;
@@ -202,7 +271,8 @@ void far_rows_cut_steps(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(far_rows_bind), cmocka_unit_test(far_rows_cut_steps), cmocka_unit_test(degenerate_instances),
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(far_rows_bind), cmocka_unit_test(far_rows_cut_steps), cmocka_unit_test(warm_starts), cmocka_unit_test(left_early),
+                              cmocka_unit_test(degenerate_instances),
                               cmocka_unit_test(fcc_instances), cmocka_unit_test(vanishing_bound),
                               cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -65,6 +65,16 @@ void wrapping_keeps_vectors(void **) {
   }
 }
 
+// Values follow their pairs, images one by one; pairs that are new get nothing.
+void values_carried_over(void **) {
+  PairList from, to;
+  from.i = {0, 0, 1, 2}, from.j = {1, 1, 2, 5};
+  to.i = {0, 0, 0, 0, 2, 3}, to.j = {1, 1, 1, 2, 5, 4};
+  const std::vector<double> out = carry_over(from, {1, 2, 3, 4}, to), wanted = {1, 2, 0, 0, 4, 0};
+  assert_true(out == wanted);
+  assert_true(carry_over(PairList(), {}, to) == std::vector<double>(6, 0.0));
+}
+
 void closest(void **) {
   Packing p;
   p.dim = 2;
@@ -78,6 +88,6 @@ void closest(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force), cmocka_unit_test(own_images),
-                              cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(closest)};
+                              cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(values_carried_over), cmocka_unit_test(closest)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

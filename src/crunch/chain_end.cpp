@@ -25,10 +25,17 @@ bool Chain::wants_another_lp() {
 bool Chain::last_digits() {
   if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
   if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
-  const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+  PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+  ContactNetwork fewer = out_.contacts;
+  while (end != PolishEnd::done && end != PolishEnd::cancelled && drop_idle_contact(fewer, lp_.dim)) {
+    end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
+    if (end == PolishEnd::done) out_.contacts = std::move(fewer);
+  }
   if (end == PolishEnd::done) {
     HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
     for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
+    const double idle = row[JAM_HISTORY_CONTACTS] - static_cast<double>(out_.contacts.size());
+    row[JAM_HISTORY_CONTACTS] -= idle, row[JAM_HISTORY_EXCESS] -= idle;
     if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
   }
   const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"

@@ -13,7 +13,7 @@ namespace {
 constexpr double strides = 3e-3, long_step = 1e-2, same_forces = 5e-3;
 // A step l opens contacts by l^2. Where that is more than so many gains, of steps longer than the second, LPs go round the valley's
 // bend in steps that each win back what the last one opened.
-constexpr double bend = 10.0, short_step = 1e-5;
+constexpr double bend = 10.0, short_step = 1e-6;
 // Gaps that the path opens to at least: two digits above where rounding of coordinates blurs the barrier.
 constexpr double least_room = 1e-10;
 

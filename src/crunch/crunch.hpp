@@ -74,6 +74,10 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 enum class PolishEnd { done, no_contacts, cancelled, open_contact, negative_force, overlap };
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
 
+// Where a network has more contacts than one state of self-stress and the weakest carries less than 1e-5 of the mean force, that pair
+// only touches as far as an LP can tell: takes it out. False when there is none.
+bool drop_idle_contact(ContactNetwork &contacts, int dim);
+
 // certificate.cpp: everything in the report that follows from packing and contacts alone.
 void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);
 

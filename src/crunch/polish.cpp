@@ -94,11 +94,15 @@ bool pushes_only(const ContactNetwork &net) {
   return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
 }
 
+int64_t excess(const ContactNetwork &net, int dim) {
+  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  return static_cast<int64_t>(net.size()) - (dim * (stable - 1) + 1);
+}
+
 // More contacts than one state of self-stress needs: the forces are not unique. Those of least norm at the same mean are the
 // projection of equal forces; false, and nothing changed, if one of them pulls (the LP's forces then have to do).
 bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
-  if (static_cast<int64_t>(net.size()) <= p.dim * (stable - 1) + 1) return false;
+  if (excess(net, p.dim) <= 0) return false;
   ContactNetwork least = net;
   std::fill(least.force.begin(), least.force.end(), 1.0);
   balance_forces(p, least, system, diagonal);
@@ -109,6 +113,19 @@ bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, c
 }
 
 }  // namespace
+
+bool drop_idle_contact(ContactNetwork &net, int dim) {
+  constexpr double idle = 1e-5;
+  if (net.size() == 0 || excess(net, dim) <= 0) return false;
+  const size_t k = std::min_element(net.force.begin(), net.force.end()) - net.force.begin();
+  int32_t &zi = net.coordination[net.pairs.i[k]], &zj = net.coordination[net.pairs.j[k]];
+  if (net.force[k] > idle || zi <= dim + 1 || zj <= dim + 1) return false;
+  --zi, --zj;
+  const auto erase = [k](auto &v, size_t width) { v.erase(v.begin() + k * width, v.begin() + (k + 1) * width); };
+  erase(net.pairs.i, 1), erase(net.pairs.j, 1), erase(net.pairs.offset, dim);
+  erase(net.vector, dim), erase(net.gap, 1), erase(net.force, 1);
+  return true;
+}
 
 PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   if (net.size() == 0) return PolishEnd::no_contacts;

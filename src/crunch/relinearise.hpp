@@ -13,7 +13,7 @@
 namespace jam {
 
 struct RelineariseControl {
-  double target = 1e-10;     // stop when the duality gap, in units of Gamma, is below this: a few LPs decide the rest
+  double target = 1e-12;     // stop when the duality gap, in units of Gamma, is below this: a few LPs decide the rest
   double room = 0.0;         // the closest pair is opened to this relative gap at least
   const Multipliers *start = nullptr;  // NULL or empty: those of the central path at the gaps of the start
   int max_factorisations = 600;

@@ -187,10 +187,51 @@ void one_more_lp(void **) {
   }
 }
 
+// A pair that does not touch but that the LP counts among the contacts, with next to no force: polish leaves it out. With a force that
+// counts it does not.
+void idle_contact(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  const CrunchResult plain = run(p, default_crunch_options());
+  assert_true(plain.report.jammed && plain.report.excess_contacts == 0);
+  for (const double force : {1e-7, 1e-3}) {
+    int asked = 0;
+    CrunchSeams seams;
+    seams.before_polish = [&](const Packing &q, ContactNetwork &net) {
+      if (++asked > 1) return;
+      const PairList near = find_pairs(q, 0.1 * diameter_mean(q), 1.0);
+      double closest = 1.0;
+      PairList extra;
+      for (size_t k = 0; k < near.size(); ++k) {
+        const int32_t i = near.i[k], j = near.j[k];
+        double r[3];
+        const double gap = std::sqrt(pair_vector(q, near, k, r)) / (0.5 * (q.diameter[i] + q.diameter[j])) - 1.0;
+        if (gap < 1e-8 || gap > closest || net.coordination[i] == 0 || net.coordination[j] == 0) continue;
+        closest = gap;
+        extra.i = {i}, extra.j = {j};
+        extra.offset.assign(&near.offset[3 * k], &near.offset[3 * k] + 3);
+      }
+      assert_true(extra.size() == 1);
+      ++net.coordination[extra.i[0]], ++net.coordination[extra.j[0]];
+      net.pairs.i.push_back(extra.i[0]), net.pairs.j.push_back(extra.j[0]);
+      net.pairs.offset.insert(net.pairs.offset.end(), extra.offset.begin(), extra.offset.end());
+      net.vector.insert(net.vector.end(), {1.0, 0.0, 0.0});  // polish makes them anew
+      net.gap.push_back(closest), net.force.push_back(force);
+    };
+    CrunchResult first;
+    seams.attempt = [&](CrunchResult &r) { first = r; };
+    Monitor monitor;
+    monitor.begin();
+    crunch(p, default_crunch_options(), monitor, nullptr, &seams);
+    assert_true(first.report.jammed && first.report.contacts == plain.report.contacts && first.report.force_residual < 1e-14);
+    assert_true(std::fabs(first.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
+    assert_int_equal(first.report.lp_solves - plain.report.lp_solves, force > 1e-5);  // an LP more where the pair might carry
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(clp_takes_over), cmocka_unit_test(nobody_solves), cmocka_unit_test(chain_takes_over),
-                              cmocka_unit_test(polish_refuses), cmocka_unit_test(one_more_lp)};
+                              cmocka_unit_test(polish_refuses), cmocka_unit_test(one_more_lp), cmocka_unit_test(idle_contact)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

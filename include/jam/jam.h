@@ -620,6 +620,7 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t
  * be cancelled (status JAM_CANCELLED, no output written); they do not change the packing. All need a contact network
  * unless said otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
 
+/* ------------- Hessian, modes */
 /* Stiffness k of a contact, 1 at the mean force. @since 0.1 */
 typedef enum jam_stiffness {
   JAM_STIFFNESS_HARMONIC = 0, /* k = 1 */
@@ -674,6 +675,7 @@ JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, cons
                              size_t lambda_len, double *vector, size_t vector_len, double *participation,
                              size_t participation_len, size_t *needed);
 
+/* ------------- network from geometry, states of self-stress */
 /* Options of jam_contacts_from_geometry. @since 0.1 */
 typedef struct jam_geometry_options {
   uint32_t struct_size; /* sizeof(jam_geometry_options) */
@@ -727,6 +729,7 @@ JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, 
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *needed);
 
+/* ------------- gaps, classes and angles of contacts */
 /* Flags of a contact. @since 0.1 */
 typedef enum jam_contact_class {
   JAM_CONTACT_LOCALISED = 1, /* touches a buckler (a stable sphere with d + 1 contacts); without it: extended */
@@ -776,6 +779,7 @@ JAM_API jam_status jam_class_values(const jam_system *sys, int32_t quantity, int
  * there. Threads: const. Errors: as jam_class_values. @since 0.1 */
 JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins,
                                  double *out, size_t out_len, size_t *needed);
+/* ------------- structure of the packing */
 /* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
  * diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
@@ -795,6 +799,7 @@ JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
  * JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1 */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
+/* ------------- floppy modes */
 /* Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
  * common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
  * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
@@ -808,6 +813,7 @@ JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t medi
                                     double *s_plus, size_t s_plus_len, double *s_star, size_t s_star_len, double *stability,
                                     size_t stability_len, size_t *needed);
 
+/* ------------- spectrum, moduli, comparison */
 /* Options of jam_density_of_states. @since 0.1 */
 typedef struct jam_dos_options {
   uint32_t struct_size; /* sizeof(jam_dos_options) */

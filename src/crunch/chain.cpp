@@ -15,7 +15,6 @@ namespace {
 constexpr double already_closed = 1e-11;
 // After a longest step below this (mean diameters) the forces hardly change: the next LP starts from them.
 constexpr double settled = 1e-5;
-constexpr int most_paths = 5;
 
 double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0; }
 
@@ -39,7 +38,7 @@ CrunchResult Chain::run() {
     do {
       while (out_.report.stop_reason == JAM_STOP_NONE) {
         one_lp();
-        if (out_.report.stop_reason == JAM_STOP_NONE && paths_ < most_paths && in_valley(out_.report.gain, out_.report.max_step)) follow_path();
+        if (out_.report.stop_reason == JAM_STOP_NONE && in_valley(out_.report.gain, out_.report.max_step)) follow_path();
       }
     } while (wants_another_lp());
     finish();

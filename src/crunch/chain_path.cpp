@@ -16,6 +16,7 @@ constexpr double strides = 3e-3, long_step = 1e-2, same_forces = 5e-3;
 constexpr double bend = 10.0, short_step = 1e-6;
 // Gaps that the path opens to at least: two digits above where rounding of coordinates blurs the barrier.
 constexpr double least_room = 1e-10;
+constexpr int most_paths = 5;
 
 }  // namespace
 
@@ -29,7 +30,7 @@ double Chain::first_bound() const {
 // LPs take a dilute start in a few long strides, and finish at once what is all but jammed. Between the two lies a curved
 // valley, where the barrier path needs fewer factorisations.
 bool Chain::in_valley(double gain, double step) const {
-  return o_.method == JAM_CRUNCH_RELINEARISE && gain <= strides && (step > long_step || (step > short_step && step * step > bend * gain));
+  return o_.method == JAM_CRUNCH_RELINEARISE && paths_ < most_paths && gain <= strides && (step > long_step || (step > short_step && step * step > bend * gain));
 }
 
 // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
@@ -41,7 +42,6 @@ void Chain::follow_path() {
   const bool holds = moved_ < same_forces;
   if (holds) control.start = &known_;
   control.room = std::max({holds ? 0.0 : 0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step, least_room});
-  control.target = std::min(control.target, 0.01 * control.room);
   control.threads = o_.threads;
   control.wall_time = o_.wall_time;
   control.on_step = [this](double gap, size_t pairs) { path_step(gap, pairs); };

@@ -5,60 +5,16 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <thread>
 
 #include "lp/blas.hpp"
+#include "lp/dense_front.hpp"
+#include "lp/two_threads.hpp"
 
 namespace jam {
 namespace {
 
-constexpr double one = 1.0, minus_one = -1.0, zero = 0.0;
-constexpr int inc = 1;
-constexpr double huge_pivot = 1e64;  // the square root of what replaces it
-
-// Unblocked Cholesky of the leading columns of a small block; returns the number of replaced pivots.
-int factor_small(double *a, int lda, int columns, const double *original, double relative, double least) {
-  int replaced = 0;
-  for (int j = 0; j < columns; ++j) {
-    double *cj = a + static_cast<size_t>(j) * lda;
-    double pivot = cj[j];
-    if (pivot > std::max(relative * original[j], least)) {
-      pivot = std::sqrt(pivot);
-    } else if (std::isfinite(pivot)) {  // else it stays and factorise() finds it
-      pivot = huge_pivot;
-      ++replaced;
-    }
-    cj[j] = pivot;
-    const double inverse = 1.0 / pivot;
-    for (int i = j + 1; i < columns; ++i) cj[i] *= inverse;
-    for (int k = j + 1; k < columns; ++k) {
-      double *ck = a + static_cast<size_t>(k) * lda;
-      const double f = cj[k];
-      for (int i = k; i < columns; ++i) ck[i] -= f * cj[i];
-    }
-  }
-  return replaced;
-}
-
-// C = -B B^T, lower triangle, on two threads when it is worth it: columns are split where the two areas are even.
-void minus_square(double *c, int n, const double *b, int ldb, int k, int threads) {
-  if (n == 0 || k == 0) return;
-  if (threads < 2 || static_cast<double>(n) * n * k < 2e7) {
-    dsyrk_("L", "N", &n, &k, &minus_one, b, &ldb, &zero, c, &n);
-    return;
-  }
-  const int left = static_cast<int>(0.29289 * n), right = n - left;
-  std::thread other([&] { dsyrk_("L", "N", &right, &k, &minus_one, b + left, &ldb, &zero, c + static_cast<size_t>(left) * n + left, &n); });
-  dsyrk_("L", "N", &left, &k, &minus_one, b, &ldb, &zero, c, &n);
-  dgemm_("N", "T", &right, &left, &k, &minus_one, b + left, &ldb, b, &ldb, &zero, c + left, &n);
-  other.join();
-}
-
-// The triangle on top of a panel, forward ("N") or backward ("T").
-void solve_top(const double *panel, int front, int width, double *x, int ld, int nrhs, const char *trans) {
-  if (nrhs == 1) dtrsv_("L", trans, "N", &width, panel, &front, x, &inc);
-  else dtrsm_("L", "L", trans, "N", &width, &nrhs, &one, panel, &front, x, &ld);
-}
+// Additions, and numbers read, below which a second thread is not worth its start.
+constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
 
 }  // namespace
 
@@ -82,18 +38,25 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
 
 // Adds a child's Schur complement to the parent, run by run: to its panel when `update` is NULL (before the panel is
 // factored), else to its Schur complement (after that was written, so that it needs no clearing).
-void BlockCholesky::extend_add(int32_t child, double *update) {
+void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
+  const size_t mc = below(supernodes_[child]);
+  if (threads < 2 || mc * mc < worth_a_thread) return extend_add_columns(child, update, 0, 1);
+  on_two_threads([&](int part) { extend_add_columns(child, update, part, 2); });
+}
+
+// Every `stride`-th column from `start` on: no two columns of the child go to one of the parent.
+void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t start, size_t stride) {
   const Supernode &c = supernodes_[child], &p = supernodes_[c.parent];
   const auto &runs = runs_[child];
-  const size_t d = dim_, mc = below(c), own = p.last - p.first, mp = below(p), stride = update ? mp : columns(p) + mp;
+  const size_t d = dim_, mc = below(c), own = p.last - p.first, mp = below(p), ld = update ? mp : columns(p) + mp;
   double *into = update ? update : &values_[p.value_start];
   const size_t shift = update ? own * d : 0;
   size_t first = 0;
   while (first < runs.size() && static_cast<size_t>(runs[first].to) < own) ++first;
   for (size_t b = update ? first : 0; b < (update ? runs.size() : first); ++b)
-    for (size_t column = 0; column < static_cast<size_t>(runs[b].count) * d; ++column) {
+    for (size_t column = (runs[b].from * d + start) % stride; column < static_cast<size_t>(runs[b].count) * d; column += stride) {
       const double *x = update_[child] + (runs[b].from * d + column) * mc;
-      double *to = into + (runs[b].to * d + column - shift) * stride;
+      double *to = into + (runs[b].to * d + column - shift) * ld;
       for (size_t a = b; a < runs.size(); ++a) {
         const size_t skip = a == b ? column : 0, length = runs[a].count * d - skip;
         const double *xa = x + runs[a].from * d + skip;
@@ -101,25 +64,6 @@ void BlockCholesky::extend_add(int32_t child, double *update) {
         for (size_t i = 0; i < length; ++i) ya[i] += xa[i];
       }
     }
-}
-
-// Cholesky of the panel's top, by blocks of columns; the rows below follow.
-int BlockCholesky::factor_panel(double *panel, int front, int width, const double *original) {
-  constexpr int block = 48;
-  int replaced = 0;
-  for (int j = 0; j < width; j += block) {
-    const int now = std::min(block, width - j), rest = front - j - now, inside = width - j - now;
-    double *a = panel + static_cast<size_t>(j) * front + j;
-    replaced += factor_small(a, front, now, original + j, relative_, floor_);
-    if (rest == 0) continue;
-    dtrsm_("R", "L", "T", "N", &rest, &now, &one, a, &front, a + now, &front);
-    if (inside == 0) continue;
-    double *trailing = a + static_cast<size_t>(now) * front + now;
-    dsyrk_("L", "N", &inside, &now, &minus_one, a + now, &front, &one, trailing, &front);
-    const int rows = rest - inside;
-    if (rows > 0) dgemm_("N", "T", &rows, &inside, &now, &minus_one, a + now + inside, &front, a + now, &front, &one, trailing + inside, &front);
-  }
-  return replaced;
 }
 
 // A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of
@@ -130,13 +74,13 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   const int front = static_cast<int>(columns(s) + m), width = static_cast<int>(columns(s)), rows = static_cast<int>(m);
   double *panel = &values_[s.value_start];
   assemble(s, diag, off);
-  for (const int32_t c : s.children) extend_add(c, nullptr);
-  replaced += factor_panel(panel, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_]);
+  for (const int32_t c : s.children) extend_add(c, nullptr, threads);
+  replaced += factor_panel(panel, front, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_], {relative_, floor_}, threads);
   const int side = s.depth % 2;
   double *update = kept_[index].empty() ? stack.memory[side].data() + stack.top[side] : kept_[index].data();
   minus_square(update, rows, panel + width, front, width, threads);
   for (const int32_t c : s.children) {
-    if (m) extend_add(c, update);
+    if (m) extend_add(c, update, threads);
     if (kept_[c].empty()) stack.top[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
   }
   if (kept_[index].empty()) stack.top[side] += m * m;
@@ -152,9 +96,7 @@ int BlockCholesky::factorise(const double *diag, const double *off) {
   const BlasSingleThread single;
   int replaced[3] = {0, 0, 0};
   if (!lists_[1].empty()) {
-    std::thread other([&] { run_list(lists_[1], diag, off, stacks_[1], 1, replaced[1]); });
-    run_list(lists_[0], diag, off, stacks_[0], 1, replaced[0]);
-    other.join();
+    on_two_threads([&](int t) { run_list(lists_[t], diag, off, stacks_[t], 1, replaced[t]); });
   } else {
     run_list(lists_[0], diag, off, stacks_[0], 1, replaced[0]);
   }
@@ -167,12 +109,43 @@ int BlockCholesky::factorise(const double *diag, const double *off) {
   return replaced[0] + replaced[1] + replaced[2];
 }
 
-// Supernode by supernode for all right-hand sides at once, so that a panel is read once.
+// Supernode by supernode for all right-hand sides at once, so that a panel is read once. below: room for the rows of one supernode.
+void BlockCholesky::forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const {
+  const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
+  for (const int32_t index : list) {
+    const Supernode &s = supernodes_[index];
+    const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
+    panel_forward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d, static_cast<int>(unknowns), below_rows,
+                  static_cast<int>(largest_below_), nrhs, threads);
+    for (int r = 0; r < nrhs; ++r)
+      for (size_t k = 0; k < s.row_count; ++k)
+        for (size_t c = 0; c < d; ++c) y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c] -= below_rows[r * largest_below_ + k * d + c];
+  }
+}
+
+void BlockCholesky::backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const {
+  const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
+  for (size_t at = list.size(); at-- > 0;) {
+    const Supernode &s = supernodes_[list[at]];
+    const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
+    for (int r = 0; r < nrhs; ++r)
+      for (size_t k = 0; k < s.row_count; ++k)
+        for (size_t c = 0; c < d; ++c) below_rows[r * largest_below_ + k * d + c] = y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
+    panel_backward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d, static_cast<int>(unknowns), below_rows,
+                   static_cast<int>(largest_below_), nrhs, threads);
+  }
+}
+
+// Both threads subtract from the top of the tree, so the second one has its own vector until the two are done.
 void BlockCholesky::solve_many(double *x, int nrhs) const {
   const BlasSingleThread single;
-  const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
-  const int ld = static_cast<int>(unknowns), most = static_cast<int>(largest_below_);
-  std::vector<double> y(unknowns * nrhs), gathered(largest_below_ * nrhs);
+  const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;
+  const bool two = !lists_[0].empty();
+  const auto both = [&](const auto &work) {
+    if (values_.size() > worth_a_reader) return on_two_threads(work);
+    work(0), work(1);
+  };
+  std::vector<double> y(unknowns * nrhs), other(two ? y.size() : 0), below_rows(two ? 2 * room : room);
   const auto permute = [&](bool back) {
     for (int r = 0; r < nrhs; ++r)
       for (int32_t k = 0; k < n_; ++k) {
@@ -180,31 +153,22 @@ void BlockCholesky::solve_many(double *x, int nrhs) const {
         for (size_t c = 0; c < d; ++c) back ? theirs[c] = mine[c] : mine[c] = theirs[c];
       }
   };
+  // Entries of y that belong to the supernodes of a list.
+  const auto entries = [&](const std::vector<int32_t> &list, const auto &visit) {
+    for (int r = 0; r < nrhs; ++r)
+      for (const int32_t index : list)
+        for (size_t k = supernodes_[index].first * d; k < supernodes_[index].last * d; ++k) visit(r * unknowns + k);
+  };
   permute(false);
-  for (const Supernode &s : supernodes_) {
-    const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    const double *panel = &values_[s.value_start];
-    double *top = &y[static_cast<size_t>(s.first) * d];
-    solve_top(panel, front, width, top, ld, nrhs, "N");
-    if (rows == 0) continue;
-    if (nrhs == 1) dgemv_("N", &rows, &width, &one, panel + width, &front, top, &inc, &zero, gathered.data(), &inc);
-    else dgemm_("N", "N", &rows, &nrhs, &width, &one, panel + width, &front, top, &ld, &zero, gathered.data(), &most);
-    for (int r = 0; r < nrhs; ++r)
-      for (size_t k = 0; k < s.row_count; ++k)
-        for (size_t c = 0; c < d; ++c) y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c] -= gathered[r * largest_below_ + k * d + c];
+  if (two) {
+    entries(lists_[1], [&](size_t k) { other[k] = y[k]; });
+    both([&](int t) { forward(lists_[t], t ? other.data() : y.data(), &below_rows[t * room], nrhs, 1); });
+    entries(lists_[1], [&](size_t k) { y[k] = other[k]; });
+    entries(lists_[2], [&](size_t k) { y[k] += other[k]; });
   }
-  for (size_t index = supernodes_.size(); index-- > 0;) {
-    const Supernode &s = supernodes_[index];
-    const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    const double *panel = &values_[s.value_start];
-    double *top = &y[static_cast<size_t>(s.first) * d];
-    for (int r = 0; r < nrhs; ++r)
-      for (size_t k = 0; k < s.row_count; ++k)
-        for (size_t c = 0; c < d; ++c) gathered[r * largest_below_ + k * d + c] = y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
-    if (rows > 0 && nrhs == 1) dgemv_("T", &rows, &width, &minus_one, panel + width, &front, gathered.data(), &inc, &one, top, &inc);
-    if (rows > 0 && nrhs > 1) dgemm_("T", "N", &width, &nrhs, &rows, &minus_one, panel + width, &front, gathered.data(), &most, &one, top, &ld);
-    solve_top(panel, front, width, top, ld, nrhs, "T");
-  }
+  forward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
+  backward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
+  if (two) both([&](int t) { backward(lists_[t], y.data(), &below_rows[t * room], nrhs, 1); });
   permute(true);
 }
 

@@ -73,9 +73,12 @@ class BlockCholesky {
   void plan();
   void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
   void assemble(const Supernode &s, const double *diag, const double *off);
-  void extend_add(int32_t child, double *update);
-  int factor_panel(double *panel, int front, int columns, const double *original);
+  void extend_add(int32_t child, double *update, int threads);
+  void extend_add_columns(int32_t child, double *update, size_t start, size_t stride);
   void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
+
+  void forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const;
+  void backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const;
 
   int dim_ = 0, threads_ = 1;
   bool dry_ = false;  // sizes only

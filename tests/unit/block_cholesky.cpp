@@ -8,6 +8,7 @@
 #include <thread>
 #include "core/rng.hpp"
 #include "lp/block_cholesky.hpp"
+#include "lp/dense_front.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
 #include <stdarg.h>
@@ -152,6 +153,55 @@ void threads_agree(void **) {
   assert_true(x == y && x == z);
 }
 
+// Large enough that single panels and triangular solves are split: 4e6 numbers in the factor, fronts of 800 rows and more.
+void two_threads_share_fronts(void **) {
+  const Problem p = make_problem(3, 2500, 25.0, true, 4);
+  BlockCholesky one, two;
+  assert_int_equal(analyse_and_factorise(one, p, 1, Ordering::metis), 0);
+  assert_int_equal(analyse_and_factorise(two, p, 2, Ordering::metis), 0);
+  assert_true(one.factor_nonzeros() > 4000000);
+  const size_t unknowns = static_cast<size_t>(p.n) * 3;
+  std::vector<double> b(3 * unknowns);
+  for (size_t k = 0; k < b.size(); ++k) b[k] = std::sin(static_cast<double>(k));
+  for (const int count : {1, 3}) {
+    std::vector<double> x(b.begin(), b.begin() + count * unknowns), y = x, again = x;
+    one.solve_many(x.data(), count);
+    two.solve_many(y.data(), count);
+    double largest = 0.0;
+    for (const double v : x) largest = std::max(largest, std::fabs(v));
+    for (size_t k = 0; k < x.size(); ++k) assert_true(std::fabs(x[k] - y[k]) < 1e-12 * largest);
+    assert_int_equal(two.factorise(p.diag.data(), p.off.data()), 0);
+    two.solve_many(again.data(), count);
+    assert_true(y == again);  // parts are split the same way each time: bit for bit
+  }
+}
+
+// A panel tall enough that two threads split every kernel, against Eigen.
+void panels(void **) {
+  const int rows = 5000, columns = 300, below = rows - columns;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Random(rows, columns);
+  a.topRows(columns) = (a.topRows(columns) + a.topRows(columns).transpose()).eval();
+  a.topRows(columns).diagonal().array() += 4.0 * columns;
+  const Eigen::VectorXd diagonal = a.diagonal();
+  for (int threads = 1; threads <= 2; ++threads) {
+    Eigen::MatrixXd l = a;
+    assert_int_equal(factor_panel(l.data(), rows, rows, columns, diagonal.data(), {1e-16, 0.0}, threads), 0);
+    const Eigen::MatrixXd upper = l.topRows(columns).triangularView<Eigen::Lower>().toDenseMatrix().transpose(), rest = l.bottomRows(below);
+    assert_true((upper.transpose() * upper - a.topRows(columns)).norm() < 1e-13 * a.norm());
+    assert_true((rest * upper - a.bottomRows(below)).norm() < 1e-13 * a.norm());
+    for (const int count : {1, 2}) {
+      Eigen::MatrixXd top = Eigen::MatrixXd::Random(columns, count), under(below, count);
+      const Eigen::MatrixXd forward = upper.transpose().triangularView<Eigen::Lower>().solve(top);
+      panel_forward(l.data(), rows, below, columns, top.data(), columns, under.data(), below, count, threads);
+      assert_true((top - forward).norm() < 1e-13 * forward.norm());
+      assert_true((under - rest * forward).norm() < 1e-13 * under.norm());
+      const Eigen::MatrixXd backward = upper.triangularView<Eigen::Upper>().solve(forward - rest.transpose() * under);
+      panel_backward(l.data(), rows, below, columns, top.data(), columns, under.data(), below, count, threads);
+      assert_true((top - backward).norm() < 1e-13 * backward.norm());
+    }
+  }
+}
+
 void singular(void **) {
   for (int dim = 2; dim <= 5; ++dim) {
     Problem p = make_problem(dim, 60, 16.0, true, 11);
@@ -218,7 +268,7 @@ void order_kept(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(orders_are_permutations), cmocka_unit_test(threads_agree),
+  const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(orders_are_permutations), cmocka_unit_test(threads_agree), cmocka_unit_test(two_threads_share_fronts), cmocka_unit_test(panels),
                               cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

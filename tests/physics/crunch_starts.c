@@ -153,6 +153,29 @@ static void pressures(void **state) {
   }
 }
 
+/* Grown fast the state is closed to 1e-7 where spheres must still move by 1e-3: the gaps say that it is all but jammed, only
+ * the bend of the way says that LPs would creep along it, and it goes by the barrier path. Grown slowly the LPs finish alone. */
+static void bends(void **state) {
+  const double growth[] = {3e-3, 1e-3};
+  int k, seed;
+  (void)state;
+  for (k = 0; k < 2; ++k)
+    for (seed = 3; seed <= 5; ++seed) {
+      jam_system *sys = random_start(256, 3, 0.2, NULL, seed);
+      jam_compress_options c;
+      jam_report r;
+      jam_compress_options_init(&c, sizeof c);
+      c.growth_rate = 1e-2, c.pressure = 500.0;
+      assert_true(jam_compress(sys, &c, NULL) >= 0);
+      c.growth_rate = growth[k], c.pressure = 1e9;
+      assert_true(jam_compress(sys, &c, NULL) >= 0);
+      r = crunched(sys, NULL, "growth rate", growth[k], 1);
+      assert_int_equal(r.method, k == 0 ? JAM_CRUNCH_RELINEARISE : JAM_CRUNCH_CHAIN);
+      assert_int_equal(r.excess_contacts, 0);
+      jam_destroy(sys);
+    }
+}
+
 /* Log-normal sizes from equally likely quantiles (deviation over mean 0.2, 0.5), and mixtures half and half. */
 static void mixtures(void **state) {
   const double kinds[] = {-0.2, -0.5, 1.4, 4.0, 10.0};
@@ -289,7 +312,7 @@ static void jammed_input(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(densities),      cmocka_unit_test(pressures), cmocka_unit_test(mixtures), cmocka_unit_test(small_boxes),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(densities),      cmocka_unit_test(pressures), cmocka_unit_test(bends), cmocka_unit_test(mixtures), cmocka_unit_test(small_boxes),
                                      cmocka_unit_test(lattices),       cmocka_unit_test(ordering_disks), cmocka_unit_test(jammed_input)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

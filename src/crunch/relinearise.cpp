@@ -21,10 +21,10 @@ constexpr double shrink = 0.2;
 // Squared Newton decrement a row, in units of mu, below which the maximum counts as reached. Looser values leave the path.
 constexpr double centred = 0.005;
 // The point reached is a saddle, and mu is warmed up by `reheat`, after so many Newton steps at one mu or after `cut` of them
-// that ended before half their length and left the decrement where it was: down the valley that leads away steps are longer at
-// larger mu. With a duality gap above `hot` it is a slow flow instead, and mu falls after `flow` steps.
+// that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley that leads
+// away steps are longer at larger mu. With a duality gap above `hot` it is a slow flow instead, and mu falls after `flow` steps.
 constexpr int stuck = 40, cut = 8, flow = 15, most_reheats = 8;
-constexpr double reheat = 100.0, hot = 1e-3;
+constexpr double reheat = 100.0, fall = 0.3, hot = 1e-3;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 // Pairs nearer than this (mean diameters) are listed: enough for a rattler to feel its cage, else it runs.
@@ -190,10 +190,13 @@ class Path {
     double &mu = b_.mu;
     creeping_ = balance_ > 0.5 && alpha_p_ < 0.1 && last_step_ < 0.5 * trust ? creeping_ + 1 : 0;
     if (creeping_ > 3 && warmed_ < 3 && !centred_once_) mu *= 10.0, at_mu_ = creeping_ = 0, ++warmed_;
-    if (at_mu_ == 0) cuts_ = 0, least_ = std::numeric_limits<double>::infinity();
+    if (at_mu_ == 0) cuts_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
     // The first steps at a new mu may be short; many spheres make all steps short, but on no saddle the decrement falls.
     const bool falls = decrement_ < 0.9 * least_;
-    if (at_mu_ > 0) least_ = std::min(least_, decrement_);
+    if (at_mu_ > 0) {
+      least_ = std::min(least_, decrement_);
+      if (decrement_ < fall * mark_) cuts_ = 0, mark_ = decrement_;
+    }
     if (at_mu_ > 2 && alpha_p_ < 0.5 && !falls) ++cuts_;
     ++at_mu_;
     if (gap_ > hot) {
@@ -281,7 +284,7 @@ class Path {
   std::vector<double> weight_, target_, row_, unbalanced_, rhs_, diagonal_;
   double reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
-  double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0, least_ = 0.0;
+  double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0, least_ = 0.0, mark_ = 0.0;
   int at_mu_ = 0, cuts_ = 0, reheats_ = 0, creeping_ = 0, warmed_ = 0, correctors_ = 0;
   bool centred_once_ = false;
 };

@@ -21,10 +21,11 @@ constexpr double shrink = 0.2;
 // Squared Newton decrement a row, in units of mu, below which the maximum counts as reached. Looser values leave the path.
 constexpr double centred = 0.005;
 // The point reached is a saddle, and mu is warmed up by `reheat`, after so many Newton steps at one mu or after `cut` of them
-// that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley that leads
-// away steps are longer at larger mu. With a duality gap above `hot` it is a slow flow instead, and mu falls after `flow` steps.
+// that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley steps are longer
+// at larger mu. But mu falls where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest;
+// and after `flow` steps with a duality gap above `hot`, which is a slow flow.
 constexpr int stuck = 40, cut = 8, flow = 15, most_reheats = 8;
-constexpr double reheat = 100.0, fall = 0.3, hot = 1e-3;
+constexpr double reheat = 100.0, fall = 0.3, all_but = 4.0, hot = 1e-3;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 // Pairs nearer than this (mean diameters) are listed: enough for a rattler to feel its cage, else it runs.
@@ -202,7 +203,8 @@ class Path {
     if (gap_ > hot) {
       if (at_mu_ > flow) mu *= shrink, at_mu_ = 0;
     } else if (at_mu_ > stuck || cuts_ >= cut) {
-      mu *= reheat, at_mu_ = 0, ++reheats_;
+      const bool nearly = decrement_ < all_but * centred * static_cast<double>(b_.y.size());
+      mu *= nearly ? shrink : reheat, reheats_ += !nearly, at_mu_ = 0;
     }
   }
 

@@ -20,7 +20,10 @@ constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
 
 void BlockCholesky::assemble(const Supernode &s, const double *diag, const double *off) {
   const size_t front = columns(s) + below(s), block = static_cast<size_t>(dim_) * dim_;
-  std::memset(&values_[s.value_start], 0, columns(s) * front * sizeof(double));
+  for (size_t c = 0; c < columns(s); ++c) {  // what lies above the diagonal blocks is never read
+    const size_t top = c / dim_ * dim_;
+    std::memset(&values_[s.value_start + c * front + top], 0, (front - top) * sizeof(double));
+  }
   for (size_t k = s.entry_start; k < s.entry_start + s.entry_count; ++k) {
     const Entry &e = entries_[k];
     double *to = &values_[e.target];
@@ -36,34 +39,45 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
     }
 }
 
-// Adds a child's Schur complement to the parent, run by run: to its panel when `update` is NULL (before the panel is
-// factored), else to its Schur complement (after that was written, so that it needs no clearing).
-void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
-  const size_t mc = below(supernodes_[child]);
-  if (threads < 2 || mc * mc < worth_a_thread) return extend_add_columns(child, update, 0, 1);
-  on_two_threads([&](int part) { extend_add_columns(child, update, part, 2); });
-}
-
-// Every `stride`-th column from `start` on: no two columns of the child go to one of the parent.
+// Adds every `stride`-th block column of a child's Schur complement to the parent: to its panel when `update` is NULL (before the
+// panel is factored), else to its Schur complement (after that was written, so that it needs no clearing).
+template <int D>
 void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t start, size_t stride) {
   const Supernode &c = supernodes_[child], &p = supernodes_[c.parent];
-  const auto &runs = runs_[child];
-  const size_t d = dim_, mc = below(c), own = p.last - p.first, mp = below(p), ld = update ? mp : columns(p) + mp;
+  const int32_t *place = &places_[c.row_start], own = p.last - p.first;
+  const size_t mc = below(c), split = std::lower_bound(place, place + c.row_count, own) - place;
+  const size_t ld = update ? below(p) : columns(p) + below(p), shift = update ? static_cast<size_t>(own) : 0;
   double *into = update ? update : &values_[p.value_start];
-  const size_t shift = update ? own * d : 0;
-  size_t first = 0;
-  while (first < runs.size() && static_cast<size_t>(runs[first].to) < own) ++first;
-  for (size_t b = update ? first : 0; b < (update ? runs.size() : first); ++b)
-    for (size_t column = (runs[b].from * d + start) % stride; column < static_cast<size_t>(runs[b].count) * d; column += stride) {
-      const double *x = update_[child] + (runs[b].from * d + column) * mc;
-      double *to = into + (runs[b].to * d + column - shift) * ld;
-      for (size_t a = b; a < runs.size(); ++a) {
-        const size_t skip = a == b ? column : 0, length = runs[a].count * d - skip;
-        const double *xa = x + runs[a].from * d + skip;
-        double *ya = to + runs[a].to * d + skip - shift;
-        for (size_t i = 0; i < length; ++i) ya[i] += xa[i];
-      }
+  for (size_t b = (update ? split : 0) + start; b < (update ? c.row_count : split); b += stride) {
+    const double *from = update_[child] + b * D * mc;
+    double *to = into + (place[b] - shift) * D * ld;
+    for (size_t column = 0; column < D; ++column)
+      for (size_t q = column; q < D; ++q) to[column * ld + (place[b] - shift) * D + q] += from[column * mc + b * D + q];
+    for (size_t a = b + 1; a < c.row_count; ++a) {
+      const double *x = from + a * D;
+      double *y = to + (place[a] - shift) * D;
+      for (size_t column = 0; column < D; ++column)
+        for (size_t q = 0; q < D; ++q) y[column * ld + q] += x[column * mc + q];
     }
+  }
+}
+
+void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
+  const size_t mc = below(supernodes_[child]);
+  const auto add = [&](size_t start, size_t stride) {
+    switch (dim_) {
+      case 1: return extend_add_columns<1>(child, update, start, stride);
+      case 2: return extend_add_columns<2>(child, update, start, stride);
+      case 3: return extend_add_columns<3>(child, update, start, stride);
+      case 4: return extend_add_columns<4>(child, update, start, stride);
+      case 5: return extend_add_columns<5>(child, update, start, stride);
+      case 6: return extend_add_columns<6>(child, update, start, stride);
+      case 7: return extend_add_columns<7>(child, update, start, stride);
+      default: return extend_add_columns<8>(child, update, start, stride);
+    }
+  };
+  if (threads < 2 || mc * mc < worth_a_thread) return add(0, 1);
+  on_two_threads([&](int part) { add(part, 2); });
 }
 
 // A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of

@@ -47,14 +47,10 @@ class BlockCholesky {
   // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
   struct Supernode {
     int32_t first, last, parent, depth;
-    size_t row_start, row_count;  // in rows_
+    size_t row_start, row_count;  // in rows_ and places_
     size_t value_start;           // panel in values_, column-major, leading dimension = front size
     size_t entry_start, entry_count;
     std::vector<int32_t> children;
-  };
-  // A stretch of a supernode's rows that is contiguous in its parent's front.
-  struct Run {
-    int32_t from, to, count;
   };
   struct Entry {
     int64_t edge;   // >= 0: off-diagonal block; else diagonal block -1 - node
@@ -74,6 +70,7 @@ class BlockCholesky {
   void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
   void assemble(const Supernode &s, const double *diag, const double *off);
   void extend_add(int32_t child, double *update, int threads);
+  template <int D>
   void extend_add_columns(int32_t child, double *update, size_t start, size_t stride);
   void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
 
@@ -87,8 +84,7 @@ class BlockCholesky {
   std::vector<int32_t> order_;  // of the last analyse(), for analyse_keep_order()
   std::vector<int32_t> position_;  // node -> place in the elimination order
   std::vector<Supernode> supernodes_;
-  std::vector<int32_t> rows_;
-  std::vector<std::vector<Run>> runs_;  // a supernode
+  std::vector<int32_t> rows_, places_;  // below a supernode; where in its parent's front they are
   std::vector<Entry> entries_;
   std::vector<double> values_, original_diagonal_;
   std::vector<double *> update_;               // Schur complement of each supernode while it is needed

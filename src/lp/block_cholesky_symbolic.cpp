@@ -139,7 +139,8 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     make_room(values_, values);
     values_.assign(values, 0.0);
   }
-  runs_.assign(supernodes_.size(), {});
+  places_.clear();
+  places_.reserve(rows_.size());
   for (size_t k = 0; k < supernodes_.size(); ++k) {
     Supernode &s = supernodes_[k];
     if (s.row_count == 0) continue;
@@ -156,13 +157,7 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
         while (rows_[p.row_start + at] != row) ++at;
         place = (p.last - p.first) + static_cast<int32_t>(at);
       }
-      auto &runs = runs_[k];
-      // A run never crosses from the parent's columns to its rows.
-      const bool starts_rows = place == p.last - p.first;
-      if (!runs.empty() && !starts_rows && runs.back().to + runs.back().count == place)
-        ++runs.back().count;
-      else
-        runs.push_back({static_cast<int32_t>(r), place, 1});
+      places_.push_back(place);
     }
   }
 }

@@ -4,8 +4,8 @@
 usage: size_chart.py [--sizes 128,256,512,1024] [--seeds 3] [--growth 1e-3] [--pressure 1e5] [--out SIZE.json] [--picture SIZE.png]
                      [--threads 1] [--methods relinearise,chain] [--states DIR] [--only-draw]
 
-States: random at phi 0.2, grown at G = 1e-2 to p = 500 and then at --growth to --pressure. Times are of the processor, medians
-over seeds. A run that is in the JSON already is not made again, so large sizes can be added one by one. PYTHONPATH: the built module.
+States: random at phi 0.2, grown at G = 1e-2 to p = 500 and then at --growth to --pressure. Times are of the processor, with two
+threads of the clock (let nothing else run then); lines go through medians over seeds. A run that is in the JSON already is not made again, so large sizes can be added one by one. PYTHONPATH: the built module.
 """
 import argparse
 import json
@@ -34,9 +34,11 @@ def grown(n, seed, args):
 def run(start, md, n, seed, method, args):
     s = start.copy()
     estimate = s.crunch_estimate(method=method, threads=args.threads)
-    began = time.process_time()
+    clock = time.process_time if args.threads == 1 else time.perf_counter
+    began = clock()
     r = s.crunch(method=method, threads=args.threads)
-    return dict(n=n, seed=seed, method=method, threads=args.threads, growth=args.growth, pressure=args.pressure, md_seconds=md, seconds=time.process_time() - began,
+    seconds = clock() - began
+    return dict(n=n, seed=seed, method=method, threads=args.threads, growth=args.growth, pressure=args.pressure, md_seconds=md, seconds=seconds,
                 wall_seconds=r.seconds, seconds_factor=r.seconds_factor, factorisations=r.factorisations, lps=r.lp_solves, jammed=r.jammed,
                 excess=r.excess_contacts, phi=r.packing_fraction, force_residual=r.force_residual, max_overlap=r.max_overlap,
                 estimated_bytes=estimate.bytes, estimated_seconds=estimate.seconds, used=r.method.name.lower(),
@@ -58,26 +60,27 @@ def draw(rows, picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(1, 3, figsize=(12, 4))
-    exponents, methods = {}, sorted({r["method"] for r in rows}, reverse=True)
-    for axis, (field, label) in zip(axes, (("seconds", "processor seconds of the whole crunch"), ("factorisations", "factorisations"), ("lps", "LPs solved"))):
-        for m, method in enumerate(methods):
-            mine = [r for r in rows if r["method"] == method and r["jammed"]]
+    exponents, kinds = {}, sorted({(r["method"], r["threads"]) for r in rows}, reverse=True)
+    for axis, (field, label) in zip(axes, (("seconds", "seconds of the whole crunch"), ("factorisations", "factorisations"), ("lps", "LPs solved"))):
+        for m, (method, threads) in enumerate(kinds):
+            mine = [r for r in rows if (r["method"], r["threads"]) == (method, threads) and r["jammed"]]
+            name = method if threads == 1 else f"{method}, {threads} threads"
             sizes = sorted({r["n"] for r in mine})
             if not sizes:
                 continue
             middle = [np.median([r[field] for r in mine if r["n"] == n]) for n in sizes]
             power, error = fit(sizes, middle)
-            exponents[method, field] = power
+            exponents[name, field] = power, error
             axis.loglog([r["n"] for r in mine], [r[field] for r in mine], ".", color=f"C{m}", alpha=0.4)
-            axis.loglog(sizes, middle, "o-", color=f"C{m}", label=f"{method}: $N^{{{power:.2f} \\pm {error:.2f}}}$" if error == error else f"{method}: $N^{{{power:.2f}}}$")
-            if PUBLISHED[field] and (method == "chain" or len(methods) == 1):  # what was published is a chain
+            axis.loglog(sizes, middle, "o-", color=f"C{m}", label=f"{name}: $N^{{{power:.2f} \\pm {error:.2f}}}$" if error == error else f"{name}: $N^{{{power:.2f}}}$")
+            if PUBLISHED[field] and (method == "chain" or len(kinds) == 1):  # what was published is a chain
                 axis.loglog(sizes, [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes], "k--", lw=1,
                             label=f"published slope $N^{{{PUBLISHED[field]}}}$")
         axis.set(xlabel="N", ylabel=label)
         axis.legend(fontsize=8)
         axis.grid(alpha=0.3, which="both")
     growth, pressure = rows[0]["growth"], rows[0]["pressure"]
-    axes[1].set_title(f"d = 3, grown at G = {growth:g} to p = {pressure:g}, {max(r['seed'] for r in rows)} seeds, {rows[0]['threads']} core", fontsize=9)
+    axes[1].set_title(f"d = 3, grown at G = {growth:g} to p = {pressure:g}, up to {max(r['seed'] for r in rows)} seeds", fontsize=9)
     figure.tight_layout()
     figure.savefig(picture, dpi=100)
     return exponents
@@ -108,8 +111,8 @@ def main():
             print(json.dumps(rows[-1]), flush=True)
             json.dump(rows, open(args.out, "w"), indent=0)
     if args.picture and rows:
-        for (method, field), power in draw(rows, args.picture).items():
-            print(f"{method} {field}: N^{power:.2f}")
+        for (name, field), (power, error) in draw(rows, args.picture).items():
+            print(f"{name} {field}: N^{power:.2f} +- {error:.2f}")
 
 
 if __name__ == "__main__":

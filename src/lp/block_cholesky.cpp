@@ -176,13 +176,13 @@ void BlockCholesky::solve_many(double *x, int nrhs) const {
   permute(false);
   if (two) {
     entries(lists_[1], [&](size_t k) { other[k] = y[k]; });
-    both([&](int t) { forward(lists_[t], t ? other.data() : y.data(), &below_rows[t * room], nrhs, 1); });
+    both([&](int t) { forward(lists_[t], t ? other.data() : y.data(), below_rows.data() + t * room, nrhs, 1); });
     entries(lists_[1], [&](size_t k) { y[k] = other[k]; });
     entries(lists_[2], [&](size_t k) { y[k] += other[k]; });
   }
   forward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
   backward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
-  if (two) both([&](int t) { backward(lists_[t], y.data(), &below_rows[t * room], nrhs, 1); });
+  if (two) both([&](int t) { backward(lists_[t], y.data(), below_rows.data() + t * room, nrhs, 1); });
   permute(true);
 }
 

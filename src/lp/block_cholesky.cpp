@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <exception>
 
 #include "lp/blas.hpp"
 #include "lp/dense_front.hpp"
@@ -73,7 +72,8 @@ void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
       case 5: return extend_add_columns<5>(child, update, start, stride);
       case 6: return extend_add_columns<6>(child, update, start, stride);
       case 7: return extend_add_columns<7>(child, update, start, stride);
-      default: return extend_add_columns<8>(child, update, start, stride);
+      case 8: return extend_add_columns<8>(child, update, start, stride);
+      default: return;  // analyse() has refused it
     }
   };
   if (threads < 2 || mc * mc < worth_a_thread) return add(0, 1);

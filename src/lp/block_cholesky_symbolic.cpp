@@ -274,6 +274,7 @@ void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t
 
 void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads) {
   if (order_.size() != static_cast<size_t>(n)) return analyse(dim, n, ei, ej, edges, threads);
+  if (dim < 1 || dim > 8) fail(JAM_E_INTERNAL, "blocks of %d x %d in BlockCholesky", dim, dim);  // extend_add has a kernel for each
   dim_ = dim, n_ = n, threads_ = threads;
   const Graph graph = make_graph(n, ei, ej, edges);
   std::vector<int32_t> order = order_, place(n);

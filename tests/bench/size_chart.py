@@ -5,7 +5,8 @@ usage: size_chart.py [--sizes 128,256,512,1024] [--seeds 3] [--growth 1e-3] [--p
                      [--threads 1] [--methods relinearise,chain] [--states DIR] [--only-draw]
 
 States: random at phi 0.2, grown at G = 1e-2 to p = 500 and then at --growth to --pressure. Times are of the processor, with two
-threads of the clock (let nothing else run then); lines go through medians over seeds. A run that is in the JSON already is not made again, so large sizes can be added one by one. PYTHONPATH: the built module.
+threads of the clock (let nothing else run then); lines go through medians over seeds. A run that is in the JSON already is not
+made again, so large sizes can be added one by one. PYTHONPATH: the built module.
 """
 import argparse
 import json

@@ -1,4 +1,4 @@
-// Sparse block Cholesky against dense factorisations: random graphs in d = 1..5, disconnected, tiny, singular, indefinite
+// Sparse block Cholesky against dense factorisations: random graphs in d = 1..8, disconnected, tiny, singular, indefinite
 // and non-finite matrices; both orderings, both numbers of threads.
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <thread>
+#include "core/error.hpp"
 #include "core/rng.hpp"
 #include "lp/block_cholesky.hpp"
 #include "lp/dense_front.hpp"
@@ -104,11 +105,11 @@ int analyse_and_factorise(BlockCholesky &f, const Problem &p, int threads, Order
 const Ordering kOrderings[] = {Ordering::dissection, Ordering::metis, Ordering::natural};
 
 void random_graphs(void **) {
-  for (int dim = 1; dim <= 5; ++dim)
+  for (int dim = 1; dim <= 8; ++dim)
     for (int32_t n : {1, 2, 3, 7, 40, 150, 400})
       for (double degree : {0.0, 1.0, 6.0, 14.0})
         for (int local = 0; local < 2; ++local) {
-          if (n > 150 && dim > 3) continue;
+          if ((n > 150 && dim > 3) || (n > 40 && dim > 5)) continue;
           const Problem p = make_problem(dim, n, degree, local, dim * 1000 + n);
           for (Ordering ordering : kOrderings) {
             BlockCholesky f;
@@ -118,6 +119,19 @@ void random_graphs(void **) {
             assert_true(f.factor_nonzeros() >= static_cast<size_t>(n) * dim * (dim + 1) / 2);
           }
         }
+}
+
+void dimension_refused(void **) {
+  const Problem p = make_problem(2, 7, 3.0, false, 1);
+  for (const int dim : {0, 9}) {
+    BlockCholesky f;
+    try {
+      f.analyse(dim, p.n, p.ei.data(), p.ej.data(), p.ei.size());
+      fail_msg("blocks of %d were taken", dim);
+    } catch (const Error &e) {
+      assert_int_equal(e.code(), JAM_E_INTERNAL);
+    }
+  }
 }
 
 void orders_are_permutations(void **) {
@@ -268,7 +282,9 @@ void order_kept(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(orders_are_permutations), cmocka_unit_test(threads_agree), cmocka_unit_test(two_threads_share_fronts), cmocka_unit_test(panels),
+  const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(dimension_refused), cmocka_unit_test(orders_are_permutations),
+                              cmocka_unit_test(threads_agree),
+                              cmocka_unit_test(two_threads_share_fronts), cmocka_unit_test(panels),
                               cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -90,14 +90,15 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   assemble(s, diag, off);
   for (const int32_t c : s.children) extend_add(c, nullptr, threads);
   replaced += factor_panel(panel, front, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_], {relative_, floor_}, threads);
-  const int side = s.depth % 2;
-  double *update = kept_[index].empty() ? stack.memory[side].data() + stack.top[side] : kept_[index].data();
+  const int side = s.side;
+  const bool stacked = kept_at_[index] == on_stack;
+  double *update = stacked ? stack.memory[side].data() + stack.top[side] : kept_.data() + kept_at_[index];
   minus_square(update, rows, panel + width, front, width, threads);
   for (const int32_t c : s.children) {
     if (m) extend_add(c, update, threads);
-    if (kept_[c].empty()) stack.top[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
+    if (kept_at_[c] == on_stack) stack.top[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
   }
-  if (kept_[index].empty()) stack.top[side] += m * m;
+  if (stacked) stack.top[side] += m * m;
   update_[index] = update;
 }
 

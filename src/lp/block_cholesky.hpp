@@ -46,7 +46,8 @@ class BlockCholesky {
  private:
   // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
   struct Supernode {
-    int32_t first, last, parent, depth;
+    int32_t first, last, parent;
+    int side;                     // which of the two stacks of its list takes its Schur complement
     size_t row_start, row_count;  // in rows_ and places_
     size_t value_start;           // panel in values_, column-major, leading dimension = front size
     size_t entry_start, entry_count;
@@ -58,15 +59,19 @@ class BlockCholesky {
     bool transposed;
   };
   struct Stack {
-    std::vector<double> memory[2];  // of even and odd depth in the tree
+    std::vector<double> memory[2];  // the larger one first
     size_t top[2] = {0, 0};
   };
+  static constexpr size_t on_stack = static_cast<size_t>(-1);  // in kept_at_
   size_t columns(const Supernode &s) const { return static_cast<size_t>(s.last - s.first) * dim_; }
   size_t below(const Supernode &s) const { return s.row_count * dim_; }
 
   void find_supernodes(const std::vector<int32_t> &parent, std::vector<std::vector<int32_t>> &structure);
   void place_entries(const int32_t *ei, const int32_t *ej, size_t edges);
   void plan();
+  std::vector<int32_t> share_out(const std::vector<double> &work);
+  void keep(const std::vector<int32_t> &roots);
+  void lay_stacks(int list);
   void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
   void assemble(const Supernode &s, const double *diag, const double *off);
   void extend_add(int32_t child, double *update, int threads);
@@ -88,7 +93,8 @@ class BlockCholesky {
   std::vector<Entry> entries_;
   std::vector<double> values_, original_diagonal_;
   std::vector<double *> update_;               // Schur complement of each supernode while it is needed
-  std::vector<std::vector<double>> kept_;      // those of subtree roots, which outlive their thread's stack
+  std::vector<size_t> kept_at_;                // where in kept_ that of a subtree's root is, which outlives its thread's stack
+  std::vector<double> kept_;
   std::vector<int32_t> lists_[3];              // supernodes of thread 0, thread 1, and the top of the tree
   Stack stacks_[2];
   size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0;

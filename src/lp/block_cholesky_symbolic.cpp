@@ -5,17 +5,10 @@
 #include "core/error.hpp"
 #include "lp/block_cholesky.hpp"
 #include "lp/ordering.hpp"
+#include "lp/room.hpp"
 
 namespace jam {
 namespace {
-
-// Room for size numbers whose old values are not needed: never the old and the new block at a time, and a little more than
-// asked, so that lists that change by a few pairs do not break up the heap. Pages beyond size stay untouched.
-void make_room(std::vector<double> &v, size_t size) {
-  if (size <= v.capacity()) return;
-  std::vector<double>().swap(v);
-  v.reserve(size + size / 8);
-}
 
 // Liu's algorithm with path compression, on the graph relabelled by place[].
 std::vector<int32_t> elimination_tree(const Graph &g, const std::vector<int32_t> &order, const std::vector<int32_t> &place) {
@@ -194,78 +187,6 @@ void BlockCholesky::place_entries(const int32_t *ei, const int32_t *ej, size_t e
   }
 }
 
-// Which thread eliminates what, and how much stack that takes. With two threads: whole subtrees, split from the heaviest
-// root down until the two lists are even.
-void BlockCholesky::plan() {
-  const size_t count = supernodes_.size();
-  std::vector<double> work(count, 0.0);
-  flops_ = 0.0;
-  largest_below_ = 0;
-  for (size_t k = 0; k < count; ++k) {
-    const Supernode &s = supernodes_[k];
-    const double c = static_cast<double>(columns(s)), b = static_cast<double>(below(s));
-    const double own = c * c * c / 3.0 + c * c * b + c * b * b;
-    flops_ += own;
-    work[k] += own;
-    if (s.parent >= 0) work[s.parent] += work[k];
-    largest_below_ = std::max(largest_below_, below(s));
-  }
-  for (auto &l : lists_) l.clear();
-  std::vector<int32_t> roots;
-  std::vector<char> top(count, 1);
-  if (threads_ > 1) {
-    for (size_t k = 0; k < count; ++k)
-      if (supernodes_[k].parent < 0) roots.push_back(static_cast<int32_t>(k));
-    const auto heavier = [&](int32_t a, int32_t b) { return work[a] != work[b] ? work[a] < work[b] : a < b; };
-    while (!roots.empty()) {
-      const auto it = std::max_element(roots.begin(), roots.end(), heavier);
-      if (work[*it] < 0.1 * flops_ || supernodes_[*it].children.empty()) break;
-      const int32_t split = *it;
-      roots.erase(it);
-      roots.insert(roots.end(), supernodes_[split].children.begin(), supernodes_[split].children.end());
-    }
-    std::sort(roots.begin(), roots.end(), [&](int32_t a, int32_t b) { return heavier(b, a); });
-    double load[2] = {0.0, 0.0};
-    std::vector<int> thread_of(count, 2);
-    for (const int32_t r : roots) {
-      const int t = load[1] < load[0] ? 1 : 0;
-      load[t] += work[r];
-      thread_of[r] = t;
-    }
-    for (size_t k = count; k-- > 0;)
-      if (thread_of[k] == 2 && supernodes_[k].parent >= 0 && thread_of[supernodes_[k].parent] != 2) thread_of[k] = thread_of[supernodes_[k].parent];
-    for (size_t k = 0; k < count; ++k) lists_[thread_of[k]].push_back(static_cast<int32_t>(k)), top[k] = thread_of[k] == 2;
-  } else {
-    for (size_t k = 0; k < count; ++k) lists_[2].push_back(static_cast<int32_t>(k));
-  }
-  update_.assign(count, nullptr);
-  kept_.assign(count, {});
-  std::vector<size_t> kept(count, 0);
-  stack_count_ = 0;
-  for (const int32_t r : roots)
-    if (!top[r]) stack_count_ += kept[r] = below(supernodes_[r]) * below(supernodes_[r]);
-  for (size_t k = 0; k < count && !dry_; ++k) kept_[k].assign(kept[k], 0.0);
-  for (size_t k = count; k-- > 0;) supernodes_[k].depth = supernodes_[k].parent < 0 ? 0 : supernodes_[supernodes_[k].parent].depth + 1;
-  // Deepest stacks: children lie on one while their parent's Schur complement is built on the other.
-  for (int t = 0; t < 3; ++t) {
-    size_t now[2] = {0, 0}, most[2] = {0, 0};
-    for (const int32_t k : lists_[t]) {
-      const int side = supernodes_[k].depth % 2;
-      if (kept[k] == 0) now[side] += below(supernodes_[k]) * below(supernodes_[k]);
-      most[side] = std::max(most[side], now[side]);
-      for (const int32_t c : supernodes_[k].children)
-        if (kept[c] == 0) now[1 - side] -= below(supernodes_[c]) * below(supernodes_[c]);
-    }
-    for (int side = 0; side < 2; ++side) {
-      stack_count_ += most[side];
-      std::vector<double> &memory = stacks_[t % 2].memory[side];
-      if (dry_ || memory.size() >= most[side]) continue;
-      make_room(memory, most[side]);
-      memory.resize(most[side]);
-    }
-  }
-}
-
 void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads,
                             Ordering ordering) {
   order_ = order_nodes(make_graph(n, ei, ej, edges), ordering);
@@ -304,10 +225,9 @@ BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *e
 }
 
 size_t BlockCholesky::bytes() const {
-  size_t sum = values_.capacity() + original_diagonal_.capacity();
+  size_t sum = values_.capacity() + original_diagonal_.capacity() + kept_.capacity();
   for (const Stack &stack : stacks_)
     for (const auto &memory : stack.memory) sum += memory.capacity();
-  for (const auto &k : kept_) sum += k.capacity();
   return sum * sizeof(double) + entries_.capacity() * sizeof(Entry) + rows_.capacity() * sizeof(int32_t) + supernodes_.capacity() * sizeof(Supernode);
 }
 

@@ -43,6 +43,12 @@ double largest(const std::vector<double> &x) {
   return m;
 }
 
+double norm(const std::vector<double> &x) {
+  double sum = 0.0;
+  for (double v : x) sum += v * v;
+  return std::sqrt(sum);
+}
+
 // One Gauss-Newton step of all gaps to zero over positions and the common factor of the diameters. On a network with a
 // single state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
 void close_contacts(Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
@@ -112,14 +118,10 @@ bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, c
   return true;
 }
 
-}  // namespace
-
-bool drop_idle_contact(ContactNetwork &net, int dim) {
-  constexpr double idle = 1e-5;
-  if (net.size() == 0 || excess(net, dim) <= 0) return false;
-  const size_t k = std::min_element(net.force.begin(), net.force.end()) - net.force.begin();
+// False where a sphere would be left with too few contacts.
+bool drop(ContactNetwork &net, size_t k, int dim) {
   int32_t &zi = net.coordination[net.pairs.i[k]], &zj = net.coordination[net.pairs.j[k]];
-  if (net.force[k] > idle || zi <= dim + 1 || zj <= dim + 1) return false;
+  if (zi <= dim + 1 || zj <= dim + 1) return false;
   --zi, --zj;
   const auto erase = [k](auto &v, size_t width) { v.erase(v.begin() + k * width, v.begin() + (k + 1) * width); };
   erase(net.pairs.i, 1), erase(net.pairs.j, 1), erase(net.pairs.offset, dim);
@@ -127,28 +129,58 @@ bool drop_idle_contact(ContactNetwork &net, int dim) {
   return true;
 }
 
-PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
-  if (net.size() == 0) return PolishEnd::no_contacts;
-  Packing q = p;
-  ContactNetwork better = net;
+// What least squares leave of the gaps is orthogonal to every change of the packing: itself a state of self-stress g, without
+// pressure. Of the forces f - t g the first to vanish, as t grows, is of the contact that opens when the others close: a pivot of
+// the dual simplex. False where all are closed.
+bool drop_open_contact(ContactNetwork &net, int dim) {
+  constexpr double rounding = 3e-14;
+  if (excess(net, dim) <= 0 || !(largest(net.gap) > rounding)) return false;
+  size_t first = net.size();
+  for (size_t k = 0; k < net.size(); ++k)
+    if (net.gap[k] > 0.0 && (first == net.size() || net.force[k] * net.gap[first] < net.force[first] * net.gap[k])) first = k;
+  return first < net.size() && drop(net, first, dim);
+}
+
+// Closes all contacts as far as they go: on a network with one state of self-stress to rounding, else in least squares. False when cancelled.
+bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
   const std::vector<double> diagonal = small_diagonal(p, net);
-  double worst = largest(better.gap);
+  const auto open = [&] { return excess(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
+  double worst = open();
   for (int round = 0; round < 4 && worst > 1e-16; ++round) {
-    if (monitor) monitor->log(JAM_LOG_DEBUG, "polish %d largest gap %.2e", round, worst);
-    if (monitor && monitor->cancelled()) return PolishEnd::cancelled;
-    Packing q_old = q;
-    ContactNetwork old = better;
-    close_contacts(q, better, system, diagonal);
-    const double now = largest(better.gap);
+    if (monitor) monitor->log(JAM_LOG_DEBUG, "polish %d largest gap %.2e", round, largest(net.gap));
+    if (monitor && monitor->cancelled()) return false;
+    Packing p_old = p;
+    ContactNetwork old = net;
+    close_contacts(p, net, system, diagonal);
+    const double now = open();
     if (!(now < 0.5 * worst)) {  // no gain: rounding rules, or the contacts cannot all close
-      if (!(now < worst)) q = std::move(q_old), better = std::move(old);
+      if (!(now < worst)) p = std::move(p_old), net = std::move(old);
       break;
     }
     worst = now;
   }
-  if (monitor && monitor->cancelled()) return PolishEnd::cancelled;
-  if (!(worst < closed)) return PolishEnd::open_contact;
+  return !(monitor && monitor->cancelled());
+}
+
+}  // namespace
+
+bool drop_idle_contact(ContactNetwork &net, int dim) {
+  constexpr double idle = 1e-5;
+  if (net.size() == 0 || excess(net, dim) <= 0) return false;
+  const size_t k = std::min_element(net.force.begin(), net.force.end()) - net.force.begin();
+  return net.force[k] <= idle && drop(net, k, dim);
+}
+
+PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
+  if (net.size() == 0) return PolishEnd::no_contacts;
+  Packing q = p;
+  ContactNetwork better = net;
+  do {
+    if (!close_all(q, better, system, threads, monitor)) return PolishEnd::cancelled;
+    if (!(largest(better.gap) < closed)) return PolishEnd::open_contact;
+  } while (drop_open_contact(better, p.dim));
+  const std::vector<double> diagonal = small_diagonal(q, better);
   if (!least_forces(q, better, system, diagonal)) balance_forces(q, better, system, diagonal);
   if (!pushes_only(better)) return PolishEnd::negative_force;
   if (closest_pair(q).gap < std::min(-1e-14, closest_pair(p).gap)) return PolishEnd::overlap;

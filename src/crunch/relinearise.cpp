@@ -6,26 +6,19 @@
 #include <utility>
 
 #include "crunch/barrier.hpp"
+#include "crunch/cooling.hpp"
 #include "crunch/crunch.hpp"
 #include "lp/near_rows.hpp"
 
 namespace jam {
 namespace {
 
-// Each mu is followed to its maximum before mu falls, and every step is the best along its line: that keeps the path from
+// Each mu is followed to its maximum before mu falls (`cooling`), and every step is the best along its line: that keeps the path from
 // wandering along a network that buckles.
 
 // A product y c may differ from mu by this factor either way before y is pulled back to the central path.
 constexpr double centrality = 100.0;
-constexpr double shrink = 0.2;
-// Squared Newton decrement a row, in units of mu, below which the maximum counts as reached. Looser values leave the path.
-constexpr double centred = 0.005;
-// The point reached is a saddle, and mu is warmed up by `reheat`, after so many Newton steps at one mu or after `cut` of them
-// that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley steps are longer
-// at larger mu. But mu falls where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest;
-// and after `flow` steps with a duality gap above `hot`, which is a slow flow.
-constexpr int stuck = 40, cut = 8, flow = 15, most_reheats = 8;
-constexpr double reheat = 100.0, fall = 0.3, all_but = 4.0, hot = 1e-3;
+constexpr int most_reheats = 8;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 // Pairs nearer than this (mean diameters) are listed: enough for a rattler to feel its cage, else it runs.
@@ -51,13 +44,13 @@ class Path {
     while (measure()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
-      out.reheats = reheats_;
+      out.reheats = cooling_.reheats();
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size());
       monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps %.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(), near_.size(), correctors_, alpha_p_, alpha_d_,
                    last_step_);
       out.reached = balance_ < 1e-2 && gap_ <= control_.target;
-      if (out.reached || reheats_ > most_reheats || out.factorisations >= control_.max_factorisations ||
+      if (out.reached || out.reheats > most_reheats || out.factorisations >= control_.max_factorisations ||
           monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
         break;
     }
@@ -186,37 +179,16 @@ class Path {
     }
   }
 
-  // A start colder than its forces can balance at creeps along the walls: it is warmed up at once.
-  void set_mu() {
-    double &mu = b_.mu;
-    creeping_ = balance_ > 0.5 && alpha_p_ < 0.1 && last_step_ < 0.5 * trust ? creeping_ + 1 : 0;
-    if (creeping_ > 3 && warmed_ < 3 && !centred_once_) mu *= 10.0, at_mu_ = creeping_ = 0, ++warmed_;
-    if (at_mu_ == 0) cuts_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
-    // The first steps at a new mu may be short; many spheres make all steps short, but on no saddle the decrement falls.
-    const bool falls = decrement_ < 0.9 * least_;
-    if (at_mu_ > 0) {
-      least_ = std::min(least_, decrement_);
-      if (decrement_ < fall * mark_) cuts_ = 0, mark_ = decrement_;
-    }
-    if (at_mu_ > 2 && alpha_p_ < 0.5 && !falls) ++cuts_;
-    ++at_mu_;
-    if (gap_ > hot) {
-      if (at_mu_ > flow) mu *= shrink, at_mu_ = 0;
-    } else if (at_mu_ > stuck || cuts_ >= cut) {
-      const bool nearly = decrement_ < all_but * centred * static_cast<double>(b_.y.size());
-      mu *= nearly ? shrink : reheat, reheats_ += !nearly, at_mu_ = 0;
-    }
-  }
-
   bool newton() {
-    set_mu();
+    const double rows = static_cast<double>(b_.y.size());
+    b_.mu *= cooling_.before({decrement_, rows, gap_, balance_, alpha_p_, last_step_ / trust});
     if (!factorise()) return false;
     for (bool colder = false;; colder = true) {
       for (size_t k = 0; k < b_.y.size(); ++k) target_[k] = b_.mu - b_.y[k] * b_.lp.c[k];
       solve(main_);
       decrement_ = b_.decrement(main_);
-      if (colder || !(decrement_ < centred * static_cast<double>(b_.y.size()))) break;
-      b_.mu *= shrink, at_mu_ = 0, centred_once_ = true;
+      if (colder || !cooling_.centred(decrement_, rows)) break;
+      b_.mu *= Cooling::shrink;
     }
     if (!std::isfinite(b_.longest_move(main_)) || !std::isfinite(main_.g)) return false;
     move(correct());
@@ -280,15 +252,15 @@ class Path {
   Monitor &monitor_;
   Barrier b_;
   BarrierStep main_, trial_;
+  Cooling cooling_;
   std::vector<size_t> near_;  // rows in the matrix, ascending
   PairList near_pairs_;
   std::vector<double> near_a_, near_weight_;
   std::vector<double> weight_, target_, row_, unbalanced_, rhs_, diagonal_;
   double reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
-  double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0, least_ = 0.0, mark_ = 0.0;
-  int at_mu_ = 0, cuts_ = 0, reheats_ = 0, creeping_ = 0, warmed_ = 0, correctors_ = 0;
-  bool centred_once_ = false;
+  double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0;
+  int correctors_ = 0;
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ class BlockCholesky {
     bool transposed;
   };
   struct Stack {
-    std::vector<double> memory[2];  // the larger one first
+    std::vector<double> memory[2];  // of even and odd depth in the tree
     size_t top[2] = {0, 0};
   };
   static constexpr size_t on_stack = static_cast<size_t>(-1);  // in kept_at_

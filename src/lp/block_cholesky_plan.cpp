@@ -56,6 +56,7 @@ std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
   return roots;
 }
 
+// One block of memory for all, used again by the next graph: blocks of their own broke up the heap, to twice what was needed.
 void BlockCholesky::keep(const std::vector<int32_t> &roots) {
   kept_at_.assign(supernodes_.size(), on_stack);
   for (const int32_t r : roots) {
@@ -65,8 +66,7 @@ void BlockCholesky::keep(const std::vector<int32_t> &roots) {
   if (!dry_) grow(kept_, stack_count_);
 }
 
-// Children lie on one stack while their parent's Schur complement is built on the other. The deeper one is called the first, so
-// that a next graph, whose tree may be a level higher, finds the room of this one.
+// Children lie on one stack while their parent's Schur complement is built on the other.
 void BlockCholesky::lay_stacks(int list) {
   size_t now[2] = {0, 0}, most[2] = {0, 0};
   for (const int32_t k : lists_[list]) {
@@ -75,10 +75,6 @@ void BlockCholesky::lay_stacks(int list) {
     most[s.side] = std::max(most[s.side], now[s.side]);
     for (const int32_t c : s.children)
       if (kept_at_[c] == on_stack) now[1 - s.side] -= below(supernodes_[c]) * below(supernodes_[c]);
-  }
-  if (most[1] > most[0]) {
-    std::swap(most[0], most[1]);
-    for (const int32_t k : lists_[list]) supernodes_[k].side = 1 - supernodes_[k].side;
   }
   for (int side = 0; side < 2; ++side) {
     stack_count_ += most[side];

@@ -279,12 +279,33 @@ void order_kept(void **) {
   assert_true(solve_error(p, f, 1) < 1e-14);
 }
 
+// A crunch analyses graphs of the same size again and again: all of them together take hardly more room than one, and that is what
+// was promised beforehand.
+void room_is_used_again(void **) {
+  for (int threads = 1; threads <= 2; ++threads) {
+    BlockCholesky f;
+    size_t largest = 0, promised = 0;
+    for (int seed = 1; seed <= 12; ++seed) {
+      const Problem p = make_problem(3, 1500, 12.0, true, seed);
+      BlockCholesky alone;
+      alone.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads);
+      largest = std::max(largest, alone.bytes());
+      const BlockCholesky::Sizes sizes = BlockCholesky::measure(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads);
+      promised = std::max(promised, sizes.factor + sizes.fronts);
+      f.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads);
+    }
+    assert_true(static_cast<double>(f.bytes()) < 1.15 * static_cast<double>(largest));
+    assert_true(static_cast<double>(largest) < 1.15 * 8.0 * static_cast<double>(promised) + 1e6);  // tables of the symbolic part
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(dimension_refused), cmocka_unit_test(orders_are_permutations),
                               cmocka_unit_test(threads_agree),
                               cmocka_unit_test(two_threads_share_fronts), cmocka_unit_test(panels),
-                              cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept)};
+                              cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept),
+                              cmocka_unit_test(room_is_used_again)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,0 +1,95 @@
+// When the barrier path cools and when it is warmed up, from invented courses of the Newton decrement.
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+extern "C" {
+#include <cmocka.h>
+}
+#include <cmath>
+
+#include "crunch/cooling.hpp"
+
+using namespace jam;
+
+namespace {
+
+constexpr double rows = 1000.0;
+
+Cooling::Step step(double decrement, double part) { return {decrement, rows, 1e-6, 1e-3, part, 0.1}; }
+
+// The first factor other than 1 within `steps` steps of a course; 1 if there is none.
+template <class Course>
+double first_turn(Cooling &c, int steps, const Course &course) {
+  for (int k = 0; k < steps; ++k) {
+    const double factor = c.before(course(k));
+    if (factor != 1.0) return factor;
+  }
+  return 1.0;
+}
+
+// Short steps that leave the decrement high are a saddle: warmer, soon. So are whole steps that never end.
+void saddles(void **) {
+  Cooling cut, endless;
+  assert_true(first_turn(cut, 20, [](int) { return step(50.0 * rows, 0.1); }) > 1.0);
+  assert_int_equal(cut.reheats(), 1);
+  assert_true(first_turn(endless, 20, [](int) { return step(50.0 * rows, 1.0); }) == 1.0);
+  assert_true(first_turn(endless, 100, [](int) { return step(50.0 * rows, 1.0); }) > 1.0);
+  assert_int_equal(endless.reheats(), 1);
+}
+
+// Short steps are none where the decrement falls: a little with each of them, or much now and then.
+void falling(void **) {
+  Cooling slow, jerks;
+  assert_true(first_turn(slow, 35, [](int k) { return step(1e4 * rows * std::pow(0.85, k), 0.1); }) == 1.0);
+  assert_true(first_turn(jerks, 35, [](int k) { return step(1e6 * rows * std::pow(0.25, k / 6), 0.1); }) == 1.0);
+  assert_int_equal(slow.reheats() + jerks.reheats(), 0);
+}
+
+// All but centred, and a few places hold up the rest: cooler, not warmer.
+void nearly_centred(void **) {
+  Cooling c;
+  double limit = 10.0 * rows;  // what counts as reached
+  while (!Cooling().centred(limit, rows)) limit *= 0.9;
+  assert_true(first_turn(c, 20, [&](int) { return step(3.0 * limit, 0.1); }) < 1.0);
+  assert_int_equal(c.reheats(), 0);
+}
+
+// A flow far from jamming is cut off after a while; it is never warmed up, however short its steps.
+void flows(void **) {
+  Cooling c;
+  for (int k = 0; k < 200; ++k) assert_true(c.before({1e3 * rows, rows, 0.1, 1e-3, 0.1, 0.5}) <= 1.0);
+  assert_int_equal(c.reheats(), 0);
+  Cooling again;
+  assert_true(first_turn(again, 30, [](int) { return Cooling::Step{1e3 * rows, rows, 0.1, 1e-3, 0.1, 0.5}; }) < 1.0);
+}
+
+// Forces far from balance and hardly a step: too cold for a start. It is warmed up a few times, but not once a maximum was reached.
+void creeping(void **) {
+  const Cooling::Step creeps = {1e3 * rows, rows, 1.0, 0.9, 0.01, 0.01};
+  Cooling c, centred;
+  int warmer = 0;
+  for (int k = 0; k < 60; ++k) warmer += c.before(creeps) > 1.0;
+  assert_true(warmer >= 1 && warmer <= 3);
+  assert_int_equal(c.reheats(), 0);
+  assert_true(centred.centred(0.0, rows));
+  for (int k = 0; k < 14; ++k) assert_true(centred.before(creeps) == 1.0);
+}
+
+// What counts at one mu is forgotten at the next.
+void new_mu(void **) {
+  Cooling c;
+  for (int k = 0; k < 60; ++k) {
+    assert_true(c.before(step(50.0 * rows, 0.1)) == 1.0);
+    if (k % 6 == 5) assert_true(c.centred(1e-6 * rows, rows));
+  }
+  assert_int_equal(c.reheats(), 0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(saddles), cmocka_unit_test(falling), cmocka_unit_test(nearly_centred),
+                              cmocka_unit_test(flows),   cmocka_unit_test(creeping), cmocka_unit_test(new_mu)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -8,24 +8,12 @@ crunches another). Each step of `history` is a point; the end of each curve is w
 """
 import argparse
 import json
-import os
 
 import numpy as np
 
+from grown import grown
+
 STATES = {"N = 1024, G = 1e-2 to p = 500": (1024, [(1e-2, 500.0)]), "N = 4096, then G = 3e-4 to p = 1e7": (4096, [(1e-2, 500.0), (3e-4, 1e7)])}
-
-
-def grown(seed, name, folder):
-    import jam
-    n, stages = STATES[name]
-    kept = os.path.join(folder, f"convergence-n{n}-seed{seed}-{len(stages)}.dat") if folder else ""
-    if os.path.exists(kept):
-        return jam.System.read(kept)
-    s = jam.System.random(n, 3, seed)
-    s.compress(stages)
-    if kept:
-        s.write(kept)
-    return s
 
 
 def run(start, name, method):
@@ -63,7 +51,10 @@ def main():
     parser.add_argument("--out", default="crunch_convergence.json")
     parser.add_argument("--picture")
     args = parser.parse_args()
-    rows = [run(grown(args.seed, name, args.states), name, method) for name in STATES for method in ("relinearise", "chain")]
+    rows = []
+    for name, (n, stages) in STATES.items():
+        start, _ = grown(n, args.seed, stages, args.states)
+        rows += [run(start, name, method) for method in ("relinearise", "chain")]
     json.dump(rows, open(args.out, "w"), indent=0)
     for r in rows:
         print(f"{r['state']}, {r['method']}: phi {r['phi']:.12f}, {r['total_factorisations']} factorisations, {r['total_seconds']:.2f} s, excess {r['excess']}")

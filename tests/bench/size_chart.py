@@ -15,21 +15,9 @@ import time
 
 import numpy as np
 
+from grown import grown
+
 PUBLISHED = {"seconds": 2.75, "lps": 0.59, "factorisations": None}  # Diaz Hernandez Rojas, thesis (2021): whole crunch and LPs
-
-
-def grown(n, seed, args):
-    """A state and the seconds that it took; NaN seconds for one that --states has already."""
-    import jam
-    kept = os.path.join(args.states, f"n{n}-seed{seed}-{args.growth:g}-{args.pressure:g}.dat") if args.states else ""
-    if os.path.exists(kept):
-        return jam.System.read(kept), float("nan")
-    s = jam.System.random(n, 3, seed)
-    began = time.process_time()
-    s.compress([(1e-2, 500.0), (args.growth, args.pressure)])
-    if kept:
-        s.write(kept)
-    return s, time.process_time() - began
 
 
 def run(start, md, n, seed, method, args):
@@ -106,7 +94,7 @@ def main():
         same = dict(n=n, seed=seed, threads=args.threads, growth=args.growth, pressure=args.pressure)
         made = {r["method"] for r in rows if all(r[k] == v for k, v in same.items())}
         methods = [m for m in args.methods.split(",") if m not in made]
-        start = grown(n, seed, args) if methods else None
+        start = grown(n, seed, [(1e-2, 500.0), (args.growth, args.pressure)], args.states) if methods else None
         for method in methods:
             rows.append(run(*start, n, seed, method, args))
             print(json.dumps(rows[-1]), flush=True)

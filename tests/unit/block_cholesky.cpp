@@ -1,8 +1,15 @@
 // Sparse block Cholesky against dense factorisations: random graphs in d = 1..8, disconnected, tiny, singular, indefinite
 // and non-finite matrices; both orderings, both numbers of threads.
+#include <malloc.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <thread>
@@ -167,6 +174,51 @@ void threads_agree(void **) {
   assert_true(x == y && x == z);
 }
 
+// Where the system has no second thread to give, the parts run one after the other, to the same bits. In a process of its own, which may
+// not have the memory for another stack.
+void no_second_thread(void **) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  print_message("not with a sanitizer, which needs that memory itself\n");
+  skip();
+#else
+  const Problem p = make_problem(3, 2500, 25.0, true, 4);
+  BlockCholesky f, one;
+  std::vector<double> x(static_cast<size_t>(p.n) * 3, 1.0);
+  one.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), 1);
+  f.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), 2);
+  const size_t bytes = x.size() * sizeof(double);
+  void *shared = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  assert_true(shared != MAP_FAILED);
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<double> y = x;
+    one.factorise(p.diag.data(), p.off.data());  // OpenBLAS has its buffers and threads then
+    mallopt(M_MMAP_THRESHOLD, 1 << 30), mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    std::vector<char>(1 << 25);  // stays in the heap for what is allocated on the way
+    const struct rlimit tight = {1 << 20, 1 << 20};
+    setrlimit(RLIMIT_AS, &tight);
+    bool threads = true;
+    try {  // stacks of threads that are gone are used again: until there are none
+      for (int k = 0; k < 100; ++k) std::thread([] { pause(); }).detach();
+    } catch (const std::system_error &) {
+      threads = false;
+    }
+    if (threads) _exit(2);
+    if (f.factorise(p.diag.data(), p.off.data()) != 0) _exit(1);
+    f.solve(y.data());
+    std::memcpy(shared, y.data(), bytes);
+    _exit(0);
+  }
+  int status = -1;
+  assert_true(child > 0 && waitpid(child, &status, 0) == child);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  assert_int_equal(f.factorise(p.diag.data(), p.off.data()), 0);
+  f.solve(x.data());
+  assert_memory_equal(shared, x.data(), bytes);
+  munmap(shared, bytes);
+#endif
+}
+
 // Large enough that single panels and triangular solves are split: 4e6 numbers in the factor, fronts of 800 rows and more.
 void two_threads_share_fronts(void **) {
   const Problem p = make_problem(3, 2500, 25.0, true, 4);
@@ -302,7 +354,7 @@ void room_is_used_again(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_graphs), cmocka_unit_test(dimension_refused), cmocka_unit_test(orders_are_permutations),
+  const CMUnitTest tests[] = {cmocka_unit_test(no_second_thread), cmocka_unit_test(random_graphs), cmocka_unit_test(dimension_refused), cmocka_unit_test(orders_are_permutations),
                               cmocka_unit_test(threads_agree),
                               cmocka_unit_test(two_threads_share_fronts), cmocka_unit_test(panels),
                               cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept),

@@ -36,6 +36,16 @@ void same_bits(const CrunchResult &a, const CrunchResult &b) {
   assert_memory_equal(a.contacts.force.data(), b.contacts.force.data(), a.contacts.force.size() * sizeof(double));
 }
 
+// On two threads a crunch repeats its bits too: they share the work in the same way each time.
+void two_threads_repeat(void **) {
+  const Packing p = start(1500, 3, 0.35, 4);
+  jam_crunch_options o = default_crunch_options();
+  o.threads = 2, o.max_lps = 3;
+  const CrunchResult r = run(p, o);
+  assert_true(r.report.factorisations > 10);
+  same_bits(r, run(p, o));
+}
+
 // Every answer of the interior point is spoiled, each time in another way: Clp must finish the job alone, on the same jamming
 // point that it finds as the chosen solver.
 void clp_takes_over(void **) {
@@ -320,7 +330,7 @@ void too_many_to_close(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(clp_takes_over), cmocka_unit_test(nobody_solves), cmocka_unit_test(chain_takes_over),
+  const CMUnitTest tests[] = {cmocka_unit_test(two_threads_repeat), cmocka_unit_test(clp_takes_over), cmocka_unit_test(nobody_solves), cmocka_unit_test(chain_takes_over),
                               cmocka_unit_test(polish_refuses), cmocka_unit_test(one_more_lp), cmocka_unit_test(idle_contact),
                               cmocka_unit_test(too_many_to_close)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

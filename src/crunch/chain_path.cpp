@@ -36,6 +36,7 @@ bool Chain::in_valley(double gain, double step) const {
 // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
 void Chain::follow_path() {
   ++paths_;
+  network_ = Network();  // was that of the state before: a path that is interrupted leaves no contacts
   RelineariseControl control;
   // Gaps to be gained further on: a contact across a step of length l opens by l^2. Where the LP's forces hold, that and the slack
   // which it was left with are room enough.

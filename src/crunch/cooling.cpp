@@ -1,6 +1,7 @@
 #include "crunch/cooling.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace jam {
 namespace {

@@ -1,6 +1,5 @@
 // When the barrier path cools and when it is warmed up: what mu is multiplied by before the next Newton step.
 #pragma once
-#include <limits>
 
 namespace jam {
 
@@ -15,6 +14,7 @@ class Cooling {
     double part;       // of the whole Newton step that was taken
     double trust;      // of the longest step allowed that was taken
   };
+  // The factor of mu before the next Newton step: 1; `shrink`, to cool; above 1, to warm up.
   double before(const Step &last);
   // True where the maximum at mu counts as reached: mu falls by `shrink`.
   bool centred(double decrement, double rows);

@@ -20,6 +20,8 @@ std::vector<double> small_diagonal(const Packing &p, const ContactNetwork &net) 
 using Wide = long double;
 // A pair that stays wider than this, relative, when all contacts are closed together is none.
 constexpr double closed = 1e-8;
+// Gaps above this are more than what rounding leaves of closed contacts.
+constexpr double rounding = 3e-14;
 
 void refresh(const Packing &p, ContactNetwork &net) {
   const int d = p.dim;
@@ -131,9 +133,8 @@ bool drop(ContactNetwork &net, size_t k, int dim) {
 
 // What least squares leave of the gaps is orthogonal to every change of the packing: itself a state of self-stress g, without
 // pressure. Of the forces f - t g the first to vanish, as t grows, is of the contact that opens when the others close: a pivot of
-// the dual simplex. False where all are closed.
+// the dual simplex. False where all are closed, and where that contact's spheres have none to spare.
 bool drop_open_contact(ContactNetwork &net, int dim) {
-  constexpr double rounding = 3e-14;
   if (excess(net, dim) <= 0 || !(largest(net.gap) > rounding)) return false;
   size_t first = net.size();
   for (size_t k = 0; k < net.size(); ++k)
@@ -180,6 +181,8 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
     if (!close_all(q, better, system, threads, monitor)) return PolishEnd::cancelled;
     if (!(largest(better.gap) < closed)) return PolishEnd::open_contact;
   } while (drop_open_contact(better, p.dim));
+  if (monitor && largest(better.gap) > rounding)
+    monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(), largest(better.gap));
   const std::vector<double> diagonal = small_diagonal(q, better);
   if (!least_forces(q, better, system, diagonal)) balance_forces(q, better, system, diagonal);
   if (!pushes_only(better)) return PolishEnd::negative_force;

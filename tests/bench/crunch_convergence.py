@@ -4,7 +4,8 @@
 usage: crunch_convergence.py [--seed 1] [--states DIR] [--out CONVERGENCE.json] [--picture CONVERGENCE.png]
 
 Two states: 1024 spheres grown at G = 1e-2 to p = 500 only; 4096 grown from there at G = 3e-4 to p = 1e7 (two minutes, the
-crunches another). Each step of `history` is a point; the end of each curve is what LPs in full and polish add. PYTHONPATH: the built module. --states: folder where grown states are kept and found again.
+crunches another). Each step of `history` is a point; the end of each curve is what LPs in full and polish add. PYTHONPATH: the
+built module. --states: folder where grown states are kept and found again.
 """
 import argparse
 import json

@@ -197,56 +197,9 @@ void one_more_lp(void **) {
   }
 }
 
-// A pair that does not touch but that the LP counts among the contacts, with next to no force: polish leaves it out. With a force that
-// counts it does not.
-void idle_contact(void **) {
-  const Packing p = start(60, 3, 0.3, 6);
-  const CrunchResult plain = run(p, default_crunch_options());
-  assert_true(plain.report.jammed && plain.report.excess_contacts == 0);
-  for (const double force : {1e-7, 1e-3}) {
-    int asked = 0;
-    CrunchSeams seams;
-    seams.before_polish = [&](const Packing &q, ContactNetwork &net) {
-      if (++asked > 1) return;
-      const PairList near = find_pairs(q, 0.1 * diameter_mean(q), 1.0);
-      double closest = 1.0;
-      PairList extra;
-      for (size_t k = 0; k < near.size(); ++k) {
-        const int32_t i = near.i[k], j = near.j[k];
-        double r[3];
-        const double gap = std::sqrt(pair_vector(q, near, k, r)) / (0.5 * (q.diameter[i] + q.diameter[j])) - 1.0;
-        if (gap < 1e-8 || gap > closest || net.coordination[i] == 0 || net.coordination[j] == 0) continue;
-        closest = gap;
-        extra.i = {i}, extra.j = {j};
-        extra.offset.assign(&near.offset[3 * k], &near.offset[3 * k] + 3);
-      }
-      assert_true(extra.size() == 1);
-      ++net.coordination[extra.i[0]], ++net.coordination[extra.j[0]];
-      net.pairs.i.push_back(extra.i[0]), net.pairs.j.push_back(extra.j[0]);
-      net.pairs.offset.insert(net.pairs.offset.end(), extra.offset.begin(), extra.offset.end());
-      net.vector.insert(net.vector.end(), {1.0, 0.0, 0.0});  // polish makes them anew
-      net.gap.push_back(closest), net.force.push_back(force);
-    };
-    CrunchResult first;
-    seams.attempt = [&](CrunchResult &r) { first = r; };
-    Monitor monitor;
-    monitor.begin();
-    crunch(p, default_crunch_options(), monitor, nullptr, &seams);
-    assert_true(first.report.jammed && first.report.contacts == plain.report.contacts && first.report.force_residual < 1e-14);
-    assert_true(std::fabs(first.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
-    assert_int_equal(first.report.lp_solves - plain.report.lp_solves, force > 1e-5);  // an LP more where the pair might carry
-  }
-}
-
 double relative_gap(const Packing &p, const PairList &pairs, size_t k = 0) {
   double r[JAM_MAX_DIM];
   return std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
-}
-
-// One sphere's size changes: its contacts open or overlap until polish closes them.
-void resize(Packing &p, ContactNetwork &net, int32_t sphere, double change) {
-  p.diameter[sphere] *= 1.0 + change;
-  for (size_t k = 0; k < net.size(); ++k) net.gap[k] = relative_gap(p, net.pairs, k);
 }
 
 // The nearest pair of stable spheres that is no contact.
@@ -263,6 +216,42 @@ PairList nearest_other(const Packing &p, const ContactNetwork &net) {
     if (other) closest = gap, best = one;
   }
   return best;
+}
+
+// A pair that does not touch but that the LP counts among the contacts, with next to no force: polish leaves it out. With a force that
+// counts it does not.
+void idle_contact(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  const CrunchResult plain = run(p, default_crunch_options());
+  assert_true(plain.report.jammed && plain.report.excess_contacts == 0);
+  for (const double force : {1e-7, 1e-3}) {
+    int asked = 0;
+    CrunchSeams seams;
+    seams.before_polish = [&](const Packing &q, ContactNetwork &net) {
+      if (++asked > 1) return;
+      const PairList extra = nearest_other(q, net);
+      assert_true(extra.size() == 1);
+      ++net.coordination[extra.i[0]], ++net.coordination[extra.j[0]];
+      net.pairs.i.push_back(extra.i[0]), net.pairs.j.push_back(extra.j[0]);
+      net.pairs.offset.insert(net.pairs.offset.end(), extra.offset.begin(), extra.offset.end());
+      net.vector.insert(net.vector.end(), {1.0, 0.0, 0.0});  // polish makes them anew
+      net.gap.push_back(relative_gap(q, extra)), net.force.push_back(force);
+    };
+    CrunchResult first;
+    seams.attempt = [&](CrunchResult &r) { first = r; };
+    Monitor monitor;
+    monitor.begin();
+    crunch(p, default_crunch_options(), monitor, nullptr, &seams);
+    assert_true(first.report.jammed && first.report.contacts == plain.report.contacts && first.report.force_residual < 1e-14);
+    assert_true(std::fabs(first.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
+    assert_int_equal(first.report.lp_solves - plain.report.lp_solves, force > 1e-5);  // an LP more where the pair might carry
+  }
+}
+
+// One sphere's size changes: its contacts open or overlap until polish closes them.
+void resize(Packing &p, ContactNetwork &net, int32_t sphere, double change) {
+  p.diameter[sphere] *= 1.0 + change;
+  for (size_t k = 0; k < net.size(); ++k) net.gap[k] = relative_gap(p, net.pairs, k);
 }
 
 // One sphere is made larger or smaller until the nearest pair that is no contact is `wanted` apart. Returns how fast it moved; 0 when
@@ -311,7 +300,14 @@ void too_many_to_close(void **) {
       ++net.coordination[pair.i[0]], ++net.coordination[pair.j[0]];
       NewtonSystem system;
       Packing p = r.packing;
-      assert_true(polish(p, net, system, 1) == PolishEnd::done);
+      std::string log;
+      Monitor monitor;
+      monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
+      monitor.log_user = &log;
+      monitor.log_level = JAM_LOG_WARNING;
+      monitor.begin();
+      assert_true(polish(p, net, system, 1, &monitor) == PolishEnd::done);
+      assert_true((log.find("cannot all close") != std::string::npos) == (net.size() != r.contacts.size()));
       for (const double f : net.force) assert_true(f > 0.0);
       if (net.size() != r.contacts.size()) {  // the one to leave out belongs to a sphere with none to spare: the gaps stay, in sight
         assert_true(closest_pair(p).gap > wanted);
@@ -324,7 +320,7 @@ void too_many_to_close(void **) {
       assert_true(wanted > 0.0 ? std::fabs(gap - wanted) < 0.2 * wanted : std::fabs(gap) < 1e-14);
       ++scenes, others += wanted < 0.0;
     }
-  assert_true(scenes - others >= 5 && others >= 5 && left <= 2);
+  assert_true(scenes - others >= 5 && others >= 5 && left >= 1 && left <= 2);
 }
 
 }  // namespace

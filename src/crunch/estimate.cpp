@@ -7,6 +7,7 @@
 #include "crunch/crunch.hpp"
 #include "lp/blas.hpp"
 #include "lp/block_cholesky.hpp"
+#include "lp/near_rows.hpp"
 
 namespace jam {
 namespace {
@@ -38,6 +39,36 @@ PairList longest_list(const Packing &p, const jam_crunch_options &o) {
   return pairs;
 }
 
+// The edges of the particle graph, sorted as the pairs are: several images of one pair are one edge.
+struct Edges {
+  std::vector<int32_t> i, j;
+  void add(int32_t a, int32_t b) {
+    if (a != b && (i.empty() || i.back() != a || j.back() != b)) i.push_back(a), j.push_back(b);
+  }
+  BlockCholesky::Sizes measure(const Packing &p, int threads) const {
+    return BlockCholesky::measure(p.dim, static_cast<int32_t>(p.n()), i.data(), j.data(), i.size(), threads);
+  }
+};
+
+// h = r / sigma - 1 of each pair.
+std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
+  std::vector<double> gap(pairs.size());
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < gap.size(); ++k) gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
+  return gap;
+}
+
+// Of the pairs that a path lists those that its matrix couples on most of its way: up to `far_slack` of the gap that the farthest
+// carrying row has. A first LP with a wide bound couples more, for a few of the factorisations.
+Edges coupled_edges(const Packing &p, const PairList &pairs) {
+  const std::vector<double> gap = relative_gaps(p, pairs);
+  const double slack = far_slack * carrying_slack(gap, p.dim, static_cast<int32_t>(p.n()));
+  Edges edges;
+  for (size_t k = 0; k < gap.size(); ++k)
+    if (gap[k] <= slack) edges.add(pairs.i[k], pairs.j[k]);
+  return edges;
+}
+
 // Flops a second of this core in blocks as large as the fronts are; a millisecond.
 double measured_rate(int size) {
   const BlasSingleThread single;
@@ -58,9 +89,7 @@ double contact_gap(const Packing &p) {
   const PairList pairs = find_pairs(p, 0.0, 1.5);
   const size_t wanted = static_cast<size_t>(p.dim) * p.n() / 2;
   if (pairs.size() <= wanted) return 0.5;
-  std::vector<double> gap(pairs.size());
-  double r[JAM_MAX_DIM];
-  for (size_t k = 0; k < gap.size(); ++k) gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
+  std::vector<double> gap = relative_gaps(p, pairs);
   std::nth_element(gap.begin(), gap.begin() + wanted, gap.end());
   return gap[wanted];
 }
@@ -68,29 +97,26 @@ double contact_gap(const Packing &p) {
 jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   check_options(p, o);
   PairList pairs = longest_list(p, o);
-  std::vector<int32_t> ei, ej;
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    if (pairs.i[k] == pairs.j[k] || (!ei.empty() && ei.back() == pairs.i[k] && ej.back() == pairs.j[k])) continue;
-    ei.push_back(pairs.i[k]), ej.push_back(pairs.j[k]);
-  }
-  const double d = p.dim, n = static_cast<double>(p.n()), rows = static_cast<double>(pairs.size()), edges = static_cast<double>(ei.size());
-  pairs = PairList();
-  const BlockCholesky::Sizes sizes = BlockCholesky::measure(p.dim, static_cast<int32_t>(p.n()), ei.data(), ej.data(), ei.size(), o.threads);
+  Edges listed;
+  for (size_t k = 0; k < pairs.size(); ++k) listed.add(pairs.i[k], pairs.j[k]);
+  const double d = p.dim, n = static_cast<double>(p.n()), rows = static_cast<double>(pairs.size()), edges = static_cast<double>(listed.i.size());
+  const BlockCholesky::Sizes most = listed.measure(p, o.threads);
+  const BlockCholesky::Sizes usual = o.method == JAM_CRUNCH_CHAIN ? most : coupled_edges(p, pairs).measure(p, o.threads);
 
   jam_estimate e{};
   e.pairs = static_cast<int64_t>(rows);
-  e.flops = sizes.flops;
-  e.factor_bytes = 8.0 * static_cast<double>(sizes.factor + sizes.fronts);
+  e.flops = usual.flops;
+  e.factor_bytes = 8.0 * static_cast<double>(most.factor + most.fronts);
   // Blocks before elimination; a dozen vectors and the rows themselves for each pair, two dozen for each unknown; three pair
   // lists; tables of the symbolic part (an index for each block of the factor among them).
   const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 27.0);
-  const double lists = 3.0 * rows * (8.0 + 8.0 * d), tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(sizes.factor) / (d * d);
+  const double lists = 3.0 * rows * (8.0 + 8.0 * d), tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(most.factor) / (d * d);
   e.bytes = e.factor_bytes + blocks + vectors + lists + tables;
   e.factorisations = o.method == JAM_CRUNCH_CHAIN ? 3.0 * steps_dense : steps_dense;
   if (free_spacing(p) > 0.05) e.factorisations = steps_dilute;
   // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few times.
   const double rate = measured_rate(192);
-  e.step_seconds = sizes.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(sizes.factor) + 4e-7 * rows;
+  e.step_seconds = usual.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(usual.factor) + 4e-7 * rows;
   e.seconds = e.factorisations * e.step_seconds;
   return e;
 }

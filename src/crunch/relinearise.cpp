@@ -28,9 +28,6 @@ constexpr double least_reach = 0.15;
 // into this band costs a few percent of a factorisation.
 constexpr int most_correctors = 5;
 constexpr double band = 10.0, farther = 0.3;
-// Rows this many times as far from tight as the 1.05 dim n tightest ones stand in the matrix by their diagonal blocks alone: what they
-// couple is weak by the square of that, and every step is searched on all rows anyway.
-constexpr double far_slack = 2.0;
 
 class Path {
  public:

@@ -110,6 +110,26 @@ static void orders(void **state) {
   jam_destroy(small), jam_destroy(large);
 }
 
+/* Of one list the path couples only pairs that are near to contact, the chain whatever its bound lets close. */
+static void near_pairs_cost(void **state) {
+  jam_system *sys = start(300, 0.3);
+  jam_compress_options c;
+  jam_crunch_options o;
+  jam_estimate path, chain;
+  (void)state;
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 0.1, c.pressure = 1e3;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  jam_crunch_options_init(&o, sizeof o);
+  o.neighbour_radius = 1.5;
+  path = estimated(sys, &o);
+  o.method = JAM_CRUNCH_CHAIN;
+  chain = estimated(sys, &o);
+  assert_true((double)path.pairs > 0.95 * (double)chain.pairs); /* the chain's list may be for diameters grown a little more */
+  assert_true(path.flops < 0.8 * chain.flops && path.step_seconds < chain.step_seconds);
+  jam_destroy(sys);
+}
+
 static void keep_estimate(int32_t level, const char *line, void *user) {
   if (level == JAM_LOG_INFO && !strncmp(line, "estimate: ", 10)) snprintf(user, 400, "%s", line);
 }
@@ -145,6 +165,7 @@ static void errors(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_within_two), cmocka_unit_test(orders), cmocka_unit_test(is_logged), cmocka_unit_test(errors)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_within_two), cmocka_unit_test(orders), cmocka_unit_test(near_pairs_cost),
+                                     cmocka_unit_test(is_logged), cmocka_unit_test(errors)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

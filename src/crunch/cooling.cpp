@@ -8,12 +8,15 @@ namespace {
 
 // Squared Newton decrement a row below which the maximum counts as reached. Looser values leave the path.
 constexpr double reached = 0.005;
-// The point reached is a saddle, and mu is warmed up by `reheat`, after so many Newton steps at one mu or after `cut` of them
+// The point reached is a saddle, and mu is warmed up, after so many Newton steps at one mu or after `cut` of them
 // that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley steps are longer
 // at larger mu. But mu falls where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest;
 // and after `flow` steps with a duality gap above `hot`, which is a slow flow.
 constexpr int stuck = 40, cut = 8, flow = 15;
-constexpr double reheat = 100.0, fall = 0.3, all_but = 4.0, hot = 1e-3;
+constexpr double fall = 0.3, all_but = 4.0, hot = 1e-3;
+// By how much: little, so that what the rest of a large packing has reached is kept; more where that led back to a saddle as warm as
+// `again` times the last one.
+constexpr double reheat = 10.0, reheat_again = 100.0, again = 0.5;
 // A start colder than its forces can balance at creeps along the walls: after so many steps in a row it is warmed up by `warm`.
 constexpr int creeps = 4, most_warmed = 3;
 constexpr double warm = 10.0;
@@ -43,7 +46,9 @@ double Cooling::turn(const Step &last) {
   at_mu_ = 0;
   if (flows || last.decrement < all_but * reached * last.rows) return shrink;
   ++reheats_;
-  return reheat;
+  const bool same = last.gap > again * saddle_;
+  saddle_ = last.gap;
+  return same ? reheat_again : reheat;
 }
 
 bool Cooling::centred(double decrement, double rows) {

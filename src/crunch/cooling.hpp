@@ -1,5 +1,6 @@
 // When the barrier path cools and when it is warmed up: what mu is multiplied by before the next Newton step.
 #pragma once
+#include <limits>
 
 namespace jam {
 
@@ -27,6 +28,7 @@ class Cooling {
   double turn(const Step &last);
 
   double least_ = 0.0, mark_ = 0.0;  // lowest decrement at this mu; where the count of cuts began
+  double saddle_ = std::numeric_limits<double>::infinity();  // duality gap of the last one
   int at_mu_ = 0, cuts_ = 0, reheats_ = 0, creeping_ = 0, warmed_ = 0;
   bool centred_once_ = false;
 };

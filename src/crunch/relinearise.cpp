@@ -8,7 +8,7 @@
 #include "crunch/barrier.hpp"
 #include "crunch/cooling.hpp"
 #include "crunch/crunch.hpp"
-#include "lp/near_rows.hpp"
+#include "crunch/path_matrix.hpp"
 
 namespace jam {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 
 // A product y c may differ from mu by this factor either way before y is pulled back to the central path.
 constexpr double centrality = 100.0;
-constexpr int most_reheats = 8;
+constexpr int most_reheats = 16;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
 // Pairs nearer than this (mean diameters) are listed: enough for a rattler to feel its cage, else it runs.
@@ -32,7 +32,7 @@ constexpr double band = 10.0, farther = 0.3;
 class Path {
  public:
   Path(Packing &p, const RelineariseControl &control, NewtonSystem &system, Monitor &monitor)
-      : p_(p), control_(control), system_(system), monitor_(monitor) {}
+      : p_(p), control_(control), system_(system), monitor_(monitor), matrix_(system, control.threads, control.solves_worth) {}
 
   RelineariseResult run() {
     RelineariseResult out;
@@ -43,9 +43,9 @@ class Path {
       out.factorisations = system_.factorisations - before;
       out.reheats = cooling_.reheats();
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size());
-      monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps %.2f %.2f moved %.1e",
-                   out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(), near_.size(), correctors_, alpha_p_, alpha_d_,
-                   last_step_);
+      monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps %.2f %.2f moved %.1e solves %d",
+                   out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(), matrix_.near(), correctors_, alpha_p_, alpha_d_,
+                   last_step_, matrix_.solves());
       out.reached = balance_ < 1e-2 && gap_ <= control_.target;
       if (out.reached || out.reheats > most_reheats || out.factorisations >= control_.max_factorisations ||
           monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
@@ -91,9 +91,9 @@ class Path {
     b_.measure(p_);
     const size_t rows = b_.pairs.size(), unknowns = p_.position.size();
     travelled_ = grown_ = 0.0;
-    near_.clear();
-    for (auto *v : {&weight_, &target_, &row_}) v->resize(rows);
-    for (auto *v : {&unbalanced_, &rhs_, &diagonal_}) v->assign(unknowns, 0.0);
+    matrix_.forget(rows, unknowns);
+    for (auto *v : {&target_, &row_}) v->resize(rows);
+    for (auto *v : {&unbalanced_, &rhs_}) v->assign(unknowns, 0.0);
     for (auto *x : {&main_, &trial_}) x->s.resize(unknowns), x->w.resize(rows), x->y.resize(rows);
   }
 
@@ -117,50 +117,19 @@ class Path {
     return std::isfinite(gap_) && std::isfinite(balance_);
   }
 
-  // Which rows couple spheres in the matrix: chosen anew for a new list, when a far row came near, and when a fifth could go.
-  void choose_near() {
-    const std::vector<double> &c = b_.lp.c;
-    const double slack = far_slack * carrying_slack(c, p_.dim, static_cast<int32_t>(p_.n()));
-    std::vector<char> coupled(c.size(), 0);
-    for (const size_t k : near_) coupled[k] = 1;
-    size_t wanted = 0, missing = 0;
-    for (size_t k = 0; k < c.size(); ++k) wanted += c[k] <= slack, missing += !coupled[k] && c[k] <= 0.5 * slack;
-    if (!near_.empty() && missing == 0 && static_cast<double>(wanted) > 0.8 * static_cast<double>(near_.size())) return;
-    near_.clear();
-    near_pairs_ = PairList();
-    for (size_t k = 0; k < c.size(); ++k) {
-      if (!(c[k] <= slack)) continue;
-      near_.push_back(k);
-      near_pairs_.i.push_back(b_.pairs.i[k]), near_pairs_.j.push_back(b_.pairs.j[k]);
+  // With the factor of an earlier step where that will do. False: no direction.
+  bool direct() {
+    // The proximal term fixes translations and lets no sphere run far for a gain below the gap.
+    matrix_.weigh(p_, b_, gap_ / static_cast<double>(p_.n()));
+    if (matrix_.follow(alpha_p_)) {
+      std::fill(main_.s.begin(), main_.s.end(), 0.0);
+      if (aim()) return true;
     }
-    near_a_.resize(near_.size() * p_.dim), near_weight_.resize(near_.size());
-    system_.set_graph(p_.dim, static_cast<int32_t>(p_.n()), near_pairs_, control_.threads);
-  }
-
-  bool factorise() {
-    choose_near();
-    const int d = p_.dim;
-    // Proximal term: fixes translations and lets no sphere run far for a gain below the gap.
-    std::fill(diagonal_.begin(), diagonal_.end(), gap_ / static_cast<double>(p_.n()));
-    size_t q = 0;
-    for (size_t k = 0; k < b_.y.size(); ++k) {
-      const double *a = &b_.lp.a[k * d];
-      weight_[k] = b_.y[k] / b_.lp.c[k];
-      if (q < near_.size() && near_[q] == k) {
-        near_weight_[q] = weight_[k];
-        std::copy(a, a + d, &near_a_[q++ * d]);
-        continue;
-      }
-      double a1 = 0.0;
-      for (int c = 0; c < d; ++c) a1 += std::fabs(a[c]);
-      for (int c = 0; c < d; ++c)  // at least a a^T by Gershgorin's circles
-        for (const int32_t v : {b_.pairs.i[k], b_.pairs.j[k]}) diagonal_[static_cast<size_t>(v) * d + c] += weight_[k] * std::fabs(a[c]) * a1;
-    }
-    return system_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data());
+    return matrix_.factorise() && aim();
   }
 
   // Direction for changes target_ of the products y c that also takes the force balance and sum y = 1 up.
-  void solve(BarrierStep &out) {
+  bool solve(BarrierStep &out) {
     double h = rest_;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       row_[k] = target_[k] / b_.lp.c[k];
@@ -168,26 +137,32 @@ class Path {
     }
     transpose_times(b_.lp, row_.data(), rhs_.data());
     for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += unbalanced_[k];
-    system_.solve(rhs_.data(), h, out.s.data(), &out.g, 1);
+    const bool found = matrix_.solve(rhs_.data(), h, out.s.data(), &out.g);
     rows_times(b_.lp, out.s.data(), out.w.data());
     for (size_t k = 0; k < b_.y.size(); ++k) {
       out.w[k] -= out.g;
-      out.y[k] = row_[k] - weight_[k] * out.w[k];
+      out.y[k] = row_[k] - matrix_.weight()[k] * out.w[k];
     }
+    return found;
   }
 
-  bool newton() {
+  // The direction at this mu, or where that is centred at the next. False when not found.
+  bool aim() {
     const double rows = static_cast<double>(b_.y.size());
-    b_.mu *= cooling_.before({decrement_, rows, gap_, balance_, alpha_p_, last_step_ / trust});
-    if (!factorise()) return false;
     for (bool colder = false;; colder = true) {
       for (size_t k = 0; k < b_.y.size(); ++k) target_[k] = b_.mu - b_.y[k] * b_.lp.c[k];
-      solve(main_);
+      if (!solve(main_)) return false;
       decrement_ = b_.decrement(main_);
       if (colder || !cooling_.centred(decrement_, rows)) break;
       b_.mu *= Cooling::shrink;
     }
-    if (!std::isfinite(b_.longest_move(main_)) || !std::isfinite(main_.g)) return false;
+    matrix_.found();
+    return std::isfinite(b_.longest_move(main_)) && std::isfinite(main_.g);
+  }
+
+  bool newton() {
+    b_.mu *= cooling_.before({decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust});
+    if (!direct()) return false;
     move(correct());
     return alpha_p_ > 0.0;
   }
@@ -202,7 +177,8 @@ class Path {
         const double inside = std::min(std::max(product, b_.mu / band), band * b_.mu);
         target_[k] += std::min(band * b_.mu, std::max(inside - product, -band * b_.mu));
       }
-      solve(trial_);
+      if (matrix_.following()) trial_.s = main_.s;
+      if (!solve(trial_)) break;
       const Barrier::Best other = b_.search(trial_, trust);
       if (!(other.merit < best.merit)) break;
       best = other;
@@ -250,10 +226,8 @@ class Path {
   Barrier b_;
   BarrierStep main_, trial_;
   Cooling cooling_;
-  std::vector<size_t> near_;  // rows in the matrix, ascending
-  PairList near_pairs_;
-  std::vector<double> near_a_, near_weight_;
-  std::vector<double> weight_, target_, row_, unbalanced_, rhs_, diagonal_;
+  PathMatrix matrix_;
+  std::vector<double> target_, row_, unbalanced_, rhs_;
   double reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0;

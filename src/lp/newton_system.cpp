@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/monitor.hpp"
 #include "lp/row_products.hpp"
 
 namespace jam {
+namespace {
+
+double dot(const std::vector<double> &x, const double *y) { return std::inner_product(x.begin(), x.end(), y, 0.0); }
+
+}  // namespace
 
 void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order) {
   if (dim == dim_ && n == n_ && threads == threads_ && pairs.i == pair_i_ && pairs.j == pair_j_) return;
@@ -15,6 +21,7 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
   dim_ = dim;
   n_ = n;
   threads_ = threads;
+  has_factor_ = false;
   pair_i_ = pairs.i;
   pair_j_ = pairs.j;
   edge_of_pair_.resize(pairs.size());
@@ -88,15 +95,14 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   ++factorisations;
   const double t2 = now_seconds();
   seconds_factor += t2 - t1;
-  if (replaced < 0) return false;
+  has_factor_ = replaced >= 0;
+  if (!has_factor_) return false;
   transpose_times(a, weight, column_.data());
   delta_ = 0.0;
   for (size_t k = 0; k < pair_i_.size(); ++k) delta_ += weight[k];
   column_solved_ = column_;
   cholesky_.solve(column_solved_.data());
-  double dot = 0.0;
-  for (size_t k = 0; k < column_.size(); ++k) dot += column_[k] * column_solved_[k];
-  schur_ = delta_ - dot;
+  schur_ = delta_ - dot(column_, column_solved_.data());
   // In exact arithmetic schur > 0; what rounding leaves below eps * delta says nothing.
   if (!(schur_ > 1e-14 * delta_)) schur_ = 1e-14 * delta_;
   seconds_solve += now_seconds() - t2;
@@ -106,9 +112,7 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
 void NewtonSystem::solve_once(const double *rhs, double h, double *ds, double *dg) {
   std::copy(rhs, rhs + column_.size(), ds);
   cholesky_.solve(ds);
-  double dot = 0.0;
-  for (size_t k = 0; k < column_.size(); ++k) dot += column_[k] * ds[k];
-  *dg = (h + dot) / schur_;
+  *dg = (h + dot(column_, ds)) / schur_;
   for (size_t k = 0; k < column_.size(); ++k) ds[k] += *dg * column_solved_[k];
 }
 
@@ -136,6 +140,55 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
     *dg += dg_more;
   }
   seconds_solve += now_seconds() - t0;
+}
+
+int NewtonSystem::solves_worth() const {
+  // A solve passes twice over the factor: for each of its numbers the processor does some 60 operations of a front.
+  return static_cast<int>(cholesky_.flops() / (60.0 * static_cast<double>(cholesky_.factor_nonzeros()) + 1.0));
+}
+
+void NewtonSystem::follow(const double *a, const double *weight, const double *box) {
+  a_ = a;
+  weight_ = weight;
+  std::copy(box, box + box_.size(), box_.begin());
+  for (auto *v : {&now_column_, &way_, &image_}) v->resize(column_.size());
+  transpose_times(a, weight, now_column_.data());
+  now_delta_ = std::accumulate(weight, weight + pair_i_.size(), 0.0);
+  energy_ = 0.0;
+  near_solves = 0;
+}
+
+// The matrix that is left when dg is eliminated: A^T D A + diag(box) - q q^T / delta.
+void NewtonSystem::times(const double *s, double *out) {
+  rows_times(a_, s, row_work_.data());
+  const double g = dot(now_column_, s) / now_delta_;
+  for (size_t k = 0; k < row_work_.size(); ++k) row_work_[k] = weight_[k] * (row_work_[k] - g);
+  transpose_times(a_, row_work_.data(), out);
+  for (size_t k = 0; k < box_.size(); ++k) out[k] += box_[k] * s[k];
+}
+
+bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
+  const double t0 = now_seconds();
+  const size_t unknowns = column_.size();
+  times(ds, residual_.data());
+  for (size_t k = 0; k < unknowns; ++k) residual_[k] = rhs[k] + now_column_[k] * (h / now_delta_) - residual_[k];
+  double energy = 0.0, unused;
+  bool done = false;
+  for (int step = 0;; ++step) {
+    solve_once(residual_.data(), 0.0, correction_.data(), &unused);
+    const double before = energy;
+    energy = dot(residual_, correction_.data());
+    if (energy_ == 0.0) energy_ = energy;
+    done = energy <= accuracy * accuracy * energy_;
+    if (done || !std::isfinite(energy) || ++near_solves > most) break;
+    for (size_t k = 0; k < unknowns; ++k) way_[k] = correction_[k] + (step > 0 ? energy / before * way_[k] : 0.0);
+    times(way_.data(), image_.data());
+    const double length = energy / dot(image_, way_.data());
+    for (size_t k = 0; k < unknowns; ++k) ds[k] += length * way_[k], residual_[k] -= length * image_[k];
+  }
+  *dg = (h + dot(now_column_, ds)) / now_delta_;
+  seconds_solve += now_seconds() - t0;
+  return done;
 }
 
 void NewtonSystem::rows_times(const double *a, const double *s, double *out) const { jam::rows_times(dim_, pair_i_, pair_j_, a, s, out); }

@@ -155,28 +155,53 @@ void saddle_is_left(void **) {
   assert_true(whole.end.reached && closest_pair(p).gap > 0.0 && packing_fraction(p) > 1.02 * square);
 }
 
-// Paths that arrive leave nothing to gain but their duality gap: one LP in full says so. Some of them meet saddles on their way and
-// leave them by a warmer barrier, where the duality gap is larger.
+// What a path that arrived leaves to gain: its duality gap. One LP in full says so.
+void nothing_left(Packing &p, const PathRun &run) {
+  jam_crunch_options o = default_crunch_options();
+  Monitor monitor;
+  monitor.begin();
+  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 1;
+  assert_true(run.end.reached && run.end.gap <= RelineariseControl().target && closest_pair(p).gap > 0.0);
+  assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
+}
+
+// Near enough to jamming that the path begins where it does in a crunch.
+Packing near_start(int n, int dim, int seed) {
+  jam_crunch_options o = default_crunch_options();
+  Monitor monitor;
+  monitor.begin();
+  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 4;
+  return crunch(start(n, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed), o, monitor, nullptr, nullptr).packing;
+}
+
+// Some paths meet saddles on their way and leave them by a warmer barrier, where the duality gap is larger.
 void arrives(void **) {
   int saddles = 0;
   for (const int dim : {2, 3})
     for (int seed = 1; seed <= 6; ++seed) {
-      Packing p = start(64, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed);
-      jam_crunch_options o = default_crunch_options();
-      Monitor monitor;
-      monitor.begin();
-      o.method = JAM_CRUNCH_CHAIN, o.max_lps = 4;  // near enough that the path begins where it does in a crunch
-      p = crunch(p, o, monitor, nullptr, nullptr).packing;
+      Packing p = near_start(64, dim, seed);
       const PathRun run = follow(p, RelineariseControl());
-      assert_true(run.end.reached && run.end.gap <= RelineariseControl().target && closest_pair(p).gap > 0.0);
       double rise = 0.0;
       for (size_t k = 3; k < run.gaps.size(); ++k) rise = std::max(rise, run.gaps[k] / run.gaps[k - 3]);
       if (run.end.reheats > 0) ++saddles, assert_true(rise > 3.0);
-      o.max_lps = 1;
-      const CrunchResult next = crunch(p, o, monitor, nullptr, nullptr);
-      assert_true(next.report.gain < 2.0 * run.end.gap);
+      nothing_left(p, run);
     }
   assert_true(saddles > 0);
+}
+
+// Where a factorisation is worth many triangular solves, as it is for tens of thousands of spheres, short steps do without.
+void old_factor_will_do(void **) {
+  int steps = 0, factorisations = 0;
+  for (const int dim : {2, 3})
+    for (int seed = 1; seed <= 6; ++seed) {
+      Packing p = near_start(200, dim, seed);
+      RelineariseControl control;
+      control.solves_worth = 80;
+      const PathRun run = follow(p, control);
+      steps += static_cast<int>(run.gaps.size()) - 1, factorisations += run.end.factorisations;
+      nothing_left(p, run);
+    }
+  assert_true(factorisations < steps && factorisations > steps / 4);
 }
 
 // Equal disks slide along rows for long: LPs creep, some go back to the path, and where a step bound alone ends a gain it must open.
@@ -202,6 +227,7 @@ void creeping_disks(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives),
+                              cmocka_unit_test(old_factor_will_do),
                               cmocka_unit_test(creeping_disks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -38,6 +38,17 @@ void saddles(void **) {
   assert_int_equal(endless.reheats(), 1);
 }
 
+// A saddle is left by a little warmth; one that is met again at the same gap by more; a colder one by a little again.
+void same_saddle(void **) {
+  Cooling c;
+  const auto warmed = [&](double gap) {
+    return first_turn(c, 20, [&](int) { return Cooling::Step{50.0 * rows, rows, gap, 1e-3, 0.1, 0.1}; });
+  };
+  const double first = warmed(1e-6), same = warmed(0.9e-6), colder = warmed(1e-7), warmer = warmed(1e-6);
+  assert_true(first > 1.0 && same > 2.0 * first && colder == first && warmer == same);
+  assert_int_equal(c.reheats(), 4);
+}
+
 // Short steps are none where the decrement falls: a little with each of them, or much now and then.
 void falling(void **) {
   Cooling slow, jerks;
@@ -89,7 +100,8 @@ void new_mu(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(saddles), cmocka_unit_test(falling), cmocka_unit_test(nearly_centred),
+  const CMUnitTest tests[] = {cmocka_unit_test(saddles), cmocka_unit_test(same_saddle),
+                              cmocka_unit_test(falling), cmocka_unit_test(nearly_centred),
                               cmocka_unit_test(flows),   cmocka_unit_test(creeping), cmocka_unit_test(new_mu)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -10,10 +10,11 @@ namespace {
 constexpr double reached = 0.005;
 // The point reached is a saddle, and mu is warmed up, after so many Newton steps at one mu or after `cut` of them
 // that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley steps are longer
-// at larger mu. But mu falls where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest;
-// and after `flow` steps with a duality gap above `hot`, which is a slow flow.
+// at larger mu. Of more than `many` rows more are in the way, one or a few with each step, and both take as much longer. But mu falls
+// where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest; and after `flow` steps with a
+// duality gap above `hot`, which is a slow flow.
 constexpr int stuck = 40, cut = 8, flow = 15;
-constexpr double fall = 0.3, all_but = 4.0, hot = 1e-3;
+constexpr double fall = 0.6, many = 1e5, all_but = 4.0, hot = 1e-3;
 // By how much: little, so that what the rest of a large packing has reached is kept; more where that led back to a saddle as warm as
 // `again` times the last one.
 constexpr double reheat = 10.0, reheat_again = 100.0, again = 0.5;
@@ -42,9 +43,11 @@ double Cooling::before(const Step &last) {
 // After too long at one mu.
 double Cooling::turn(const Step &last) {
   const bool flows = last.gap > hot;
-  if (flows ? at_mu_ <= flow : at_mu_ <= stuck && cuts_ < cut) return 1.0;
+  const bool nearly = last.decrement < all_but * reached * last.rows;
+  const double patience = nearly ? 1.0 : std::max(1.0, last.rows / many);
+  if (flows ? at_mu_ <= flow : at_mu_ <= stuck * patience && cuts_ < cut * patience) return 1.0;
   at_mu_ = 0;
-  if (flows || last.decrement < all_but * reached * last.rows) return shrink;
+  if (flows || nearly) return shrink;
   ++reheats_;
   const bool same = last.gap > again * saddle_;
   saddle_ = last.gap;

@@ -11,7 +11,8 @@ namespace {
 // After a step cut short to this part few weights are others. The factor at hand then serves as preconditioner of conjugate gradients,
 // if a factorisation is worth at least so many triangular solves, and finds the direction to this part of its length in the
 // norm of the matrix, so its decrement to the square of that.
-constexpr double short_part = 0.3, accuracy = 0.1;
+// What is left of it puts forces out of balance, most when mu has just jumped; a step with a factor of its own takes that up.
+constexpr double short_part = 0.3, accuracy = 0.1, balanced = 0.3;
 constexpr int least_worth = 20;
 
 }  // namespace
@@ -68,9 +69,9 @@ bool PathMatrix::factorise() {
   return system_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data());
 }
 
-bool PathMatrix::follow(double part) {
+bool PathMatrix::follow(double part, double balance) {
   const int worth = worth_ > 0 ? worth_ : system_.solves_worth();
-  following_ = part < short_part && worth >= least_worth && system_.has_factor() && price_ <= worth / 6;
+  following_ = part < short_part && balance < balanced && worth >= least_worth && system_.has_factor() && price_ <= worth / 6;
   if (!following_) return false;
   system_.follow(near_a_.data(), near_weight_.data(), diagonal_.data());
   most_ = worth / 4;

@@ -19,9 +19,9 @@ class PathMatrix {
   // The numbers of the matrix at the present rows, with `proximal` on its diagonal.
   void weigh(const Packing &p, const Barrier &b, double proximal);
   bool factorise();
-  // True where this step goes with the factor at hand as preconditioner: after a step of which so little was taken, if that is
-  // cheaper and the last such step was.
-  bool follow(double part);
+  // True where this step goes with the factor at hand as preconditioner: after a step of which a small part was taken, with forces near
+  // balance, if that is cheaper and the last such step was.
+  bool follow(double part, double balance);
   // Changes ds, dg for the right-hand sides rhs, h. When following, from the guess in ds; false when it takes too long.
   bool solve(const double *rhs, double h, double *ds, double *dg);
   // The first direction of a step that follows is found: its price decides about the next step, and correctors may cost as much again.

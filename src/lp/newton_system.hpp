@@ -27,7 +27,7 @@ class NewtonSystem {
   // The same system with other numbers, without a factorisation: solve_near() goes by conjugate gradients with the factor at hand as
   // preconditioner. Where steps are short few weights change much. The pairs must be those of the last factorise(). Keeps a and weight.
   void follow(const double *a, const double *weight, const double *box);
-  // Solves from the guess in ds until the error's energy is below `accuracy` squared of that of the first solution since follow().
+  // Solves from the guess in ds until the energy of the error is some `accuracy` squared of that of the first solution since follow().
   // False after `most` triangular solves since follow(); ds, dg are then the best so far.
   bool solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most);
   // How many triangular solves cost as much as a factorisation, from the numbers of both alone: 5 at N = 4096, 70 at 65536.

@@ -49,6 +49,16 @@ void same_saddle(void **) {
   assert_int_equal(c.reheats(), 4);
 }
 
+// With more rows in the way more steps are short before it is a saddle; all but centred they are not waited for.
+void many_rows(void **) {
+  const double rows_of_many = 3e5;
+  const auto course = [&](double decrement) { return [=](int) { return Cooling::Step{decrement * rows_of_many, rows_of_many, 1e-9, 1e-3, 0.1, 0.1}; }; };
+  Cooling waits, turns, centred;
+  assert_true(first_turn(waits, 20, course(1.0)) == 1.0);
+  assert_true(first_turn(turns, 40, course(1.0)) > 1.0);
+  assert_true(first_turn(centred, 20, course(0.015)) < 1.0);
+}
+
 // Short steps are none where the decrement falls: a little with each of them, or much now and then.
 void falling(void **) {
   Cooling slow, jerks;
@@ -100,7 +110,7 @@ void new_mu(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(saddles), cmocka_unit_test(same_saddle),
+  const CMUnitTest tests[] = {cmocka_unit_test(saddles), cmocka_unit_test(same_saddle), cmocka_unit_test(many_rows),
                               cmocka_unit_test(falling), cmocka_unit_test(nearly_centred),
                               cmocka_unit_test(flows),   cmocka_unit_test(creeping), cmocka_unit_test(new_mu)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

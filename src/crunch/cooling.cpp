@@ -14,7 +14,7 @@ constexpr double reached = 0.005;
 // where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest; and after `flow` steps with a
 // duality gap above `hot`, which is a slow flow.
 constexpr int stuck = 40, cut = 8, flow = 15;
-constexpr double fall = 0.6, many = 1e5, all_but = 4.0, hot = 1e-3;
+constexpr double fall = 0.6, many = 5e4, all_but = 4.0, hot = 1e-3;
 // By how much: little, so that what the rest of a large packing has reached is kept; more where that led back to a saddle as warm as
 // `again` times the last one.
 constexpr double reheat = 10.0, reheat_again = 100.0, again = 0.5;

@@ -54,8 +54,8 @@ void many_rows(void **) {
   const double rows_of_many = 3e5;
   const auto course = [&](double decrement) { return [=](int) { return Cooling::Step{decrement * rows_of_many, rows_of_many, 1e-9, 1e-3, 0.1, 0.1}; }; };
   Cooling waits, turns, centred;
-  assert_true(first_turn(waits, 20, course(1.0)) == 1.0);
-  assert_true(first_turn(turns, 40, course(1.0)) > 1.0);
+  assert_true(first_turn(waits, 40, course(1.0)) == 1.0);
+  assert_true(first_turn(turns, 60, course(1.0)) > 1.0);
   assert_true(first_turn(centred, 20, course(0.015)) < 1.0);
 }
 

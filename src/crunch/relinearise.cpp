@@ -121,7 +121,8 @@ class Path {
   bool direct() {
     // The proximal term fixes translations and lets no sphere run far for a gain below the gap.
     matrix_.weigh(p_, b_, gap_ / static_cast<double>(p_.n()));
-    if (matrix_.follow(alpha_p_, balance_)) {
+    // The path ends with balanced forces: its last steps have factors of their own.
+    if (gap_ > control_.target && matrix_.follow(alpha_p_, balance_)) {
       std::fill(main_.s.begin(), main_.s.end(), 0.0);
       if (aim()) return true;
     }

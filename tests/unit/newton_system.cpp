@@ -68,27 +68,33 @@ Answer difference(const Answer &x, const Answer &y) {
   return z;
 }
 
+constexpr double right_side = 0.7;  // h
+
+// `own` has a factor of the weights w and with it the exact answer, `other` one of the scene's weights and follows w from nothing.
+void follow(Scene &scene, const std::vector<double> &w, NewtonSystem &own, NewtonSystem &other, Answer &exact, Answer &found) {
+  for (NewtonSystem *system : {&own, &other}) system->set_graph(scene.dim, scene.n, scene.pairs, 1), assert_false(system->has_factor());
+  assert_true(own.factorise(scene.a.data(), w.data(), scene.box.data()));
+  assert_true(other.factorise(scene.a.data(), scene.weight.data(), scene.box.data()));
+  exact.s.resize(scene.rhs.size()), found.s.assign(scene.rhs.size(), 0.0);
+  own.solve(scene.rhs.data(), right_side, exact.s.data(), &exact.g);
+  other.follow(scene.a.data(), w.data(), scene.box.data());
+  assert_true(other.has_factor());
+}
+
 // The preconditioner's numbers differ by less than a factor of 2 but for one row, so the energy of the error that it sees is right to that.
 void follows(int dim, double accuracy) {
   Scene scene(dim);
   const std::vector<double> w = scene.changed(0.5);
   NewtonSystem own, other;
-  own.set_graph(dim, scene.n, scene.pairs, 1), other.set_graph(dim, scene.n, scene.pairs, 1);
-  assert_false(other.has_factor());
-  assert_true(own.factorise(scene.a.data(), w.data(), scene.box.data()));
-  assert_true(other.factorise(scene.a.data(), scene.weight.data(), scene.box.data()));
   Answer exact, found;
-  exact.s.resize(scene.rhs.size()), found.s.assign(scene.rhs.size(), 0.0);
-  own.solve(scene.rhs.data(), 0.7, exact.s.data(), &exact.g);
-  other.follow(scene.a.data(), w.data(), scene.box.data());
-  assert_true(other.has_factor());
-  assert_true(other.solve_near(scene.rhs.data(), 0.7, found.s.data(), &found.g, accuracy, 200));
+  follow(scene, w, own, other, exact, found);
+  assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, accuracy, 200));
   const double whole = energy(own, scene, w, exact), rest = energy(own, scene, w, difference(exact, found));
   assert_true(rest < 4.0 * accuracy * accuracy * whole);
   if (accuracy > 0.01) assert_true(rest > 1e-12 * whole);  // no more than was asked for
   // From its own answer one solve sees that nothing is left to do; other right-hand sides cost as much as their difference is large.
   const int before = other.near_solves;
-  assert_true(other.solve_near(scene.rhs.data(), 0.7, found.s.data(), &found.g, 2.0 * accuracy, 200));
+  assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 2.0 * accuracy, 200));
   assert_true(other.near_solves <= before + 1);
 }
 
@@ -105,14 +111,9 @@ void met_its_cage(void **) {
     if (scene.pairs.i[k] == 5 || scene.pairs.j[k] == 5) scene.weight[k] *= 1e-9;
   for (int c = 0; c < 3; ++c) scene.box[5 * 3 + c] = 1e-9;
   NewtonSystem own, other;
-  own.set_graph(3, scene.n, scene.pairs, 1), other.set_graph(3, scene.n, scene.pairs, 1);
-  assert_true(own.factorise(scene.a.data(), w.data(), scene.box.data()));
-  assert_true(other.factorise(scene.a.data(), scene.weight.data(), scene.box.data()));
   Answer exact, found;
-  exact.s.resize(scene.rhs.size()), found.s.assign(scene.rhs.size(), 0.0);
-  own.solve(scene.rhs.data(), 0.7, exact.s.data(), &exact.g);
-  other.follow(scene.a.data(), w.data(), scene.box.data());
-  assert_true(other.solve_near(scene.rhs.data(), 0.7, found.s.data(), &found.g, 0.1, 500));
+  follow(scene, w, own, other, exact, found);
+  assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 0.1, 500));
   assert_true(energy(own, scene, w, difference(exact, found)) < 0.1 * energy(own, scene, w, exact));
 }
 
@@ -121,17 +122,12 @@ void limit(void **) {
   Scene scene(3);
   const std::vector<double> w = scene.changed(2.0);
   NewtonSystem own, system;
-  own.set_graph(3, scene.n, scene.pairs, 1), system.set_graph(3, scene.n, scene.pairs, 1);
-  assert_true(own.factorise(scene.a.data(), w.data(), scene.box.data()));
-  assert_true(system.factorise(scene.a.data(), scene.weight.data(), scene.box.data()));
   Answer exact, found;
-  exact.s.resize(scene.rhs.size()), found.s.assign(scene.rhs.size(), 0.0);
-  own.solve(scene.rhs.data(), 0.0, exact.s.data(), &exact.g);
-  system.follow(scene.a.data(), w.data(), scene.box.data());
-  assert_false(system.solve_near(scene.rhs.data(), 0.0, found.s.data(), &found.g, 1e-9, 4));
+  follow(scene, w, own, system, exact, found);
+  assert_false(system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-9, 4));
   assert_true(system.near_solves <= 5);
   assert_true(energy(own, scene, w, difference(exact, found)) < 0.9 * energy(own, scene, w, exact));
-  assert_true(system.solve_near(scene.rhs.data(), 0.0, found.s.data(), &found.g, 1e-6, 500));  // goes on from there
+  assert_true(system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-6, 500));  // goes on from there
 }
 
 // A factor serves its own pairs only.

@@ -17,6 +17,14 @@ using namespace jam;
 
 namespace {
 
+// Warnings of what runs under this monitor, one after the other in `log`.
+void listen(Monitor &monitor, std::string &log) {
+  monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
+  monitor.log_user = &log;
+  monitor.log_level = JAM_LOG_WARNING;
+  monitor.begin();
+}
+
 Packing start(int n, int dim, double phi, int64_t seed) {
   jam_create_options o = default_create_options();
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
@@ -180,10 +188,7 @@ void one_more_lp(void **) {
     };
     std::string log;
     Monitor monitor;
-    monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
-    monitor.log_user = &log;
-    monitor.log_level = JAM_LOG_WARNING;
-    monitor.begin();
+    listen(monitor, log);
     CrunchResult first;
     seams.attempt = [&](CrunchResult &r) { first = r; };
     crunch(p, o, monitor, nullptr, &seams);
@@ -302,10 +307,7 @@ void too_many_to_close(void **) {
       Packing p = r.packing;
       std::string log;
       Monitor monitor;
-      monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
-      monitor.log_user = &log;
-      monitor.log_level = JAM_LOG_WARNING;
-      monitor.begin();
+      listen(monitor, log);
       assert_true(polish(p, net, system, 1, &monitor) == PolishEnd::done);
       assert_true((log.find("cannot all close") != std::string::npos) == (net.size() != r.contacts.size()));
       for (const double f : net.force) assert_true(f > 0.0);

@@ -13,8 +13,6 @@ namespace {
 
 // Median gap of the d n nearest pairs below which a start may be jammed already.
 constexpr double already_closed = 1e-11;
-// After a longest step below this (mean diameters) the forces hardly change: the next LP starts from them.
-constexpr double settled = 1e-5;
 
 double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0; }
 
@@ -38,6 +36,7 @@ CrunchResult Chain::run() {
     do {
       while (out_.report.stop_reason == JAM_STOP_NONE) {
         one_lp();
+        if (out_.report.stop_reason == JAM_STOP_NONE && closes()) break;
         if (out_.report.stop_reason == JAM_STOP_NONE && in_valley(out_.report.gain, out_.report.max_step)) follow_path();
       }
     } while (wants_another_lp());
@@ -111,7 +110,7 @@ void Chain::solve() {
   control.threads = o_.threads;
   control.wall_time = o_.wall_time;
   if (o_.lp_solver == JAM_LP_IPM) {
-    if (moved_ <= settled) control.multipliers = &forces_;
+    if (moved_ <= settled && held_ == 0) control.multipliers = &forces_;
     if (early_ > 0.0)  // in a valley the path takes over, and wants slack where the chain wants its vertex
       control.leave = [this](const LpSolution &x) { return in_valley(gain_of(x), largest_step(x, find_network(lp_, x), lp_.dim)); };
     if (ask(JAM_LP_IPM, control)) return;

@@ -10,6 +10,9 @@ namespace jam {
 
 // Step bound of the last LPs, mean diameters.
 constexpr double narrowest = 1e-6;
+// After a longest step below this (mean diameters) the forces hardly change: the next LP starts from them, unless they leant on step
+// bounds, without which they do not balance.
+constexpr double settled = 1e-5;
 
 class Chain {
  public:
@@ -38,8 +41,10 @@ class Chain {
   void path_step(double gap, size_t pairs);
 
   // chain_end.cpp
+  bool closes();
   bool wants_another_lp();
   bool last_digits();
+  void polish_step();
   void finish();
   void finish_failed();
 
@@ -62,6 +67,7 @@ class Chain {
   int64_t held_ = 0;  // displacements that the last LP's bound ended
   int idle_ = 0;
   int paths_ = 0;         // barrier paths followed: another quench than LPs alone
+  bool closed_ = false;   // polish ended the LPs
   bool retried_ = false;  // an LP more because polish refused
   bool kept_ = false;  // the last LP gave an answer that passed the checks
 };

@@ -6,10 +6,23 @@
 
 namespace jam {
 
+// Where an LP gains nothing that counts but still moves, its answer may be at the end all the same: the contacts close at once, and
+// forces that balance and push then bound the gain by nothing, so no further LP needs to say it. True: the crunch is at its end.
+bool Chain::closes() {
+  if (!o_.polish || held_ > 0 || moved_ > settled || out_.report.gain > o_.gain_tolerance || network_.active.empty()) return false;
+  out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
+  if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
+  const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+  closed_ = end == PolishEnd::done;
+  if (closed_) stop(JAM_STOP_CONVERGED, JAM_OK), polish_step();
+  if (end == PolishEnd::cancelled) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+  return out_.report.stop_reason != JAM_STOP_NONE;
+}
+
 // Contacts of the last LP and their last digits. Where polish refuses, an LP that lists fewer pairs that nearly touch decides
 // once more which of them carry force; after that its answer stays.
 bool Chain::wants_another_lp() {
-  if (answer_.y.empty() || network_.stable.empty()) return false;
+  if (closed_ || answer_.y.empty() || network_.stable.empty()) return false;
   out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
   if (out_.report.stop_reason != JAM_STOP_CONVERGED || !o_.polish || last_digits() || retried_) return false;
   if (out_.report.lp_solves >= o_.max_lps || out_.report.stop_reason != JAM_STOP_CONVERGED) return false;
@@ -31,18 +44,20 @@ bool Chain::last_digits() {
     end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
     if (end == PolishEnd::done) out_.contacts = std::move(fewer);
   }
-  if (end == PolishEnd::done) {
-    HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
-    for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
-    const double idle = row[JAM_HISTORY_CONTACTS] - static_cast<double>(out_.contacts.size());
-    row[JAM_HISTORY_CONTACTS] -= idle, row[JAM_HISTORY_EXCESS] -= idle;
-    if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
-  }
+  if (end == PolishEnd::done) polish_step();
   const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"
                     : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
   if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
   if (monitor_.cancelled()) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
   return !why;
+}
+
+void Chain::polish_step() {
+  HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
+  for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
+  const double idle = row[JAM_HISTORY_CONTACTS] - static_cast<double>(out_.contacts.size());
+  row[JAM_HISTORY_CONTACTS] -= idle, row[JAM_HISTORY_EXCESS] -= idle;
+  if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
 }
 
 void Chain::finish() {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "crunch/chain.hpp"
+#include "crunch/cooling.hpp"
 #include "crunch/relinearise.hpp"
 
 namespace jam {
@@ -11,11 +12,11 @@ namespace {
 // An LP that gains more than this strides through dilute space. Steps longer than the second (mean diameters) are a valley; below
 // the third, forces of the last LP are where the path starts.
 constexpr double strides = 3e-3, long_step = 1e-2, same_forces = 5e-3;
-// A step l opens contacts by l^2. Where that is more than so many gains, of steps longer than the second, LPs go round the valley's
-// bend in steps that each win back what the last one opened.
-constexpr double bend = 10.0, short_step = 1e-6;
 // Gaps that the path opens to at least: two digits above where rounding of coordinates blurs the barrier.
 constexpr double least_room = 1e-10;
+// A step l opens contacts by l^2. Where that is more than so many gains, and more than the path would open, LPs go round the valley's
+// bend in steps that each win back what the last one opened.
+constexpr double bend = 10.0;
 constexpr int most_paths = 5;
 
 }  // namespace
@@ -30,7 +31,7 @@ double Chain::first_bound() const {
 // LPs take a dilute start in a few long strides, and finish at once what is all but jammed. Between the two lies a curved
 // valley, where the barrier path needs fewer factorisations.
 bool Chain::in_valley(double gain, double step) const {
-  return o_.method == JAM_CRUNCH_RELINEARISE && paths_ < most_paths && gain <= strides && (step > long_step || (step > short_step && step * step > bend * gain));
+  return o_.method == JAM_CRUNCH_RELINEARISE && paths_ < most_paths && gain <= strides && (step > long_step || step * step > std::max(bend * gain, least_room));
 }
 
 // Down the barrier path to where a few LPs finish. Where the path wanders the chain goes on from the state reached.
@@ -53,10 +54,12 @@ void Chain::follow_path() {
   monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, %d saddles, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
                path.factorisations, path.reheats, packing_fraction(out_.packing));
   bound_ = first_bound();
-  if (path.reached && o_.step_bound == 0.0) bound_ = std::min(1e-3, std::max(10.0 * std::sqrt(path.gap), 100.0 * narrowest));
+  const bool near_end = path.gap * Cooling::shrink <= control.target;
+  if (near_end && o_.step_bound == 0.0) bound_ = std::min(1e-3, std::max(10.0 * std::sqrt(path.gap), 100.0 * narrowest));
   known_ = std::move(path.multipliers);
-  moved_ = 1.0;
-  if (path.reached) last_gain_ = path.gap, moved_ = 0.0;
+  held_ = 0;
+  moved_ = path.reached ? 0.0 : 1.0;
+  if (near_end) last_gain_ = path.gap;
 }
 
 void Chain::path_step(double gap, size_t pairs) {

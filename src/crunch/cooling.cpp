@@ -44,7 +44,7 @@ double Cooling::before(const Step &last) {
 double Cooling::turn(const Step &last) {
   const bool flows = last.gap > hot;
   const bool nearly = last.decrement < all_but * reached * last.rows;
-  const double patience = nearly ? 1.0 : std::max(1.0, last.rows / many);
+  const double patience = nearly || last.last ? 1.0 : std::max(1.0, last.rows / many);
   if (flows ? at_mu_ <= flow : at_mu_ <= stuck * patience && cuts_ < cut * patience) return 1.0;
   at_mu_ = 0;
   if (flows || nearly) return shrink;

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crunch/contact_set.hpp"
+#include "crunch/crossover.hpp"
 #include "crunch/crunch.hpp"
+#include "crunch/gap_rows.hpp"
 
 namespace jam {
 namespace {
@@ -16,28 +19,12 @@ std::vector<double> small_diagonal(const Packing &p, const ContactNetwork &net) 
   return diagonal;
 }
 
-// Residuals in extended precision: in double those of a converged packing are rounding of these sums alone.
-using Wide = long double;
 // A pair that stays wider than this, relative, when all contacts are closed together is none.
 constexpr double closed = 1e-8;
 // Gaps above this are more than what rounding leaves of closed contacts.
 constexpr double rounding = 3e-14;
-
-void refresh(const Packing &p, ContactNetwork &net) {
-  const int d = p.dim;
-  Wide r[JAM_MAX_DIM];
-  for (size_t k = 0; k < net.size(); ++k) {
-    const size_t i = net.pairs.i[k], j = net.pairs.j[k];
-    Wide r2 = 0.0;
-    for (int c = 0; c < d; ++c) {
-      r[c] = (static_cast<Wide>(p.position[i * d + c]) - p.position[j * d + c]) + net.pairs.offset[k * d + c];
-      r2 += r[c] * r[c];
-    }
-    const Wide length = std::sqrt(r2), sigma = 0.5L * (static_cast<Wide>(p.diameter[i]) + p.diameter[j]);
-    for (int c = 0; c < d; ++c) net.vector[k * d + c] = static_cast<double>(r[c] / length);
-    net.gap[k] = static_cast<double>((length - sigma) / sigma);
-  }
-}
+// Vertices tried before a network is given up.
+constexpr int most_vertices = 4;
 
 double largest(const std::vector<double> &x) {
   double m = 0.0;
@@ -54,63 +41,34 @@ double norm(const std::vector<double> &x) {
 // One Gauss-Newton step of all gaps to zero over positions and the common factor of the diameters. On a network with a
 // single state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
 void close_contacts(Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  const int d = p.dim;
-  std::vector<double> rows(net.size() * d), ones(net.size(), 1.0), rhs(p.position.size()), step(p.position.size());
-  double h = 0.0, dg = 0.0;
-  for (size_t k = 0; k < net.size(); ++k) {
-    const double sigma = 0.5 * (p.diameter[net.pairs.i[k]] + p.diameter[net.pairs.j[k]]);
-    for (int c = 0; c < d; ++c) rows[k * d + c] = net.vector[k * d + c] / sigma * diameter_mean(p);
-    h += net.gap[k];
-  }
-  if (!system.factorise(rows.data(), ones.data(), diagonal.data())) return;
-  system.transpose_times(rows.data(), net.gap.data(), rhs.data());
-  for (double &v : rhs) v = -v;
-  system.solve(rhs.data(), h, step.data(), &dg, 2);
-  const double unit = diameter_mean(p);
-  for (size_t k = 0; k < step.size(); ++k) p.position[k] += unit * step[k];
-  for (double &s : p.diameter) s *= 1.0 + dg;
-  wrap_positions(p, net.pairs);
-  refresh(p, net);
+  const std::vector<double> a = relative_rows(p, net);
+  GapRows rows(net.pairs, p.dim, a, diagonal, system);
+  if (!rows.factorise()) return;
+  std::vector<double> wanted(net.gap), got;
+  for (double &h : wanted) h = -h;
+  move(p, net.pairs, rows.towards(wanted, got));
+  measure_contacts(p, net);
 }
 
-// f -= S (S^T S)^-1 S^T f, twice or more: the nearest forces that balance on every sphere.
+// The nearest forces that balance on every sphere, in units of their mean.
 void balance_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  const int d = p.dim;
-  std::vector<double> ones(net.size(), 1.0), x(p.position.size()), correction(net.size());
-  std::vector<Wide> force(net.force.begin(), net.force.end()), unbalanced(p.position.size());
-  if (!system.factorise(net.vector.data(), ones.data(), diagonal.data())) return;
-  for (int round = 0; round < 4; ++round) {
-    std::fill(unbalanced.begin(), unbalanced.end(), 0.0L);
-    for (size_t k = 0; k < net.size(); ++k)
-      for (int c = 0; c < d; ++c) {
-        const Wide f = force[k] * net.vector[k * d + c];
-        unbalanced[static_cast<size_t>(net.pairs.i[k]) * d + c] += f;
-        unbalanced[static_cast<size_t>(net.pairs.j[k]) * d + c] -= f;
-      }
-    std::copy(unbalanced.begin(), unbalanced.end(), x.begin());
-    system.cholesky().solve(x.data());
-    system.rows_times(net.vector.data(), x.data(), correction.data());
-    for (size_t k = 0; k < net.size(); ++k) force[k] -= correction[k];
-  }
-  Wide mean = 0.0;
-  for (Wide f : force) mean += std::fabs(f) / static_cast<Wide>(net.size());  // a sign that is wrong must show
-  for (size_t k = 0; k < net.size(); ++k) net.force[k] = static_cast<double>(force[k] / mean);
-  net.force_scale *= static_cast<double>(mean);
+  GapRows rows(net.pairs, p.dim, net.vector, diagonal, system);
+  if (!rows.factorise()) return;
+  rows.balance(net.force);
+  double mean = 0.0;
+  for (double f : net.force) mean += std::fabs(f) / static_cast<double>(net.size());  // a sign that is wrong must show
+  for (double &f : net.force) f /= mean;
+  net.force_scale *= mean;
 }
 
 bool pushes_only(const ContactNetwork &net) {
   return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
 }
 
-int64_t excess(const ContactNetwork &net, int dim) {
-  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
-  return static_cast<int64_t>(net.size()) - (dim * (stable - 1) + 1);
-}
-
 // More contacts than one state of self-stress needs: the forces are not unique. Those of least norm at the same mean are the
 // projection of equal forces; false, and nothing changed, if one of them pulls (the LP's forces then have to do).
 bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  if (excess(net, p.dim) <= 0) return false;
+  if (excess_contacts(net, p.dim) <= 0) return false;
   ContactNetwork least = net;
   std::fill(least.force.begin(), least.force.end(), 1.0);
   balance_forces(p, least, system, diagonal);
@@ -135,7 +93,7 @@ bool drop(ContactNetwork &net, size_t k, int dim) {
 // pressure. Of the forces f - t g the first to vanish, as t grows, is of the contact that opens when the others close: a pivot of
 // the dual simplex. False where all are closed, and where that contact's spheres have none to spare.
 bool drop_open_contact(ContactNetwork &net, int dim) {
-  if (excess(net, dim) <= 0 || !(largest(net.gap) > rounding)) return false;
+  if (excess_contacts(net, dim) <= 0 || !(largest(net.gap) > rounding)) return false;
   size_t first = net.size();
   for (size_t k = 0; k < net.size(); ++k)
     if (net.gap[k] > 0.0 && (first == net.size() || net.force[k] * net.gap[first] < net.force[first] * net.gap[k])) first = k;
@@ -146,7 +104,7 @@ bool drop_open_contact(ContactNetwork &net, int dim) {
 bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
   const std::vector<double> diagonal = small_diagonal(p, net);
-  const auto open = [&] { return excess(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
+  const auto open = [&] { return excess_contacts(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
   double worst = open();
   for (int round = 0; round < 4 && worst > 1e-16; ++round) {
     if (monitor) monitor->log(JAM_LOG_DEBUG, "polish %d largest gap %.2e", round, largest(net.gap));
@@ -164,29 +122,70 @@ bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int thread
   return !(monitor && monitor->cancelled());
 }
 
+PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor) {
+  do {
+    if (!close_all(p, net, system, threads, monitor)) return PolishEnd::cancelled;
+    if (!(largest(net.gap) < closed)) return PolishEnd::open_contact;
+  } while (drop_open_contact(net, p.dim));
+  const std::vector<double> diagonal = small_diagonal(p, net);
+  if (!least_forces(p, net, system, diagonal)) balance_forces(p, net, system, diagonal);
+  if (monitor && !pushes_only(net))
+    monitor->log(JAM_LOG_DEBUG, "polish: %td of %zu contacts pull, the strongest with %.1e", std::count_if(net.force.begin(), net.force.end(), [](double f) { return !(f > 0.0); }),
+                 net.size(), -*std::min_element(net.force.begin(), net.force.end()));
+  if (!pushes_only(net)) return PolishEnd::negative_force;
+  return closest_pair(p).gap < allowed ? PolishEnd::overlap : PolishEnd::done;
+}
+
+// From closed contacts of which some pull to a vertex. Closing that may make others pull again, where vertices lie so near each
+// other that a step between them changes the weakest forces: what no double can tell apart ends as it is, with its weakest contacts
+// open. False: no vertex, or a new network in net.
+PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor) {
+  PolishEnd end = PolishEnd::negative_force;
+  for (int k = 0; k < most_vertices; ++k) {
+    Vertex vertex;
+    if (!find_vertex(p, net, system, threads, monitor, vertex)) return end;
+    Packing moved = p;
+    ContactNetwork others = vertex.net;
+    move(moved, others.pairs, vertex.step);
+    measure_contacts(moved, others);
+    end = close_and_balance(moved, others, system, threads, allowed, monitor);
+    const bool exact = end == PolishEnd::done, enough = vertex.open < rounding && pushes_only(vertex.net) && closest_pair(p).gap >= allowed;
+    if (monitor) monitor->log(JAM_LOG_DEBUG, "vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(), vertex.open, largest(vertex.step.s), exact ? "closed" : "open");
+    if (end == PolishEnd::cancelled) return end;
+    if (!exact && enough) {
+      net = std::move(vertex.net);
+      system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
+      balance_forces(p, net, system, small_diagonal(p, net));
+      return pushes_only(net) ? PolishEnd::done : PolishEnd::negative_force;
+    }
+    p = std::move(moved), net = std::move(others);
+    if (exact) return end;
+  }
+  return end;
+}
+
 }  // namespace
 
 bool drop_idle_contact(ContactNetwork &net, int dim) {
   constexpr double idle = 1e-5;
-  if (net.size() == 0 || excess(net, dim) <= 0) return false;
+  if (net.size() == 0 || excess_contacts(net, dim) <= 0) return false;
   const size_t k = std::min_element(net.force.begin(), net.force.end()) - net.force.begin();
   return net.force[k] <= idle && drop(net, k, dim);
 }
 
 PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   if (net.size() == 0) return PolishEnd::no_contacts;
+  const double allowed = std::min(-1e-14, closest_pair(p).gap);
   Packing q = p;
   ContactNetwork better = net;
-  do {
-    if (!close_all(q, better, system, threads, monitor)) return PolishEnd::cancelled;
-    if (!(largest(better.gap) < closed)) return PolishEnd::open_contact;
-  } while (drop_open_contact(better, p.dim));
+  PolishEnd end = close_and_balance(q, better, system, threads, allowed, monitor);
+  if (end == PolishEnd::negative_force || end == PolishEnd::overlap) {
+    better = net;  // the LP's forces: where a contact is wrong so are all forces
+    end = at_vertex(q, better, system, threads, allowed, monitor);
+  }
+  if (end != PolishEnd::done) return end;
   if (monitor && largest(better.gap) > rounding)
     monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(), largest(better.gap));
-  const std::vector<double> diagonal = small_diagonal(q, better);
-  if (!least_forces(q, better, system, diagonal)) balance_forces(q, better, system, diagonal);
-  if (!pushes_only(better)) return PolishEnd::negative_force;
-  if (closest_pair(q).gap < std::min(-1e-14, closest_pair(p).gap)) return PolishEnd::overlap;
   p = std::move(q);
   net = std::move(better);
   return PolishEnd::done;

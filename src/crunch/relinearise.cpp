@@ -162,7 +162,10 @@ class Path {
   }
 
   bool newton() {
-    b_.mu *= cooling_.before({decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust});
+    const bool last = gap_ * Cooling::shrink <= control_.target;
+    const double turn = cooling_.before({decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust, last});
+    if (last && turn > 1.0) return false;  // a saddle so near the end: LPs tell which contacts it lacks
+    b_.mu *= turn;
     if (!direct()) return false;
     move(correct());
     return alpha_p_ > 0.0;

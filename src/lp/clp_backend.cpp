@@ -1,4 +1,4 @@
-// The packing LP by Clp's dual simplex: the independent check. The only file that includes Clp.
+// LPs by Clp's dual simplex: the packing LP as the independent check, and small dense ones. The only file that includes Clp.
 #include <ClpEventHandler.hpp>
 #include <ClpSimplex.hpp>
 #include <CoinMessageHandler.hpp>
@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lp/packing_lp.hpp"
+#include "lp/small_lp.hpp"
 
 namespace jam {
 namespace {
@@ -76,6 +77,32 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, c
     out.w[k] = lp.c[k] + activity[k] * scale;
   }
   return out;
+}
+
+std::vector<double> solve_small_lp(const std::vector<double> &cost, const std::vector<double> &rows, const std::vector<double> &rhs) {
+  const int columns = static_cast<int>(cost.size()), count = static_cast<int>(rhs.size());
+  std::vector<int> start(columns + 1), length(columns, count), index(rows.size());
+  std::vector<double> value(rows.size());
+  for (int k = 0; k < columns; ++k) {
+    start[k] = k * count;
+    for (int r = 0; r < count; ++r) index[k * count + r] = r, value[k * count + r] = rows[static_cast<size_t>(r) * columns + k];
+  }
+  start[columns] = columns * count;
+  const std::vector<double> low(columns, 0.0), high(columns, COIN_DBL_MAX);
+  ClpSimplex model;
+  CoinMessageHandler silent;
+  silent.setLogLevel(0);
+  model.passInMessageHandler(&silent);
+  model.setLogLevel(0);
+  model.loadProblem(columns, count, start.data(), index.data(), value.data(), low.data(), high.data(), cost.data(), rhs.data(), rhs.data());
+  model.setPrimalTolerance(1e-10);
+  model.setDualTolerance(1e-10);
+  model.dual();
+  if (model.status() != 0) return {};
+  std::vector<double> x(columns, 0.0);
+  for (int k = 0; k < columns; ++k)
+    if (model.getColumnStatus(k) == ClpSimplex::basic) x[k] = std::max(0.0, model.primalColumnSolution()[k]);
+  return x;
 }
 
 }  // namespace jam

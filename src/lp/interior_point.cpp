@@ -159,6 +159,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   const int before = system_.factorisations;
   double best_merit = std::numeric_limits<double>::infinity();
   int idle = 0;
+  const int patience = control.multipliers ? 3 : 8;  // a cold start is at hand where a warm one stalls
   bool asked = false;
   for (;; ++out.iterations) {
     residuals();
@@ -175,7 +176,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     idle = merit < 0.9 * best_merit ? 0 : idle + 1;
     best_merit = std::min(best_merit, merit);
     if (monitor && monitor->seconds() > control.wall_time) break;
-    if (idle >= 8 || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
+    if (idle >= patience || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
       break;
     }

@@ -189,6 +189,28 @@ void arrives(void **) {
   assert_true(saddles > 0);
 }
 
+// A saddle that one cooling more would leave below the target is not left by warming up: the path ends there, says so, and LPs go on.
+void saddle_near_the_end(void **) {
+  int scenes = 0;
+  for (const int dim : {2, 3})
+    for (int seed = 1; seed <= 6; ++seed) {
+      const Packing p = near_start(64, dim, seed);
+      Packing q = p;
+      const PathRun warmed = follow(q, RelineariseControl());
+      size_t k = 3;
+      while (k < warmed.gaps.size() && warmed.gaps[k] < 3.0 * warmed.gaps[k - 1]) ++k;
+      if (warmed.end.reheats == 0 || k == warmed.gaps.size()) continue;
+      q = p;
+      RelineariseControl control;
+      control.target = 0.25 * warmed.gaps[k - 1];
+      const PathRun ends = follow(q, control);
+      assert_true(!ends.end.reached && ends.end.reheats == 0 && ends.end.gap < 1.25 * warmed.gaps[k - 1] && closest_pair(q).gap > 0.0);
+      assert_true(ends.gaps.size() < warmed.gaps.size() && std::equal(ends.gaps.begin(), ends.gaps.end(), warmed.gaps.begin()));  // the same until there
+      ++scenes;
+    }
+  assert_true(scenes > 0);
+}
+
 // Where a factorisation is worth many triangular solves, as it is for tens of thousands of spheres, short steps do without.
 // With few solves allowed conjugate gradients often end too early: then the step takes a factorisation after all.
 void old_factor_will_do(void **) {
@@ -229,7 +251,7 @@ void creeping_disks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives),
+  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives), cmocka_unit_test(saddle_near_the_end),
                               cmocka_unit_test(old_factor_will_do),
                               cmocka_unit_test(creeping_disks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -53,10 +53,12 @@ void same_saddle(void **) {
 void many_rows(void **) {
   const double rows_of_many = 3e5;
   const auto course = [&](double decrement) { return [=](int) { return Cooling::Step{decrement * rows_of_many, rows_of_many, 1e-9, 1e-3, 0.1, 0.1}; }; };
-  Cooling waits, turns, centred;
+  Cooling waits, turns, centred, last;
   assert_true(first_turn(waits, 40, course(1.0)) == 1.0);
   assert_true(first_turn(turns, 60, course(1.0)) > 1.0);
   assert_true(first_turn(centred, 20, course(0.015)) < 1.0);
+  // Where one cooling more would be the last it is LPs' turn sooner.
+  assert_true(first_turn(last, 20, [=](int) { return Cooling::Step{rows_of_many, rows_of_many, 1e-12, 1e-3, 0.1, 0.1, true}; }) > 1.0);
 }
 
 // Short steps are none where the decrement falls: a little with each of them, or much now and then.

@@ -1,0 +1,166 @@
+#include "crunch/crossover.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "crunch/contact_set.hpp"
+#include "crunch/gap_rows.hpp"
+#include "lp/small_lp.hpp"
+
+namespace jam {
+namespace {
+
+// Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided; of more than `most` the interior point
+// was not at its end.
+constexpr double weak = 1e-3, narrow = 2e-6;
+constexpr size_t most = 600, choice = 16;
+constexpr int most_rounds = 30;
+
+// Translations are fixed by one sphere, rattlers by themselves: neither costs accuracy.
+std::vector<double> pins(const ContactNetwork &net, int dim) {
+  std::vector<double> diagonal(net.coordination.size() * dim, 0.0);
+  bool pinned = false;
+  for (size_t i = 0; i < net.coordination.size(); ++i) {
+    if (net.coordination[i] > 0 && pinned) continue;
+    pinned = pinned || net.coordination[i] > 0;
+    std::fill_n(&diagonal[i * dim], dim, 1.0);
+  }
+  return diagonal;
+}
+
+// Undecided rows u change by o >= -h; the others stay. Both are rows of one motion where the change is in the range of all rows, of
+// projector P: (1 - P) (0, o) = 0. On u alone that is (1 - G) o = 0 with G = P_uu, of rank `spare`: as many as there are states of
+// self-stress without pressure. The gain is gamma . o.
+class SmallLp {
+ public:
+  SmallLp(const Packing &p, const ContactNetwork &all, NewtonSystem &system, Monitor *monitor)
+      : all_(all), dim_(p.dim), monitor_(monitor), a_(relative_rows(p, all)), pins_(pins(all, p.dim)), rows_(all.pairs, p.dim, a_, pins_, system),
+        spare_(static_cast<size_t>(excess_contacts(all, p.dim))), sigma_(all.size()), undecided_(all.size(), 0), wanted_(all.size()) {
+    const double unit = diameter_mean(p);
+    for (size_t k = 0; k < all.size(); ++k) sigma_[k] = 0.5 * (p.diameter[all.pairs.i[k]] + p.diameter[all.pairs.j[k]]) / unit;
+  }
+
+  bool solve(Vertex &out) {
+    if (!rows_.factorise()) return false;
+    balanced_.resize(all_.size());
+    for (size_t k = 0; k < all_.size(); ++k) balanced_[k] = all_.force[k] * sigma_[k];
+    rows_.balance(balanced_);
+    y_ = balanced_;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (round > 0 && std::none_of(y_.begin(), y_.end(), [](double y) { return y < 0.0; })) return finish(out);
+      if (!admit() || !vertex()) return false;
+      forces();
+    }
+    return false;
+  }
+
+ private:
+  // All weak ones, at least so many that there is a choice, and those that pull in the last answer.
+  bool admit() {
+    if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); })) return false;  // the network is no frame
+    std::vector<double> sorted = y_;
+    const auto least = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(spare_ + choice, sorted.size()) - 1);
+    std::nth_element(sorted.begin(), least, sorted.end());
+    const double limit = std::max(weak, *least);
+    for (size_t k = 0; k < y_.size(); ++k) {
+      if (undecided_[k] || !(y_[k] <= limit)) continue;
+      if (u_.size() == most) return false;
+      undecided_[k] = 1;
+      u_.push_back(k);
+      std::fill(wanted_.begin(), wanted_.end(), 0.0);
+      wanted_[k] = 1.0;
+      gamma_.push_back(rows_.towards(wanted_, got_).g);
+      if (!std::isfinite(gamma_.back())) return false;
+      const Eigen::Index n = static_cast<Eigen::Index>(u_.size());
+      rest_.conservativeResize(n, n);
+      for (Eigen::Index q = 0; q < n; ++q) rest_(q, n - 1) = rest_(n - 1, q) = (q == n - 1) - got_[u_[q]];
+    }
+    return spare_ <= u_.size();
+  }
+
+  // In x = (o + h) / narrow >= 0 and the eigenvectors of 1 - G that are not of eigenvalue 0.
+  bool vertex() {
+    const size_t n = u_.size();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rest_);
+    const Eigen::MatrixXd v = eigen.eigenvectors().rightCols(spare_);
+    Eigen::VectorXd h(n);
+    std::vector<double> cost(n), rows(spare_ * n);
+    const double largest = std::abs(*std::max_element(gamma_.begin(), gamma_.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    for (size_t q = 0; q < n; ++q) h[q] = all_.gap[u_[q]] / narrow, cost[q] = -gamma_[q] / largest;
+    for (size_t r = 0; r < spare_; ++r)
+      for (size_t q = 0; q < n; ++q) rows[r * n + q] = v(q, r);
+    const Eigen::VectorXd rhs = v.transpose() * h;
+    x_ = solve_small_lp(cost, rows, std::vector<double>(rhs.data(), rhs.data() + rhs.size()));
+    if (monitor_)
+      monitor_->log(JAM_LOG_DEBUG, "crossover: %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", n, spare_, n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0,
+                    spare_ > 0 ? eigen.eigenvalues()[n - spare_] : 0.0, x_.empty() ? "no vertex" : "vertex");
+    return !x_.empty();
+  }
+
+  // The state of self-stress with nothing on the open ones: balanced_ plus states without pressure, (1 - P) of forces c on the open ones.
+  void forces() {
+    std::vector<size_t> open;
+    for (size_t q = 0; q < u_.size(); ++q)
+      if (x_[q] > 0.0) open.push_back(q);
+    const Eigen::Index n = static_cast<Eigen::Index>(open.size());
+    Eigen::MatrixXd m(n, n);
+    Eigen::VectorXd b(n);
+    for (Eigen::Index r = 0; r < n; ++r) {
+      b[r] = -balanced_[u_[open[r]]];
+      for (Eigen::Index q = 0; q < n; ++q) m(r, q) = rest_(open[r], open[q]);
+    }
+    const Eigen::VectorXd c = m.ldlt().solve(b);
+    std::fill(wanted_.begin(), wanted_.end(), 0.0);
+    for (Eigen::Index q = 0; q < n; ++q) wanted_[u_[open[q]]] = c[q];
+    rows_.towards(wanted_, got_);
+    for (size_t k = 0; k < y_.size(); ++k) y_[k] = balanced_[k] + wanted_[k] - got_[k];
+    for (const size_t k : u_) y_[k] = std::max(y_[k], 0.0);  // the small LP's own are exact zeros or more, but for rounding
+  }
+
+  bool finish(Vertex &out) {
+    std::vector<char> on(all_.size(), 1);
+    std::fill(wanted_.begin(), wanted_.end(), 0.0);
+    for (size_t q = 0; q < u_.size(); ++q) {
+      wanted_[u_[q]] = x_[q] * narrow - all_.gap[u_[q]];
+      on[u_[q]] = !(x_[q] > 0.0);
+    }
+    out.step = rows_.towards(wanted_, got_);
+    double sum = 0.0, mean = 0.0;
+    out.open = 0.0;
+    for (size_t k = 0; k < y_.size(); ++k) sum += y_[k], out.open += y_[k] * all_.gap[k];
+    out.open /= sum;
+    out.net = all_;
+    for (size_t k = 0; k < y_.size(); ++k) out.net.force[k] = y_[k] / sigma_[k];
+    drop_loose(all_.pairs, on, all_.coordination.size(), dim_);
+    out.net = subset(out.net, on, dim_);
+    for (const double f : out.net.force) mean += f / static_cast<double>(out.net.size());
+    for (double &f : out.net.force) f /= mean;
+    out.net.force_scale *= mean;
+    return true;
+  }
+
+  const ContactNetwork &all_;
+  const int dim_;
+  Monitor *monitor_;
+  const std::vector<double> a_, pins_;
+  GapRows rows_;
+  const size_t spare_;
+  std::vector<double> sigma_;  // mean of the two diameters, in mean diameters
+  std::vector<char> undecided_;
+  std::vector<size_t> u_;      // the undecided, in the order of their coming
+  std::vector<double> gamma_, x_, y_, balanced_, wanted_, got_;
+  Eigen::MatrixXd rest_;       // 1 - G
+};
+
+}  // namespace
+
+bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor, Vertex &out) {
+  const ContactNetwork all = with_near_pairs(p, net, narrow);
+  const int64_t spare = excess_contacts(all, p.dim);
+  if (all.size() == 0 || spare <= 0 || spare > static_cast<int64_t>(most)) return false;
+  system.set_graph(p.dim, static_cast<int32_t>(p.n()), all.pairs, threads);
+  return SmallLp(p, all, system, monitor).solve(out);
+}
+
+}  // namespace jam

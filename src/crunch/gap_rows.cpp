@@ -1,0 +1,63 @@
+#include "crunch/gap_rows.hpp"
+
+#include <algorithm>
+
+namespace jam {
+
+void move(Packing &p, PairList &pairs, const Motion &motion, double part) {
+  const double unit = part * diameter_mean(p);
+  for (size_t k = 0; k < motion.s.size(); ++k) p.position[k] += unit * motion.s[k];
+  for (double &s : p.diameter) s *= 1.0 + part * motion.g;
+  wrap_positions(p, pairs);
+}
+
+std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net) {
+  const double unit = diameter_mean(p);
+  std::vector<double> a(net.vector);
+  for (size_t k = 0; k < net.size(); ++k) {
+    const double scale = unit / (0.5 * (p.diameter[net.pairs.i[k]] + p.diameter[net.pairs.j[k]]));
+    for (int c = 0; c < p.dim; ++c) a[k * p.dim + c] *= scale;
+  }
+  return a;
+}
+
+GapRows::GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal, NewtonSystem &system)
+    : system_(system), pairs_(pairs), d_(dim), a_(a), diagonal_(diagonal), ones_(pairs.size(), 1.0), row_(pairs.size()), rhs_(diagonal.size()) {}
+
+Motion GapRows::towards(const std::vector<double> &wanted, std::vector<double> &rows) {
+  Motion sum, step;
+  sum.s.assign(rhs_.size(), 0.0), step.s.resize(rhs_.size());
+  rows.assign(wanted.size(), 0.0);
+  for (int round = 0; round < 2; ++round) {
+    double h = 0.0;
+    for (size_t k = 0; k < row_.size(); ++k) row_[k] = wanted[k] - rows[k], h -= row_[k];
+    system_.transpose_times(a_.data(), row_.data(), rhs_.data());
+    system_.solve(rhs_.data(), h, step.s.data(), &step.g, 0);
+    for (size_t k = 0; k < sum.s.size(); ++k) sum.s[k] += step.s[k];
+    sum.g += step.g;
+    system_.rows_times(a_.data(), sum.s.data(), rows.data());
+    for (double &v : rows) v -= sum.g;
+  }
+  return sum;
+}
+
+void GapRows::balance(std::vector<double> &y) {
+  using Wide = long double;  // in double the residuals of a converged packing are rounding of these sums alone
+  std::vector<Wide> z(y.begin(), y.end()), unbalanced(rhs_.size());
+  for (int round = 0; round < 4; ++round) {
+    std::fill(unbalanced.begin(), unbalanced.end(), 0.0L);
+    for (size_t k = 0; k < z.size(); ++k)
+      for (int c = 0; c < d_; ++c) {
+        const Wide v = z[k] * a_[k * d_ + c];
+        unbalanced[static_cast<size_t>(pairs_.i[k]) * d_ + c] += v;
+        unbalanced[static_cast<size_t>(pairs_.j[k]) * d_ + c] -= v;
+      }
+    std::copy(unbalanced.begin(), unbalanced.end(), rhs_.begin());
+    system_.cholesky().solve(rhs_.data());
+    system_.rows_times(a_.data(), rhs_.data(), row_.data());
+    for (size_t k = 0; k < z.size(); ++k) z[k] -= row_[k];
+  }
+  std::copy(z.begin(), z.end(), y.begin());
+}
+
+}  // namespace jam

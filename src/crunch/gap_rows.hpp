@@ -1,0 +1,44 @@
+// Linear algebra on a contact network: which motion changes its gaps in a given way, which forces on it balance. One row a_k a contact;
+// of a motion it gives a_k . (s_i - s_j) - g.
+#pragma once
+#include <vector>
+
+#include "core/contacts.hpp"
+#include "core/packing.hpp"
+#include "lp/newton_system.hpp"
+
+namespace jam {
+
+// Change of positions (in mean diameters) and of the common factor of the diameters.
+struct Motion {
+  std::vector<double> s;
+  double g = 0.0;
+};
+
+// Moves by a part of it; the offsets of pairs follow.
+void move(Packing &p, PairList &pairs, const Motion &motion, double part = 1.0);
+
+// Rows of the relative gaps h = |r| / sigma - 1.
+std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net);
+
+class GapRows {
+ public:
+  // system: holds the graph of these pairs. diagonal: fixes what no row does (translations, rattlers). pairs, a and diagonal are kept by
+  // reference.
+  GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal, NewtonSystem &system);
+  bool factorise() { return system_.factorise(a_.data(), ones_.data(), diagonal_.data()); }
+  // The motion whose rows come nearest to `wanted`, in least squares; `rows` is what they are. Refined in the rows, where a motion of
+  // 1e-6 shows digits down to 1e-22.
+  Motion towards(const std::vector<double> &wanted, std::vector<double> &rows);
+  // y - A (A^T A)^-1 A^T y, repeated, with sums in extended precision: the nearest forces that balance on every sphere.
+  void balance(std::vector<double> &y);
+
+ private:
+  NewtonSystem &system_;
+  const PairList &pairs_;
+  const int d_;
+  const std::vector<double> &a_, &diagonal_;
+  std::vector<double> ones_, row_, rhs_;
+};
+
+}  // namespace jam

@@ -1,0 +1,30 @@
+// Small crunches for the tests of their parts.
+#pragma once
+#include <string>
+
+#include "core/create.hpp"
+#include "crunch/crunch.hpp"
+
+namespace jam {
+
+// Warnings of what runs under this monitor, one after the other in `log`.
+inline void listen(Monitor &monitor, std::string &log) {
+  monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
+  monitor.log_user = &log;
+  monitor.log_level = JAM_LOG_WARNING;
+  monitor.begin();
+}
+
+inline Packing start(int n, int dim, double phi, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
+  return make_packing(o, nullptr, 0, nullptr, 0);
+}
+
+inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchSeams *seams = nullptr, History *history = nullptr) {
+  Monitor monitor;
+  monitor.begin();
+  return crunch(p, o, monitor, history, seams);
+}
+
+}  // namespace jam

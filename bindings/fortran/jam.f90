@@ -363,7 +363,7 @@ module jam
     integer(c_int32_t) :: lp_solver = 0
     ! jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
     integer(c_int32_t) :: method = 0
-    ! 1 (default): close contacts and balance forces to rounding at the end, which is there as soon as an LP below gain_tolerance leaves contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+    ! 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     integer(c_int32_t) :: polish = 0
     ! >= 1, default 1000 (max_iters)
     integer(c_int32_t) :: max_lps = 0

@@ -473,8 +473,8 @@ typedef struct jam_crunch_options {
   uint32_t struct_size;    /* sizeof(jam_crunch_options) */
   int32_t lp_solver;       /* jam_lp_solver, default IPM (optimizer) */
   int32_t method;          /* jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does */
-  int32_t polish;          /* 1 (default): close contacts and balance forces to rounding at the end, which is there as soon as an LP
-                            * below gain_tolerance leaves contacts that can; 0: leave the LP's answer
+  int32_t polish;          /* 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs
+                            * below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer
                             * (tol_mechanical_equilibrium: the extra LP past it) */
   int32_t max_lps;         /* >= 1, default 1000 (max_iters) */
   int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 (threads) */

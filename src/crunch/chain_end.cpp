@@ -6,10 +6,12 @@
 
 namespace jam {
 
-// Where an LP gains nothing that counts but still moves, its answer may be at the end all the same: the contacts close at once, and
-// forces that balance and push then bound the gain by nothing, so no further LP needs to say it. True: the crunch is at its end.
+// Where LPs gain nothing that counts but still move spheres, the answer may be at the end all the same: the contacts close at once, and
+// forces that balance and push then bound the gain by nothing, which is what an LP that moves nothing would say. True: the crunch is at
+// its end.
 bool Chain::closes() {
-  if (!o_.polish || held_ > 0 || moved_ > settled || out_.report.gain > o_.gain_tolerance || network_.active.empty()) return false;
+  constexpr int patience = 2;
+  if (!o_.polish || idle_ < patience || out_.report.gain > o_.gain_tolerance || held_ > 0 || moved_ > settled || network_.active.empty()) return false;
   out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
   if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
   const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);

@@ -14,7 +14,7 @@ namespace {
 // Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided; of more than `most` the interior point
 // was not at its end.
 constexpr double weak = 1e-3, narrow = 2e-6;
-constexpr size_t most = 600, choice = 16;
+constexpr size_t most = 800, choice = 16, batch = 64;
 constexpr int most_rounds = 30;
 
 // Translations are fixed by one sphere, rattlers by themselves: neither costs accuracy.
@@ -56,27 +56,35 @@ class SmallLp {
   }
 
  private:
-  // All weak ones, at least so many that there is a choice, and those that pull in the last answer.
+  // At first all weak ones, at least so many that there is a choice; later the strongest that pull in the last answer: with them
+  // settled most others push again.
   bool admit() {
     if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); })) return false;  // the network is no frame
-    std::vector<double> sorted = y_;
-    const auto least = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(spare_ + choice, sorted.size()) - 1);
-    std::nth_element(sorted.begin(), least, sorted.end());
-    const double limit = std::max(weak, *least);
-    for (size_t k = 0; k < y_.size(); ++k) {
-      if (undecided_[k] || !(y_[k] <= limit)) continue;
-      if (u_.size() == most) return false;
-      undecided_[k] = 1;
-      u_.push_back(k);
-      std::fill(wanted_.begin(), wanted_.end(), 0.0);
-      wanted_[k] = 1.0;
-      gamma_.push_back(rows_.towards(wanted_, got_).g);
-      if (!std::isfinite(gamma_.back())) return false;
-      const Eigen::Index n = static_cast<Eigen::Index>(u_.size());
-      rest_.conservativeResize(n, n);
-      for (Eigen::Index q = 0; q < n; ++q) rest_(q, n - 1) = rest_(n - 1, q) = (q == n - 1) - got_[u_[q]];
-    }
+    const bool first = u_.empty();
+    std::vector<double> sorted;
+    for (size_t k = 0; k < y_.size(); ++k)
+      if (!undecided_[k] && (first || y_[k] < 0.0)) sorted.push_back(y_[k]);
+    if (sorted.empty()) return spare_ <= u_.size();
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first ? spare_ + choice : batch, sorted.size()) - 1);
+    std::nth_element(sorted.begin(), last, sorted.end());
+    const double limit = first ? std::max(weak, *last) : *last;
+    for (size_t k = 0; k < y_.size(); ++k)
+      if (!undecided_[k] && y_[k] <= limit && !take(k)) return false;
     return spare_ <= u_.size();
+  }
+
+  // Its column: what opening it alone by one does to the rows that are undecided, and to the diameters.
+  bool take(size_t k) {
+    if (u_.size() == most) return false;
+    undecided_[k] = 1;
+    u_.push_back(k);
+    std::fill(wanted_.begin(), wanted_.end(), 0.0);
+    wanted_[k] = 1.0;
+    gamma_.push_back(rows_.towards(wanted_, got_).g);
+    const Eigen::Index n = static_cast<Eigen::Index>(u_.size());
+    rest_.conservativeResize(n, n);
+    for (Eigen::Index q = 0; q < n; ++q) rest_(q, n - 1) = rest_(n - 1, q) = (q == n - 1) - got_[u_[q]];
+    return std::isfinite(gamma_.back());
   }
 
   // In x = (o + h) / narrow >= 0 and the eigenvectors of 1 - G that are not of eigenvalue 0.
@@ -93,7 +101,7 @@ class SmallLp {
     const Eigen::VectorXd rhs = v.transpose() * h;
     x_ = solve_small_lp(cost, rows, std::vector<double>(rhs.data(), rhs.data() + rhs.size()));
     if (monitor_)
-      monitor_->log(JAM_LOG_DEBUG, "crossover: %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", n, spare_, n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0,
+      monitor_->log(JAM_LOG_DEBUG, "crossover: %td pull, %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", std::count_if(y_.begin(), y_.end(), [](double y) { return y < 0.0; }), n, spare_, n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0,
                     spare_ > 0 ? eigen.eigenvalues()[n - spare_] : 0.0, x_.empty() ? "no vertex" : "vertex");
     return !x_.empty();
   }

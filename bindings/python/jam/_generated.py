@@ -504,7 +504,7 @@ OPTIONS = {
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM (optimizer)'),
         "method": ("CrunchMethod", 'jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does'),
-        "polish": ("int", "1 (default): close contacts and balance forces to rounding at the end, which is there as soon as an LP below gain_tolerance leaves contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
+        "polish": ("int", "1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
         "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)'),

@@ -81,7 +81,7 @@ class Methods:
         Options:
         lp_solver: jam_lp_solver, default IPM (optimizer)
         method: jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
-        polish: 1 (default): close contacts and balance forces to rounding at the end, which is there as soon as an LP below gain_tolerance leaves contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+        polish: 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
         max_lps: >= 1, default 1000 (max_iters)
         threads: 1 or 2, default 1; bits are reproducible on 1 (threads)
         gain_tolerance: on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)

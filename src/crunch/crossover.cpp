@@ -11,8 +11,8 @@
 namespace jam {
 namespace {
 
-// Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided; of more than `most` the interior point
-// was not at its end.
+// Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided, and `choice` more than must be open; `batch` of those
+// that pull join at a time; of more than `most` the interior point was not at its end.
 constexpr double weak = 1e-3, narrow = 2e-6;
 constexpr size_t most = 800, choice = 16, batch = 64;
 constexpr int most_rounds = 30;
@@ -75,7 +75,7 @@ class SmallLp {
 
   // Its column: what opening it alone by one does to the rows that are undecided, and to the diameters.
   bool take(size_t k) {
-    if (u_.size() == most) return false;
+    if (u_.size() == most || (monitor_ && monitor_->cancelled())) return false;
     undecided_[k] = 1;
     u_.push_back(k);
     std::fill(wanted_.begin(), wanted_.end(), 0.0);
@@ -100,9 +100,12 @@ class SmallLp {
       for (size_t q = 0; q < n; ++q) rows[r * n + q] = v(q, r);
     const Eigen::VectorXd rhs = v.transpose() * h;
     x_ = solve_small_lp(cost, rows, std::vector<double>(rhs.data(), rhs.data() + rhs.size()));
-    if (monitor_)
-      monitor_->log(JAM_LOG_DEBUG, "crossover: %td pull, %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", std::count_if(y_.begin(), y_.end(), [](double y) { return y < 0.0; }), n, spare_, n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0,
-                    spare_ > 0 ? eigen.eigenvalues()[n - spare_] : 0.0, x_.empty() ? "no vertex" : "vertex");
+    if (monitor_) {
+      const auto pull = std::count_if(y_.begin(), y_.end(), [](double y) { return y < 0.0; });
+      const double zero = n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0, least = eigen.eigenvalues()[n - spare_];
+      monitor_->log(JAM_LOG_DEBUG, "crossover: %td pull, %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", pull, n, spare_, zero, least,
+                    x_.empty() ? "no vertex" : "vertex");
+    }
     return !x_.empty();
   }
 
@@ -126,6 +129,7 @@ class SmallLp {
     for (const size_t k : u_) y_[k] = std::max(y_[k], 0.0);  // the small LP's own are exact zeros or more, but for rounding
   }
 
+  // What of it stays: rows at zero, of spheres that they hold.
   bool finish(Vertex &out) {
     std::vector<char> on(all_.size(), 1);
     std::fill(wanted_.begin(), wanted_.end(), 0.0);

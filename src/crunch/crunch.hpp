@@ -69,9 +69,9 @@ double largest_step(const LpSolution &answer, const Network &network, int dim);
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer, const Network &network);
 
 // polish.cpp: closes the contacts by Newton steps on (positions, one common diameter factor) and projects the forces on
-// the null space of S^T. Of more contacts than can close together it leaves out those that open when the others close. Changes
-// nothing unless done: refuses when a contact does not close, a force turns negative or
-// another pair would overlap. system is used anew: it need not hold the contacts' graph.
+// the null space of S^T. Of more contacts than can close together it leaves out those that open when the others close; where a
+// force turns negative or another pair would overlap it looks for the vertex (crossover.hpp). Changes nothing unless done: refuses
+// when a contact does not close, and when no vertex is found. system is used anew: it need not hold the contacts' graph.
 enum class PolishEnd { done, no_contacts, cancelled, open_contact, negative_force, overlap };
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
 

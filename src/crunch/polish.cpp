@@ -138,7 +138,7 @@ PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &syste
 
 // From closed contacts of which some pull to a vertex. Closing that may make others pull again, where vertices lie so near each
 // other that a step between them changes the weakest forces: what no double can tell apart ends as it is, with its weakest contacts
-// open. False: no vertex, or a new network in net.
+// open, if their weighted gap is below rounding.
 PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor) {
   PolishEnd end = PolishEnd::negative_force;
   for (int k = 0; k < most_vertices; ++k) {

@@ -4,6 +4,7 @@
 #include <CoinMessageHandler.hpp>
 #include <CoinPackedMatrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lp/packing_lp.hpp"
@@ -66,16 +67,22 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, c
   model.dual();
   out.solved = model.status() == 0;
   out.iterations = model.numberIterations();
-  const double *x = model.primalColumnSolution(), *dual = model.dualRowSolution(), *activity = model.primalRowSolution();
+  const double *x = model.primalColumnSolution(), *dual = model.dualRowSolution();
   out.s.assign(x, x + columns - 1);
   out.g = x[columns - 1] * scale;
-  for (double &s : out.s) s *= scale;
+  for (double &s : out.s) s = std::min(std::max(s * scale, -lp.bound), lp.bound);
   out.y.resize(rows);
   out.w.resize(rows);
   for (int k = 0; k < rows; ++k) {
     out.y[k] = std::max(dual[k], 0.0);
-    out.w[k] = lp.c[k] + activity[k] * scale;
+    const size_t i = static_cast<size_t>(lp.pairs->i[k]) * d, j = static_cast<size_t>(lp.pairs->j[k]) * d;
+    out.w[k] = lp.c[k] - out.g;
+    for (int c = 0; c < d; ++c) out.w[k] += lp.a[static_cast<size_t>(k) * d + c] * (out.s[i + c] - out.s[j + c]);
   }
+  // Some rows may miss the tolerance: all hold for a g less by as much.
+  const double missed = out.w.empty() ? 0.0 : -std::min(0.0, *std::min_element(out.w.begin(), out.w.end()));
+  out.g -= missed;
+  for (double &w : out.w) w += missed;
   return out;
 }
 

@@ -18,6 +18,8 @@ constexpr double least_room = 1e-10;
 // bend in steps that each win back what the last one opened.
 constexpr double bend = 10.0;
 constexpr int most_paths = 5;
+// Of so many spheres a saddle at the end takes longer to leave than the LPs that tell which contacts it lacks; of 16384 it does not.
+constexpr size_t very_many = 32768;
 
 }  // namespace
 
@@ -45,6 +47,7 @@ void Chain::follow_path() {
   if (holds) control.start = &known_;
   control.room = std::max({holds ? 0.0 : 0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step, least_room});
   control.threads = o_.threads;
+  control.saddle_ends = out_.packing.n() >= very_many;
   control.wall_time = o_.wall_time;
   control.on_step = [this](double gap, size_t pairs) { path_step(gap, pairs); };
   RelineariseResult path = relinearise(out_.packing, control, system_, monitor_);

@@ -162,7 +162,7 @@ class Path {
   }
 
   bool newton() {
-    const bool last = gap_ * Cooling::shrink <= control_.target;
+    const bool last = control_.saddle_ends && gap_ * Cooling::shrink <= control_.target;
     const double turn = cooling_.before({decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust, last});
     if (last && turn > 1.0) return false;  // a saddle so near the end: LPs tell which contacts it lacks
     b_.mu *= turn;

@@ -202,7 +202,7 @@ void saddle_near_the_end(void **) {
       if (warmed.end.reheats == 0 || k == warmed.gaps.size()) continue;
       q = p;
       RelineariseControl control;
-      control.target = 0.25 * warmed.gaps[k - 1];
+      control.target = 0.25 * warmed.gaps[k - 1], control.saddle_ends = true;
       const PathRun ends = follow(q, control);
       assert_true(!ends.end.reached && ends.end.reheats == 0 && ends.end.gap < 1.25 * warmed.gaps[k - 1] && closest_pair(q).gap > 0.0);
       assert_true(ends.gaps.size() < warmed.gaps.size() && std::equal(ends.gaps.begin(), ends.gaps.end(), warmed.gaps.begin()));  // the same until there

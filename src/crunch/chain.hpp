@@ -44,6 +44,7 @@ class Chain {
   bool closes();
   bool wants_another_lp();
   bool last_digits();
+  PolishEnd polished();
   void polish_step();
   void finish();
   void finish_failed();

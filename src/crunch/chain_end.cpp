@@ -13,10 +13,9 @@ bool Chain::closes() {
   constexpr int patience = 2;
   if (!o_.polish || idle_ < patience || out_.report.gain > o_.gain_tolerance || held_ > 0 || moved_ > settled || network_.active.empty()) return false;
   out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
-  if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
-  const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+  const PolishEnd end = polished();
   closed_ = end == PolishEnd::done;
-  if (closed_) stop(JAM_STOP_CONVERGED, JAM_OK), polish_step();
+  if (closed_) stop(JAM_STOP_CONVERGED, JAM_OK);
   if (end == PolishEnd::cancelled) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
   return out_.report.stop_reason != JAM_STOP_NONE;
 }
@@ -38,20 +37,26 @@ bool Chain::wants_another_lp() {
 
 // False when polish refused.
 bool Chain::last_digits() {
-  if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
   if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
-  PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+  PolishEnd end = polished();
   ContactNetwork fewer = out_.contacts;
   while (end != PolishEnd::done && end != PolishEnd::cancelled && drop_idle_contact(fewer, lp_.dim)) {
     end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
-    if (end == PolishEnd::done) out_.contacts = std::move(fewer);
+    if (end == PolishEnd::done) out_.contacts = std::move(fewer), polish_step();
   }
-  if (end == PolishEnd::done) polish_step();
   const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"
                     : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
   if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
   if (monitor_.cancelled()) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
   return !why;
+}
+
+// The contacts at hand, and what that changed in the history.
+PolishEnd Chain::polished() {
+  if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
+  const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
+  if (end == PolishEnd::done) polish_step();
+  return end;
 }
 
 void Chain::polish_step() {

@@ -236,7 +236,7 @@ void wrong_contact(void **) {
       assert_true(find_vertex(p, wrong, system, 1, nullptr, vertex) && vertex.net.size() == net.size());
       for (size_t c = 0; c < net.size(); ++c) assert_true(std::fabs(vertex.net.force[c] - net.force[c]) < 1e-9);
       const PolishEnd end = polish(q, wrong, system, 1);
-      if (end != PolishEnd::done) continue;  // the exchange lets others overlap, or its network is no frame
+      assert_true(end == PolishEnd::done);
       assert_true(std::fabs(q.diameter[0] / p.diameter[0] - 1.0) < 1e-13 && closest_pair(q).gap > -1e-14);
       assert_memory_equal(wrong.pairs.i.data(), net.pairs.i.data(), net.size() * sizeof(int32_t));
       assert_memory_equal(wrong.pairs.j.data(), net.pairs.j.data(), net.size() * sizeof(int32_t));
@@ -244,8 +244,7 @@ void wrong_contact(void **) {
       ++back;
     }
   }
-  print_message("%d neighbours led back\n", back);
-  assert_true(back >= 50);
+  assert_true(back >= 200);  // of about 110 contacts in each of the scenes
 }
 
 // The vertex of a network that is right is the network: no step, the same forces, nothing open. Where no pair but the contacts is near

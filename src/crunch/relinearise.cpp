@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "crunch/barrier.hpp"
+#include "crunch/blocking_rows.hpp"
 #include "crunch/cooling.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/path_matrix.hpp"
@@ -28,6 +29,10 @@ constexpr double least_reach = 0.15;
 // into this band costs a few percent of a factorisation.
 constexpr int most_correctors = 5;
 constexpr double band = 10.0, farther = 0.3;
+// A step shorter than this part of Newton's, as the last one was, has a few rows in its way (`blocking_rows`): so many more
+// triangular solves push them aside, until so many in a row do not make it better.
+constexpr double cut = 0.3;
+constexpr int most_pushes = 12, most_worse = 3;
 
 class Path {
  public:
@@ -188,6 +193,25 @@ class Path {
       best = other;
       std::swap(main_, trial_);
     }
+    return best.alpha < cut && alpha_p_ < cut ? push(best) : best.alpha;
+  }
+
+  // Where this step and the last are short a few rows block, others each time. Returns the length of the best step.
+  double push(Barrier::Best best) {
+    BarrierStep &x = pushed_;
+    x = main_;
+    b_.search(x, trust);
+    blocking_.begin(b_, matrix_.weight(), x);
+    for (int k = 0, worse = 0; k < most_pushes && worse < most_worse && best.alpha < 0.95; ++k, ++correctors_) {
+      if (!blocking_.push(b_, x, std::min(1.0, best.alpha + farther), target_)) break;
+      if (matrix_.following()) trial_.s = x.s;
+      if (!solve(trial_)) break;
+      blocking_.learn(x, trial_);
+      std::swap(x, trial_);
+      const Barrier::Best other = b_.search(x, trust);
+      ++worse;
+      if (other.merit < best.merit) best = other, main_ = x, worse = 0;
+    }
     return best.alpha;
   }
 
@@ -228,7 +252,8 @@ class Path {
   NewtonSystem &system_;
   Monitor &monitor_;
   Barrier b_;
-  BarrierStep main_, trial_;
+  BarrierStep main_, trial_, pushed_;
+  BlockingRows blocking_;
   Cooling cooling_;
   PathMatrix matrix_;
   std::vector<double> target_, row_, unbalanced_, rhs_;

@@ -152,9 +152,9 @@ double bring_together(Packing &p, ContactNetwork &net, PairList &pair, int32_t &
 // when it would overlap then another contact is: either way no gap is left above rounding.
 void too_many_to_close(void **) {
   int scenes = 0, others = 0, left = 0;
-  for (int seed = 1; seed <= 12; ++seed)
+  for (int seed = 9; seed <= 20; ++seed)  // one pair of seed 20 is of the rare kind that is left
     for (const double wanted : {1e-11, -1e-11}) {
-      CrunchResult r = run(start(40, 3, 0.3, seed), default_crunch_options());
+      CrunchResult r = run(start(40, 3, 0.2, seed), default_crunch_options());
       if (!r.report.jammed || r.report.excess_contacts != 0) continue;
       PairList pair;
       int32_t sphere;

@@ -29,8 +29,10 @@ constexpr double least_reach = 0.15;
 // into this band costs a few percent of a factorisation.
 constexpr int most_correctors = 5;
 constexpr double band = 10.0, farther = 0.3;
-// A step shorter than this part of Newton's, as the last one was, has a few rows in its way (`blocking_rows`): so many more
-// triangular solves push them aside, until so many in a row do not make it better.
+// A step of so much of Newton's needs no help.
+constexpr double whole = 0.95;
+// A step shorter than this part of Newton's, as the last one was (or there was none), has a few rows in its way (`blocking_rows`): so
+// many more triangular solves push them aside, until so many in a row do not make it better.
 constexpr double cut = 0.3;
 constexpr int most_pushes = 12, most_worse = 3;
 
@@ -179,7 +181,7 @@ class Path {
   // Correctors as long as they make the best step better. Returns its length.
   double correct() {
     Barrier::Best best = b_.search(main_, trust);
-    for (correctors_ = 0; correctors_ < most_correctors && best.alpha < 0.95; ++correctors_) {
+    for (correctors_ = 0; correctors_ < most_correctors && best.alpha < whole; ++correctors_) {
       const double aim = std::min(1.0, best.alpha + farther), aim_dual = std::min(1.0, b_.longest_dual(main_) + farther);
       for (size_t k = 0; k < b_.y.size(); ++k) {
         const double product = b_.gap_after(main_, k, aim) * (b_.y[k] + aim_dual * main_.y[k]);
@@ -200,9 +202,9 @@ class Path {
   double push(Barrier::Best best) {
     BarrierStep &x = pushed_;
     x = main_;
-    b_.search(x, trust);
+    b_.search(x, trust);  // its rows' bend: the last search may have been of a corrector that was refused
     blocking_.begin(b_, matrix_.weight(), x);
-    for (int k = 0, worse = 0; k < most_pushes && worse < most_worse && best.alpha < 0.95; ++k, ++correctors_) {
+    for (int k = 0, worse = 0; k < most_pushes && worse < most_worse && best.alpha < whole; ++k, ++correctors_) {
       if (!blocking_.push(b_, x, std::min(1.0, best.alpha + farther), target_)) break;
       if (matrix_.following()) trial_.s = x.s;
       if (!solve(trial_)) break;

@@ -13,9 +13,9 @@ extern "C" {
 
 #include "core/create.hpp"
 #include "crunch/barrier.hpp"
-#include "crunch/blocking_rows.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/relinearise.hpp"
+#include "unit/crunch_scenes.hpp"
 
 using namespace jam;
 
@@ -118,42 +118,6 @@ void walls_stop(void **) {
   assert_true(best.alpha > 0.3);  // they meet after 0.48: most of the way is used
 }
 
-// Rows that block give way a thousandth, a hundredth and half of what they would alone, and pull a little on each other. Pushed as often as a step of
-// the path may, all of them are open at the end of the step, none is thrown open, and no other row feels a force.
-void blocking_rows_give_way(void **) {
-  Scene w;
-  make_scene(w, 3, 1.0, 1e-4, 5);
-  Barrier &b = w.b;
-  const size_t rows = b.pairs.size();
-  std::fill(w.x.s.begin(), w.x.s.end(), 0.0);
-  w.x.g = 0.0, w.x.y.assign(rows, 0.0);
-  std::vector<double> weight(rows), target(rows);
-  for (size_t k = 0; k < rows; ++k) b.y[k] = b.mu / b.lp.c[k], weight[k] = b.y[k] / b.lp.c[k], w.x.w[k] = 0.5 * b.lp.c[k];
-  const size_t block[] = {1, 7, 20};
-  const double close[] = {50.0, 300.0, 3.0}, share[] = {1e-3, 1e-2, 0.5};
-  for (int q = 0; q < 3; ++q) w.x.w[block[q]] = -close[q] * b.lp.c[block[q]];
-  BlockingRows blocking;
-  BarrierStep x = w.x, next = x;
-  blocking.begin(b, weight, x);
-  int pushes = 0;
-  for (b.search(x, 1.0); blocking.push(b, x, 0.8, target); b.search(x, 1.0)) {
-    assert_true(++pushes <= 12);
-    double force[3];
-    for (int q = 0; q < 3; ++q) force[q] = target[block[q]] / b.lp.c[block[q]] - weight[block[q]] * w.x.w[block[q]];
-    for (int q = 0; q < 3; ++q) {
-      const size_t k = block[q], other = block[(q + 1) % 3];
-      next.w[k] = w.x.w[k] + share[q] * (force[q] / weight[k] - 0.01 * force[(q + 1) % 3] / std::sqrt(weight[k] * weight[other]));
-    }
-    blocking.learn(x, next);
-    std::swap(x, next);
-  }
-  for (size_t k = 0; k < rows; ++k) {
-    const bool pushed = k == block[0] || k == block[1] || k == block[2];
-    const double after = b.gap_after(x, k, 0.8) / b.lp.c[k];
-    assert_true(pushed ? after >= 0.1 && after < 0.5 : target[k] == b.lp.c[k] * (weight[k] * w.x.w[k]));
-  }
-}
-
 struct PathRun {
   RelineariseResult end;
   std::vector<double> gaps, phi;
@@ -202,14 +166,7 @@ void nothing_left(Packing &p, const PathRun &run) {
   assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
 }
 
-// Near enough to jamming that the path begins where it does in a crunch.
-Packing near_start(int n, int dim, int seed) {
-  jam_crunch_options o = default_crunch_options();
-  Monitor monitor;
-  monitor.begin();
-  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 4;
-  return crunch(start(n, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed), o, monitor, nullptr, nullptr).packing;
-}
+Packing near_start(int n, int dim, int seed) { return near_jamming(start(n, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed)); }
 
 // Some paths meet saddles on their way and leave them by a warmer barrier, where the duality gap is larger.
 void arrives(void **) {
@@ -288,9 +245,7 @@ void creeping_disks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(blocking_rows_give_way),
-                              cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives), cmocka_unit_test(saddle_near_the_end),
-                              cmocka_unit_test(old_factor_will_do),
-                              cmocka_unit_test(creeping_disks)};
+  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives),
+                              cmocka_unit_test(saddle_near_the_end), cmocka_unit_test(old_factor_will_do), cmocka_unit_test(creeping_disks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

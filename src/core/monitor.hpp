@@ -1,9 +1,10 @@
-// What a long call needs to stay in touch: cancel flag, progress and log callbacks, clocks.
+// What a long call needs to stay in touch: cancel flag, time limit, progress and log callbacks, clocks.
 #pragma once
 #include <atomic>
 #include <chrono>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 #include "jam/jam.h"
 
 namespace jam {
@@ -18,10 +19,12 @@ class Monitor {
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
   // Called by capi at the start of a verb; a cancel that came before still stops that verb.
-  void begin() { start_ = now_seconds(); last_ = start_ - 1.0; }
+  void begin() { start_ = now_seconds(); last_ = start_ - 1.0; wall_time = std::numeric_limits<double>::infinity(); }
   // Called by capi at the end of a verb.
   void end() { cancelled_.store(false, std::memory_order_relaxed); }
   double seconds() const { return now_seconds() - start_; }
+  // The call must stop, by the flag or by its limit.
+  bool interrupted() const { return cancelled() || seconds() > wall_time; }
 
   // Returns true when the call must stop. Tells the callback at most every 0.05 s, or at once if forced.
   bool report(jam_progress p, bool force = false) {
@@ -45,6 +48,7 @@ class Monitor {
     log_fn(level, line, log_user);
   }
 
+  double wall_time = std::numeric_limits<double>::infinity();  // of the verb at hand, which sets it after begin()
   jam_progress_fn progress = nullptr;
   void *progress_user = nullptr;
   jam_log_fn log_fn = nullptr;

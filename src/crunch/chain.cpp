@@ -52,6 +52,12 @@ CrunchResult Chain::run() {
   return std::move(out_);
 }
 
+bool Chain::cut_off() {
+  if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
+  if (monitor_.interrupted()) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT), true;
+  return false;
+}
+
 bool Chain::show(jam_phase phase, double gain, double step, bool finished) {
   jam_progress progress{};
   progress.phase = phase;
@@ -89,13 +95,13 @@ bool Chain::acceptable(const LpSolution &x, LpCheck &check) const {
 
 // One solver's answer; true when it is kept or nothing more is to be done.
 bool Chain::ask(jam_lp_solver solver, const IpmControl &control) {
-  answer_ = solver == JAM_LP_IPM ? ipm_.solve(lp_, control, &monitor_) : solve_lp_clp(lp_, 1e-9, o_.wall_time - monitor_.seconds(), &monitor_);
+  answer_ = solver == JAM_LP_IPM ? ipm_.solve(lp_, control, &monitor_) : solve_lp_clp(lp_, 1e-9, &monitor_);
   if (seams_.answer) seams_.answer(answer_, solver);
   LpCheck check;
   const bool good = acceptable(answer_, check);
   // An interior point that was interrupted says so by an answer that does not check out; one that did is not thrown away.
   if (good && !monitor_.cancelled()) return keep(check, solver), true;
-  if (interrupted()) return true;
+  if (monitor_.interrupted()) return true;
   monitor_.log(JAM_LOG_WARNING, "%s: infeasibility %.1e balance %.1e |sum y - 1| %.1e", solver == JAM_LP_IPM ? "interior point" : "Clp", check.infeasibility,
                check.balance, check.gamma);
   return false;
@@ -108,7 +114,6 @@ void Chain::solve() {
   control.tolerance = o_.lp_tolerance;
   control.early_fraction = early_;
   control.threads = o_.threads;
-  control.wall_time = o_.wall_time;
   if (o_.lp_solver == JAM_LP_IPM) {
     if (moved_ <= settled && held_ == 0) control.multipliers = &forces_;
     if (early_ > 0.0)  // in a valley the path takes over, and wants slack where the chain wants its vertex
@@ -181,7 +186,7 @@ void Chain::judge(double gain, double step, double alpha) {
   }
   if (alpha == 0.0) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
   if (out_.report.lp_solves >= o_.max_lps) return stop(JAM_STOP_LP_LIMIT, JAM_LIMIT);
-  if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
+  if (cut_off()) return;
   // Rounding floor: the gain is below tolerance and the steps do not get there.
   if (gain <= o_.gain_tolerance) ++idle_;
   if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);

@@ -31,8 +31,9 @@ class Chain {
   void judge(double gain, double step, double alpha);
   // Tells the callback at once, with the step just finished to look at or without. True: stop.
   bool show(jam_phase phase, double gain, double step, bool finished = true);
-  bool interrupted() const { return monitor_.cancelled() || monitor_.seconds() > o_.wall_time; }
   void stop(jam_stop_reason reason, jam_status status) { out_.report.stop_reason = reason, out_.status = status; }
+  // Stops with the cause where the call was cancelled or its time is over. True: it was.
+  bool cut_off();
 
   // chain_path.cpp
   double first_bound() const;

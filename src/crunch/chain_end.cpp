@@ -16,7 +16,7 @@ bool Chain::closes() {
   const PolishEnd end = polished();
   closed_ = end == PolishEnd::done;
   if (closed_) stop(JAM_STOP_CONVERGED, JAM_OK);
-  if (end == PolishEnd::cancelled) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+  if (end == PolishEnd::interrupted) cut_off();
   return out_.report.stop_reason != JAM_STOP_NONE;
 }
 
@@ -40,14 +40,14 @@ bool Chain::last_digits() {
   if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
   PolishEnd end = polished();
   ContactNetwork fewer = out_.contacts;
-  while (end != PolishEnd::done && end != PolishEnd::cancelled && drop_idle_contact(fewer, lp_.dim)) {
+  while (end != PolishEnd::done && end != PolishEnd::interrupted && drop_idle_contact(fewer, lp_.dim)) {
     end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
     if (end == PolishEnd::done) out_.contacts = std::move(fewer), polish_step();
   }
   const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"
                     : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
   if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
-  if (monitor_.cancelled()) stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
+  if (end == PolishEnd::interrupted) cut_off();
   return !why;
 }
 

@@ -48,12 +48,10 @@ void Chain::follow_path() {
   control.room = std::max({holds ? 0.0 : 0.5 * out_.report.gain, 0.1 * out_.report.max_step * out_.report.max_step, least_room});
   control.threads = o_.threads;
   control.saddle_ends = out_.packing.n() >= very_many;
-  control.wall_time = o_.wall_time;
   control.on_step = [this](double gap, size_t pairs) { path_step(gap, pairs); };
   RelineariseResult path = relinearise(out_.packing, control, system_, monitor_);
   if (history_.behind(out_.packing)) path_step(path.gap, 0);
-  if (monitor_.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
-  if (monitor_.seconds() > o_.wall_time) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT);
+  if (cut_off()) return;
   monitor_.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, %d saddles, phi %.12f", path.reached ? "reached" : "stopped at", path.gap,
                path.factorisations, path.reheats, packing_fraction(out_.packing));
   bound_ = first_bound();

@@ -75,7 +75,7 @@ class SmallLp {
 
   // Its column: what opening it alone by one does to the rows that are undecided, and to the diameters.
   bool take(size_t k) {
-    if (u_.size() == most || (monitor_ && monitor_->cancelled())) return false;
+    if (u_.size() == most || (monitor_ && monitor_->interrupted())) return false;
     undecided_[k] = 1;
     u_.push_back(k);
     std::fill(wanted_.begin(), wanted_.end(), 0.0);

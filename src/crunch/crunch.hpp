@@ -72,7 +72,7 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 // the null space of S^T. Of more contacts than can close together it leaves out those that open when the others close; where a
 // force turns negative or another pair would overlap it looks for the vertex (crossover.hpp). Changes nothing unless done: refuses
 // when a contact does not close, and when no vertex is found. system is used anew: it need not hold the contacts' graph.
-enum class PolishEnd { done, no_contacts, cancelled, open_contact, negative_force, overlap };
+enum class PolishEnd { done, no_contacts, interrupted, open_contact, negative_force, overlap };
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
 
 // Where a network has more contacts than one state of self-stress and the weakest carries less than 1e-5 of the mean force, that pair

@@ -100,7 +100,7 @@ bool drop_open_contact(ContactNetwork &net, int dim) {
   return first < net.size() && drop(net, first, dim);
 }
 
-// Closes all contacts as far as they go: on a network with one state of self-stress to rounding, else in least squares. False when cancelled.
+// Closes all contacts as far as they go: on a network with one state of self-stress to rounding, else in least squares. False when interrupted.
 bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
   const std::vector<double> diagonal = small_diagonal(p, net);
@@ -108,7 +108,7 @@ bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int thread
   double worst = open();
   for (int round = 0; round < 4 && worst > 1e-16; ++round) {
     if (monitor) monitor->log(JAM_LOG_DEBUG, "polish %d largest gap %.2e", round, largest(net.gap));
-    if (monitor && monitor->cancelled()) return false;
+    if (monitor && monitor->interrupted()) return false;
     Packing p_old = p;
     ContactNetwork old = net;
     close_contacts(p, net, system, diagonal);
@@ -119,12 +119,12 @@ bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int thread
     }
     worst = now;
   }
-  return !(monitor && monitor->cancelled());
+  return !(monitor && monitor->interrupted());
 }
 
 PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor) {
   do {
-    if (!close_all(p, net, system, threads, monitor)) return PolishEnd::cancelled;
+    if (!close_all(p, net, system, threads, monitor)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < closed)) return PolishEnd::open_contact;
   } while (drop_open_contact(net, p.dim));
   const std::vector<double> diagonal = small_diagonal(p, net);
@@ -143,7 +143,7 @@ PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int t
   PolishEnd end = PolishEnd::negative_force;
   for (int k = 0; k < most_vertices; ++k) {
     Vertex vertex;
-    if (!find_vertex(p, net, system, threads, monitor, vertex)) return end;
+    if (!find_vertex(p, net, system, threads, monitor, vertex)) return monitor && monitor->interrupted() ? PolishEnd::interrupted : end;
     Packing moved = p;
     ContactNetwork others = vertex.net;
     move(moved, others.pairs, vertex.step);
@@ -151,7 +151,7 @@ PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int t
     end = close_and_balance(moved, others, system, threads, allowed, monitor);
     const bool exact = end == PolishEnd::done, enough = vertex.open < rounding && pushes_only(vertex.net) && closest_pair(p).gap >= allowed;
     if (monitor) monitor->log(JAM_LOG_DEBUG, "vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(), vertex.open, largest(vertex.step.s), exact ? "closed" : "open");
-    if (end == PolishEnd::cancelled) return end;
+    if (end == PolishEnd::interrupted) return end;
     if (!exact && enough) {
       net = std::move(vertex.net);
       system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);

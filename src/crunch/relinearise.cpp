@@ -55,7 +55,7 @@ class Path {
                    last_step_, matrix_.solves());
       out.reached = balance_ < 1e-2 && gap_ <= control_.target;
       if (out.reached || out.reheats > most_reheats || out.factorisations >= control_.max_factorisations ||
-          monitor_.seconds() > control_.wall_time || report(out.factorisations) || !newton())
+          monitor_.interrupted() || report(out.factorisations) || !newton())
         break;
     }
     out.multipliers = {std::move(b_.pairs), std::move(b_.y)};

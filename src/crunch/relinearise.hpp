@@ -20,7 +20,6 @@ struct RelineariseControl {
   int threads = 1;
   bool saddle_ends = false;  // where one cooling more would be the last, a saddle ends the path instead of warming it up
   int solves_worth = 0;      // a factorisation costs as much as so many triangular solves; 0: from the sizes of both
-  double wall_time = 1e300;  // of the monitor's clock
   std::function<void(double gap, size_t pairs)> on_step;  // after every move that stays; may be empty
 };
 

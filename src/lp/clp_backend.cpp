@@ -13,11 +13,11 @@
 namespace jam {
 namespace {
 
-class StopWhenCancelled : public ClpEventHandler {
+class StopWhenInterrupted : public ClpEventHandler {
  public:
-  explicit StopWhenCancelled(const Monitor *monitor) : monitor_(monitor) {}
-  int event(Event) override { return monitor_ && monitor_->cancelled() ? 0 : -1; }  // 0: end; -1: go on
-  ClpEventHandler *clone() const override { return new StopWhenCancelled(monitor_); }
+  explicit StopWhenInterrupted(const Monitor *monitor) : monitor_(monitor) {}
+  int event(Event) override { return monitor_ && monitor_->interrupted() ? 0 : -1; }  // 0: end; -1: go on
+  ClpEventHandler *clone() const override { return new StopWhenInterrupted(monitor_); }
 
  private:
   const Monitor *monitor_;
@@ -27,7 +27,7 @@ class StopWhenCancelled : public ClpEventHandler {
 
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
 // follow the size of the step. Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so the objective is -g.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, const Monitor *monitor) {
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor) {
   const double scale = std::isfinite(lp.bound) ? lp.bound : 1.0;
   const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
   std::vector<int> row_of, column_of;
@@ -57,12 +57,11 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, c
   silent.setLogLevel(0);
   model.passInMessageHandler(&silent);
   model.setLogLevel(0);
-  const StopWhenCancelled stop(monitor);
+  const StopWhenInterrupted stop(monitor);
   model.passInEventHandler(&stop);
   model.loadProblem(matrix, low.data(), high.data(), cost.data(), row_low.data(), row_high.data());
   model.setPrimalTolerance(tolerance);
   model.setDualTolerance(tolerance);
-  if (std::isfinite(seconds)) model.setMaximumWallSeconds(std::max(seconds, 1e-3));  // a time below zero means none to Clp
   LpSolution out;
   model.dual();
   out.solved = model.status() == 0;

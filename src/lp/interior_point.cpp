@@ -175,8 +175,8 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
     idle = merit < 0.9 * best_merit ? 0 : idle + 1;
     best_merit = std::min(best_merit, merit);
-    if (monitor && monitor->seconds() > control.wall_time) break;
-    if (idle >= patience || out.iterations >= control.max_iterations || (monitor && monitor->cancelled())) {
+    if (monitor && monitor->interrupted()) break;
+    if (idle >= patience || out.iterations >= control.max_iterations) {
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
       break;
     }

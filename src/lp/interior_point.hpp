@@ -19,7 +19,6 @@ struct IpmControl {
   int max_iterations = 80;
   int correctors = 3;
   int threads = 1;
-  double wall_time = 1e300;  // of the monitor's clock: past it the iteration ends unsolved
   // Asked once, when the sum is below `rough` of the gain: true ends the LP there, with slack left in its rows.
   std::function<bool(const LpSolution &)> leave;
   double rough = 0.3;

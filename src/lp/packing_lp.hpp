@@ -63,7 +63,7 @@ inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
 }
 
 // Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL, can
-// cancel it between two pivots.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, double seconds, const Monitor *monitor = nullptr);
+// interrupt it between two pivots.
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor = nullptr);
 
 }  // namespace jam

@@ -83,8 +83,10 @@ void first_lp(const Packing &p, int runs, const char *name, double reach, double
     a = InteriorPoint(system).solve(lp, IpmControl());
     ours.push_back(now_seconds() - t0);
   }
+  Monitor patient;
+  patient.begin(), patient.wall_time = 900.0;
   const double t1 = now_seconds();
-  const LpSolution b = solve_lp_clp(lp, 1e-9, 900.0);
+  const LpSolution b = solve_lp_clp(lp, 1e-9, &patient);
   const double clp = now_seconds() - t1;
   const LpCheck ca = check_lp(lp, a), cb = check_lp(lp, b);
   std::printf(",\n  \"first_lp_%s\": {\"rows\": %zu, \"ipm_seconds\": %.6g, \"clp_seconds\": %.6g, \"ratio\": %.4g, \"ipm_iterations\": %d, \"g_difference\": %.3g, "

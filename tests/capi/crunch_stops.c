@@ -122,30 +122,33 @@ static int32_t count_calls(const jam_progress *p, void *user) {
   return p->phase == JAM_PHASE_POLISH;
 }
 
-/* A polish that is stopped leaves the LP's own answer. */
+/* A polish that is stopped, or for which no time is left, leaves the LP's own answer. */
 static void polish_is_stopped(void **state) {
   jam_system *plain = start(100);
   jam_crunch_options o;
   jam_report b;
   const double *x, *y;
   size_t len;
-  int inside;
+  int way;
   (void)state;
   jam_crunch_options_init(&o, sizeof o);
   o.polish = 0;
   b = crunch(plain, &o, JAM_OK);
   jam_positions_view(plain, &y, &len);
-  for (inside = 0; inside < 2; ++inside) { /* before it begins, by the progress callback; in its first round */
+  for (way = 0; way < 3; ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
     jam_system *sys = start(100);
     jam_report a;
     ambush trap_set;
     int calls = 0;
     memset(&trap_set, 0, sizeof trap_set);
     trap_set.sys = sys, trap_set.word = "polish";
-    if (inside) jam_set_log(sys, spring, JAM_LOG_DEBUG, &trap_set);
+    jam_crunch_options_init(&o, sizeof o);
+    if (way == 2) o.wall_time = 1.5, trap_set.sleep = 1.6;
+    if (way) jam_set_log(sys, spring, JAM_LOG_DEBUG, &trap_set);
     else jam_set_progress(sys, count_calls, &calls);
-    a = crunch(sys, NULL, JAM_CANCELLED);
-    assert_true(inside ? trap_set.sprung : calls == 1);
+    a = crunch(sys, &o, way == 2 ? JAM_LIMIT : JAM_CANCELLED);
+    assert_true(way ? trap_set.sprung : calls == 1);
+    assert_true(a.stop_reason == (way == 2 ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED) && !a.jammed);
     assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction && a.force_residual == b.force_residual);
     jam_positions_view(sys, &x, &len);
     assert_memory_equal(x, y, len * sizeof *x);

@@ -31,7 +31,7 @@ LpSolution interior(const PackingLp &lp) {
 }
 
 void agree(const PackingLp &lp) {
-  const LpSolution a = interior(lp), b = solve_lp_clp(lp, 1e-10, std::numeric_limits<double>::infinity());
+  const LpSolution a = interior(lp), b = solve_lp_clp(lp, 1e-10);
   assert_true(a.solved && b.solved);
   const LpCheck check = check_lp(lp, a);
   assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-3 && std::fabs(check.gap) < 1e-9);

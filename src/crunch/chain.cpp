@@ -180,10 +180,7 @@ void Chain::lp_step(double alpha) {
 }
 
 void Chain::judge(double gain, double step, double alpha) {
-  if (gain <= o_.gain_tolerance && step <= o_.step_tolerance && early_ == 0.0) {
-    const bool rigid = network_.stable_count > 0 && static_cast<int64_t>(network_.active.size()) > lp_.dim * (network_.stable_count - 1);
-    return rigid ? stop(JAM_STOP_CONVERGED, JAM_OK) : stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
-  }
+  if (gain <= o_.gain_tolerance && step <= o_.step_tolerance && early_ == 0.0) return stop(JAM_STOP_CONVERGED, JAM_OK);  // rigid or not: `finish`
   if (alpha == 0.0) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
   if (out_.report.lp_solves >= o_.max_lps) return stop(JAM_STOP_LP_LIMIT, JAM_LIMIT);
   if (cut_off()) return;

@@ -44,8 +44,8 @@ bool Chain::last_digits() {
     end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
     if (end == PolishEnd::done) out_.contacts = std::move(fewer), polish_step();
   }
-  const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::negative_force ? "a force turns negative"
-                    : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
+  const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::too_few ? "contacts are too few to balance"
+                    : end == PolishEnd::negative_force ? "a force turns negative" : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
   if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
   if (end == PolishEnd::interrupted) cut_off();
   return !why;

@@ -47,8 +47,9 @@ class SmallLp {
     for (size_t k = 0; k < all_.size(); ++k) balanced_[k] = all_.force[k] * sigma_[k];
     rows_.balance(balanced_);
     y_ = balanced_;
+    if (spare_ == 0) return none_pulls() && finish(out);  // what was missing is there now
     for (int round = 0; round < most_rounds; ++round) {
-      if (round > 0 && std::none_of(y_.begin(), y_.end(), [](double y) { return y < 0.0; })) return finish(out);
+      if (round > 0 && none_pulls()) return finish(out);
       if (!admit() || !vertex()) return false;
       forces();
     }
@@ -56,6 +57,10 @@ class SmallLp {
   }
 
  private:
+  bool none_pulls() const {
+    return std::all_of(y_.begin(), y_.end(), [](double y) { return y >= 0.0; });  // nor is it no number
+  }
+
   // At first all weak ones, at least so many that there is a choice; later the strongest that pull in the last answer: with them
   // settled most others push again.
   bool admit() {
@@ -170,7 +175,8 @@ class SmallLp {
 bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor, Vertex &out) {
   const ContactNetwork all = with_near_pairs(p, net, narrow);
   const int64_t spare = excess_contacts(all, p.dim);
-  if (all.size() == 0 || spare <= 0 || spare > static_cast<int64_t>(most)) return false;
+  const bool undecided = spare > 0 || (spare == 0 && net.size() < all.size());
+  if (!undecided || spare > static_cast<int64_t>(most)) return false;
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), all.pairs, threads);
   return SmallLp(p, all, system, monitor).solve(out);
 }

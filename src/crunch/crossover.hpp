@@ -16,7 +16,8 @@ struct Vertex {
   double open = 0.0;   // gaps weighted by forces: no motion lets the diameters grow by more, by weak duality
 };
 
-// p: contacts closed, no overlap. net: its contacts with forces, right but for the undecided. system is used anew. False: none found.
+// p: contacts closed, no overlap. net: its contacts with forces, right but for the undecided, of which some may be missing. system is used
+// anew. False: none found.
 bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor, Vertex &out);
 
 }  // namespace jam

@@ -69,10 +69,10 @@ double largest_step(const LpSolution &answer, const Network &network, int dim);
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer, const Network &network);
 
 // polish.cpp: closes the contacts by Newton steps on (positions, one common diameter factor) and projects the forces on
-// the null space of S^T. Of more contacts than can close together it leaves out those that open when the others close; where a
-// force turns negative or another pair would overlap it looks for the vertex (crossover.hpp). Changes nothing unless done: refuses
+// the null space of S^T. Of more contacts than can close together it leaves out those that open when the others close; where they
+// are too few to balance, a force turns negative or another pair would overlap it looks for the vertex (crossover.hpp). Changes nothing unless done: refuses
 // when a contact does not close, and when no vertex is found. system is used anew: it need not hold the contacts' graph.
-enum class PolishEnd { done, no_contacts, interrupted, open_contact, negative_force, overlap };
+enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, negative_force, overlap };
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, Monitor *monitor = nullptr);
 
 // Where a network has more contacts than one state of self-stress and the weakest carries less than 1e-5 of the mean force, that pair

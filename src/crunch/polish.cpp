@@ -127,6 +127,7 @@ PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &syste
     if (!close_all(p, net, system, threads, monitor)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < closed)) return PolishEnd::open_contact;
   } while (drop_open_contact(net, p.dim));
+  if (excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
   const std::vector<double> diagonal = small_diagonal(p, net);
   if (!least_forces(p, net, system, diagonal)) balance_forces(p, net, system, diagonal);
   if (monitor && !pushes_only(net))
@@ -136,11 +137,10 @@ PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &syste
   return closest_pair(p).gap < allowed ? PolishEnd::overlap : PolishEnd::done;
 }
 
-// From closed contacts of which some pull to a vertex. Closing that may make others pull again, where vertices lie so near each
+// From closed contacts of which some pull, or one is missing, to a vertex. Closing that may make others pull again, where vertices lie so near each
 // other that a step between them changes the weakest forces: what no double can tell apart ends as it is, with its weakest contacts
 // open, if their weighted gap is below rounding.
-PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor) {
-  PolishEnd end = PolishEnd::negative_force;
+PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor, PolishEnd end) {
   for (int k = 0; k < most_vertices; ++k) {
     Vertex vertex;
     if (!find_vertex(p, net, system, threads, monitor, vertex)) return monitor && monitor->interrupted() ? PolishEnd::interrupted : end;
@@ -179,9 +179,9 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   Packing q = p;
   ContactNetwork better = net;
   PolishEnd end = close_and_balance(q, better, system, threads, allowed, monitor);
-  if (end == PolishEnd::negative_force || end == PolishEnd::overlap) {
+  if (end == PolishEnd::too_few || end == PolishEnd::negative_force || end == PolishEnd::overlap) {
     better = net;  // the LP's forces: where a contact is wrong so are all forces
-    end = at_vertex(q, better, system, threads, allowed, monitor);
+    end = at_vertex(q, better, system, threads, allowed, monitor, end);
   }
   if (end != PolishEnd::done) return end;
   if (monitor && largest(better.gap) > rounding)

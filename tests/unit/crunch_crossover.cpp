@@ -73,6 +73,36 @@ void wrong_contact(void **) {
   assert_true(back >= 200);  // of about 110 contacts in each of the scenes
 }
 
+// A contact too weak for an LP to list: the others close but cannot balance. Polish finds it among the pairs that nearly touch, whether or
+// not another is there to choose from, and the result is the packing.
+void missing_contact(void **) {
+  int back[2] = {0, 0};
+  for (int seed = 1; seed <= 6; ++seed)
+    for (const bool other : {false, true}) {
+      Packing p;
+      ContactNetwork net;
+      PairList pair;
+      if (!near_vertex(seed, 1e-9, p, net, pair)) continue;
+      if (!other) {
+        const CrunchResult alone = run(start(40, 3, 0.3, seed), default_crunch_options());
+        p = alone.packing, net = alone.contacts;
+      }
+      for (size_t k = 0; k < net.size(); ++k) {
+        std::vector<char> on(net.size(), 1);
+        on[k] = 0;
+        ContactNetwork fewer = subset(net, on, 3);
+        if (excess_contacts(fewer, 3) != -1) continue;
+        Packing q = p;
+        NewtonSystem system;
+        assert_true(polish(q, fewer, system, 1) == PolishEnd::done);
+        assert_true(std::fabs(q.diameter[0] / p.diameter[0] - 1.0) < 1e-13 && closest_pair(q).gap > -1e-14 && fewer.pairs.i == net.pairs.i && fewer.pairs.j == net.pairs.j);
+        for (size_t c = 0; c < net.size(); ++c) assert_true(std::fabs(fewer.force[c] - net.force[c]) < 1e-6 && std::fabs(fewer.gap[c]) < 1e-14);
+        ++back[other];
+      }
+    }
+  assert_true(back[0] >= 200 && back[1] >= 200);
+}
+
 // Cancelled or out of time while it looks for the vertex: it says so, and nothing has changed.
 void interrupted_at_the_vertex(void **) {
   Packing p;
@@ -135,7 +165,7 @@ void small_lp(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact), cmocka_unit_test(interrupted_at_the_vertex), cmocka_unit_test(vertex_of_the_vertex),
+  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact), cmocka_unit_test(missing_contact), cmocka_unit_test(interrupted_at_the_vertex), cmocka_unit_test(vertex_of_the_vertex),
                               cmocka_unit_test(small_lp)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

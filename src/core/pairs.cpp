@@ -78,8 +78,18 @@ class ImageScan {
   std::vector<Candidate> *found_ = nullptr;
 };
 
-double pair_cutoff(const Packing &p, int32_t i, int32_t j, double reach, double slope) {
-  return reach + slope * 0.5 * (p.diameter[i] + p.diameter[j]);
+// Two spheres farther apart are no pair. `own`: NULL, or a reach for each sphere, of which `reach` is the longest.
+struct Cutoff {
+  const Packing &p;
+  double reach, slope;
+  const double *own = nullptr;
+
+  double most() const { return reach + slope * diameter_max(p); }
+  double of(int32_t i, int32_t j) const { return (own ? std::max(own[i], own[j]) : reach) + slope * 0.5 * (p.diameter[i] + p.diameter[j]); }
+};
+
+Cutoff own_cutoff(const Packing &p, const std::vector<double> &reach, double slope) {
+  return {p, *std::max_element(reach.begin(), reach.end()), slope, reach.data()};
 }
 
 // Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
@@ -135,38 +145,26 @@ class CellGrid {
   std::vector<int32_t> start_, members_;
 };
 
-}  // namespace
-
-std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to) {
-  std::vector<double> out(to.size(), 0.0);
-  size_t at = 0;
-  for (size_t k = 0; k < to.size(); ++k) {
-    const auto key = std::make_pair(to.i[k], to.j[k]);
-    while (at < from.size() && std::make_pair(from.i[at], from.j[at]) < key) ++at;
-    if (at < from.size() && std::make_pair(from.i[at], from.j[at]) == key) out[k] = values[at++];
-  }
-  return out;
-}
-
-PairList find_pairs_brute(const Packing &p, double reach, double slope) {
+PairList by_brute_force(const Cutoff &cutoff) {
+  const Packing &p = cutoff.p;
   PairList list;
   std::vector<Candidate> found;
-  ImageScan images(p, reach + slope * diameter_max(p));
+  ImageScan images(p, cutoff.most());
   const int32_t n = static_cast<int32_t>(p.n());
   for (int32_t i = 0; i < n; ++i) {
-    for (int32_t j = i; j < n; ++j) images.scan(i, j, pair_cutoff(p, i, j, reach, slope), found);
+    for (int32_t j = i; j < n; ++j) images.scan(i, j, cutoff.of(i, j), found);
     append_sorted(list, i, p.dim, found);
   }
   return list;
 }
 
-PairList find_pairs(const Packing &p, double reach, double slope) {
-  const double cutoff = reach + slope * diameter_max(p);
+PairList by_cells(const Cutoff &cutoff) {
+  const Packing &p = cutoff.p;
   // As many cells as spheres are enough; a side is never shorter than the cutoff.
-  const double fit = p.box / cutoff, enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
+  const double fit = p.box / cutoff.most(), enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
   const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
   // Nearest images are enough from three cells on: two cells in a row would already need a second image.
-  if (side < 4 || p.model != JAM_MODEL_EUCLID) return find_pairs_brute(p, reach, slope);
+  if (side < 4 || p.model != JAM_MODEL_EUCLID) return by_brute_force(cutoff);
   const CellGrid grid(p, side);
   PairList list;
   std::vector<Candidate> found;
@@ -184,7 +182,7 @@ PairList find_pairs(const Packing &p, double reach, double slope) {
         const double x = dx + now.offset[c];
         r2 += x * x;
       }
-      const double rc = pair_cutoff(p, i, j, reach, slope);
+      const double rc = cutoff.of(i, j);
       if (r2 >= rc * rc) return;
       now.j = j;
       found.push_back(now);
@@ -192,6 +190,24 @@ PairList find_pairs(const Packing &p, double reach, double slope) {
     append_sorted(list, i, d, found);
   }
   return list;
+}
+
+}  // namespace
+
+PairList find_pairs(const Packing &p, double reach, double slope) { return by_cells({p, reach, slope}); }
+PairList find_pairs(const Packing &p, const std::vector<double> &reach, double slope) { return by_cells(own_cutoff(p, reach, slope)); }
+PairList find_pairs_brute(const Packing &p, double reach, double slope) { return by_brute_force({p, reach, slope}); }
+PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope) { return by_brute_force(own_cutoff(p, reach, slope)); }
+
+std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to) {
+  std::vector<double> out(to.size(), 0.0);
+  size_t at = 0;
+  for (size_t k = 0; k < to.size(); ++k) {
+    const auto key = std::make_pair(to.i[k], to.j[k]);
+    while (at < from.size() && std::make_pair(from.i[at], from.j[at]) < key) ++at;
+    if (at < from.size() && std::make_pair(from.i[at], from.j[at]) == key) out[k] = values[at++];
+  }
+  return out;
 }
 
 void wrap_positions(Packing &p, PairList &pairs) {

@@ -20,8 +20,11 @@ struct PairList {
 // O(n) by cells when the box holds at least three of them, else all images by brute force. MK: brute force.
 // JAM_E_MEMORY-like failures surface as std::bad_alloc.
 PairList find_pairs(const Packing &p, double reach, double slope);
+// A reach for each sphere: of a pair the longer one counts.
+PairList find_pairs(const Packing &p, const std::vector<double> &reach, double slope);
 // The same by looking at every pair and every image: the reference for tests.
 PairList find_pairs_brute(const Packing &p, double reach, double slope);
+PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope);
 
 // Values of the pairs of one list for those of another; 0 for pairs that the first does not hold. Images of one pair keep their order.
 std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to);

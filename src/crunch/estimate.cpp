@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/pairs.hpp"
+#include "crunch/cages.hpp"
 #include "crunch/crunch.hpp"
 #include "lp/blas.hpp"
 #include "lp/block_cholesky.hpp"
@@ -30,7 +31,7 @@ PairList longest_list(const Packing &p, const jam_crunch_options &o) {
   // How far the diameters grow before the list gets shorter: the chain and mixtures keep theirs, the path of equal spheres shortens it early.
   const double part = o.method == JAM_CRUNCH_CHAIN || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
   const double grown = std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
-  PairList pairs = find_pairs(p, reach, grown);
+  PairList pairs = o.method == JAM_CRUNCH_CHAIN ? find_pairs(p, reach, grown) : caged_pairs(p, reach, grown);
   const double enough = std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
   for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < enough; ++k) {
     reach = 1.1 * reach + 0.01 * unit;

@@ -7,6 +7,7 @@
 
 #include "crunch/barrier.hpp"
 #include "crunch/blocking_rows.hpp"
+#include "crunch/cages.hpp"
 #include "crunch/cooling.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/path_matrix.hpp"
@@ -22,7 +23,7 @@ constexpr double centrality = 100.0;
 constexpr int most_reheats = 16;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
-// Pairs nearer than this (mean diameters) are listed: enough for a rattler to feel its cage, else it runs.
+// Pairs nearer than this (mean diameters) are listed, and what else a rattler needs to feel its cage (`cages`), else it runs.
 constexpr double least_reach = 0.15;
 // Correctors of a direction (Gondzio, Comput. Optim. Appl. 6, 137 (1996), with the true gaps in the place of the linear ones): a
 // step is cut short by a few rows that were slack until now, and a triangular solve that pulls their products y c back
@@ -94,7 +95,7 @@ class Path {
   }
 
   void list_pairs() {
-    b_.pairs = find_pairs(p_, reach_, 1.0);
+    b_.pairs = caged_pairs(p_, reach_);
     b_.measure(p_);
     const size_t rows = b_.pairs.size(), unknowns = p_.position.size();
     travelled_ = grown_ = 0.0;

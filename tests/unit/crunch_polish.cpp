@@ -101,9 +101,11 @@ void idle_contact(void **) {
 // when it would overlap then another contact is: either way no gap is left above rounding.
 void too_many_to_close(void **) {
   int scenes = 0, others = 0, left = 0;
-  for (int seed = 9; seed <= 20; ++seed)  // one pair of seed 20 is of the rare kind that is left
+  jam_crunch_options o = default_crunch_options();
+  o.method = JAM_CRUNCH_CHAIN;  // the path's scenes change with it
+  for (int seed = 1; seed <= 24; ++seed)  // one pair of seed 11 is of the rare kind that is left
     for (const double wanted : {1e-11, -1e-11}) {
-      CrunchResult r = run(start(40, 3, 0.2, seed), default_crunch_options());
+      CrunchResult r = run(start(40, 3, 0.2, seed), o);
       if (!r.report.jammed || r.report.excess_contacts != 0) continue;
       PairList pair;
       int32_t sphere;
@@ -139,7 +141,7 @@ void too_many_to_close(void **) {
       assert_true(wanted > 0.0 ? std::fabs(gap - wanted) < 0.2 * wanted : std::fabs(gap) < 1e-14);
       ++scenes, others += wanted < 0.0;
     }
-  assert_true(scenes - others >= 5 && others >= 5 && left >= 1 && left <= 2);
+  assert_true(scenes - others >= 15 && others >= 15 && left >= 1 && left <= 2);
 }
 
 // An LP whose gain no longer counts ends the crunch if its contacts close: steps need not fall below a tolerance that rounding forbids.

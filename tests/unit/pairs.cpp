@@ -6,6 +6,7 @@
 extern "C" {
 #include <cmocka.h>
 }
+#include <algorithm>
 #include <cmath>
 
 #include "core/create.hpp"
@@ -27,6 +28,17 @@ void cells_equal_brute_force(void **) {
       const PairList a = find_pairs(p, reach, slope), b = find_pairs_brute(p, reach, slope);
       assert_true(a.size() > 0);
       assert_true(a.i == b.i && a.j == b.j && a.offset == b.offset);
+      std::vector<double> own(p.n());
+      for (size_t k = 0; k < own.size(); ++k) own[k] = reach * static_cast<double>(k % 4);
+      const PairList c = find_pairs(p, own, slope), d = find_pairs_brute(p, own, slope), all = find_pairs(p, 3.0 * reach, slope);
+      assert_true(c.i == d.i && c.j == d.j && c.offset == d.offset);
+      size_t expected = 0;
+      double r[JAM_MAX_DIM];
+      for (size_t k = 0; k < all.size(); ++k) {
+        const size_t i = all.i[k], j = all.j[k];
+        expected += std::sqrt(pair_vector(p, all, k, r)) - slope * 0.5 * (p.diameter[i] + p.diameter[j]) < std::max(own[i], own[j]);
+      }
+      assert_true(c.size() == expected && expected > 0 && expected < all.size());
     }
   }
 }

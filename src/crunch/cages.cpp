@@ -1,0 +1,53 @@
+#include "crunch/cages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+namespace {
+
+// A side is walled when the line to some neighbour has at least this component along it, times 1/sqrt(d): of 2 d neighbours along the axes,
+// turned as badly as can be, the best has 1/sqrt(d).
+constexpr double walled = 0.9;
+// Longest reach, mean diameters: of spheres a tenth as large as the others few are free still.
+constexpr double farthest = 2.4;
+
+// Spheres without a wall on one of the 2 d sides along the axes.
+std::vector<size_t> without_cage(const Packing &p, const PairList &pairs) {
+  const size_t d = p.dim, sides = 2 * d;
+  std::vector<double> wall(p.n() * sides, 0.0);
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k]) continue;  // its own image moves with it
+    const double length = std::sqrt(pair_vector(p, pairs, k, r));
+    for (size_t c = 0; c < d; ++c) {
+      const double along = std::fabs(r[c]) / length;
+      for (const bool first : {true, false}) {
+        double &w = wall[(first ? pairs.i[k] : pairs.j[k]) * sides + 2 * c + ((r[c] > 0.0) == first)];
+        w = std::max(w, along);
+      }
+    }
+  }
+  std::vector<size_t> free;
+  for (size_t i = 0; i < p.n(); ++i)
+    if (*std::min_element(&wall[i * sides], &wall[i * sides] + sides) < walled / std::sqrt(static_cast<double>(d))) free.push_back(i);
+  return free;
+}
+
+}  // namespace
+
+PairList caged_pairs(const Packing &p, double reach, double slope) {
+  std::vector<double> own(p.n(), reach);
+  PairList pairs = find_pairs(p, reach, slope);
+  const double limit = farthest * diameter_mean(p);
+  while (reach < limit) {
+    const std::vector<size_t> free = without_cage(p, pairs);
+    if (free.empty()) break;
+    reach = std::min(2.0 * reach, limit);
+    for (const size_t i : free) own[i] = reach;
+    pairs = find_pairs(p, own, slope);
+  }
+  return pairs;
+}
+
+}  // namespace jam

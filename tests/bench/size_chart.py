@@ -66,7 +66,9 @@ def draw(rows, picture):
                 axis.loglog(sizes, [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes], "k--", lw=1,
                             label=f"published slope $N^{{{PUBLISHED[field]}}}$")
         axis.set(xlabel="N", ylabel=label)
-        axis.legend(fontsize=8, framealpha=0.5, loc="upper left" if field == "lps" else "lower right")
+        low, high = axis.get_ylim()
+        axis.set_ylim(low, high * (high / low) ** 0.4)  # room for the legend above the points
+        axis.legend(fontsize=8, framealpha=0.5, loc="upper left")
         axis.grid(alpha=0.3, which="both")
     growth, pressure = rows[0]["growth"], rows[0]["pressure"]
     axes[1].set_title(f"d = 3, grown at G = {growth:g} to p = {pressure:g}, up to {max(r['seed'] for r in rows)} seeds", fontsize=9)

@@ -11,6 +11,8 @@ namespace {
 constexpr double walled = 0.9;
 // Longest reach, mean diameters: of spheres a tenth as large as the others few are free still.
 constexpr double farthest = 2.4;
+// The first longer one is at least this, however short the common one.
+constexpr double first = 0.1;
 
 // Spheres without a wall on one of the 2 d sides along the axes.
 std::vector<size_t> without_cage(const Packing &p, const PairList &pairs) {
@@ -39,11 +41,11 @@ std::vector<size_t> without_cage(const Packing &p, const PairList &pairs) {
 PairList caged_pairs(const Packing &p, double reach, double slope) {
   std::vector<double> own(p.n(), reach);
   PairList pairs = find_pairs(p, reach, slope);
-  const double limit = farthest * diameter_mean(p);
+  const double unit = diameter_mean(p), limit = farthest * unit;
   while (reach < limit) {
     const std::vector<size_t> free = without_cage(p, pairs);
     if (free.empty()) break;
-    reach = std::min(2.0 * reach, limit);
+    reach = std::min(std::max(2.0 * reach, first * unit), limit);
     for (const size_t i : free) own[i] = reach;
     pairs = find_pairs(p, own, slope);
   }

@@ -121,6 +121,8 @@ static void near_pairs_cost(void **state) {
   c.growth_rate = 0.1, c.pressure = 1e3;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   jam_crunch_options_init(&o, sizeof o);
+  o.neighbour_radius = 0.9; /* shorter than a contact */
+  assert_true(estimated(sys, &o).pairs > 0);
   o.neighbour_radius = 1.5;
   path = estimated(sys, &o);
   o.method = JAM_CRUNCH_CHAIN;

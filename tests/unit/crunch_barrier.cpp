@@ -230,10 +230,7 @@ void creeping_disks(void **) {
   for (int seed = 1; seed <= 60; ++seed) {
     Monitor monitor;
     std::string log;
-    monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
-    monitor.log_user = &log;
-    monitor.log_level = JAM_LOG_INFO;
-    monitor.begin();
+    listen(monitor, log, JAM_LOG_INFO);
     const CrunchResult r = crunch(start(64, 2, 0.2, 1.0, seed), default_crunch_options(), monitor, nullptr, nullptr);
     assert_true(r.report.jammed && r.report.max_overlap < 1e-12);
     const size_t first = log.find("path: ");

@@ -100,10 +100,7 @@ void path_pushes(void **) {
     Packing p = near_jamming(start(200, 3, 0.3, seed));
     Monitor monitor;
     std::string log;
-    monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
-    monitor.log_user = &log;
-    monitor.log_level = JAM_LOG_DEBUG;
-    monitor.begin();
+    listen(monitor, log, JAM_LOG_DEBUG);
     NewtonSystem system;
     const RelineariseResult end = relinearise(p, RelineariseControl(), system, monitor);
     assert_true(end.reached && closest_pair(p).gap > 0.0);

@@ -45,6 +45,15 @@ void a_hole_is_a_cage(void **) {
     }
 }
 
+// Spheres with nothing around them keep an empty list; a reach of nothing grows too, and one beyond the farthest stays as it is.
+void no_cage_to_find(void **) {
+  Packing p;
+  p.dim = 3, p.box = 40.0, p.position = {1.0, 1.0, 1.0, 20.0, 20.0, 20.0}, p.diameter = {1.0, 1.0}, p.velocity.assign(6, 0.0);
+  for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(caged_pairs(p, reach).size(), 0);
+  p.position = {1.0, 1.0, 1.0, 3.0, 1.0, 1.0};  // a gap of 1: within the farthest reach, and no cage
+  for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(caged_pairs(p, reach).size(), 1);
+}
+
 // In random packings: nothing is lost, what is added is of spheres that were free and within their reach, and where none is free nothing is added.
 void nothing_else_is_listed(void **) {
   for (const double ratio : {1.0, 4.0}) {
@@ -90,6 +99,7 @@ void mixtures_arrive(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(a_hole_is_a_cage), cmocka_unit_test(nothing_else_is_listed), cmocka_unit_test(mixtures_arrive)};
+  const CMUnitTest tests[] = {cmocka_unit_test(a_hole_is_a_cage), cmocka_unit_test(no_cage_to_find), cmocka_unit_test(nothing_else_is_listed),
+                              cmocka_unit_test(mixtures_arrive)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

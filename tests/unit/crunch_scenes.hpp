@@ -7,11 +7,11 @@
 
 namespace jam {
 
-// Warnings of what runs under this monitor, one after the other in `log`.
-inline void listen(Monitor &monitor, std::string &log) {
+// What runs under this monitor has to say, one line after the other in `log`.
+inline void listen(Monitor &monitor, std::string &log, int level = JAM_LOG_WARNING) {
   monitor.log_fn = [](int32_t, const char *line, void *user) { *static_cast<std::string *>(user) += line; };
   monitor.log_user = &log;
-  monitor.log_level = JAM_LOG_WARNING;
+  monitor.log_level = level;
   monitor.begin();
 }
 

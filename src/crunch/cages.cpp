@@ -24,8 +24,8 @@ std::vector<size_t> without_cage(const Packing &p, const PairList &pairs) {
     const double length = std::sqrt(pair_vector(p, pairs, k, r));
     for (size_t c = 0; c < d; ++c) {
       const double along = std::fabs(r[c]) / length;
-      for (const bool first : {true, false}) {
-        double &w = wall[(first ? pairs.i[k] : pairs.j[k]) * sides + 2 * c + ((r[c] > 0.0) == first)];
+      for (const bool of_i : {true, false}) {
+        double &w = wall[(of_i ? pairs.i[k] : pairs.j[k]) * sides + 2 * c + ((r[c] > 0.0) == of_i)];
         w = std::max(w, along);
       }
     }

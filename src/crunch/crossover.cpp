@@ -176,7 +176,7 @@ bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &syst
   const ContactNetwork all = with_near_pairs(p, net, narrow);
   const int64_t spare = excess_contacts(all, p.dim);
   const bool undecided = spare > 0 || (spare == 0 && net.size() < all.size());
-  if (!undecided || spare > static_cast<int64_t>(most)) return false;
+  if (all.size() == 0 || !undecided || spare > static_cast<int64_t>(most)) return false;
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), all.pairs, threads);
   return SmallLp(p, all, system, monitor).solve(out);
 }

@@ -103,6 +103,24 @@ void missing_contact(void **) {
   assert_true(back[0] >= 200 && back[1] >= 200);
 }
 
+// Contacts that hold no sphere are no network, and no near pair makes them one: polish says that they are too few and changes nothing.
+void no_network(void **) {
+  const CrunchResult r = run(start(40, 3, 0.3, 1), default_crunch_options());
+  assert_true(r.report.jammed);
+  std::vector<char> on(r.contacts.size(), 0);
+  on[0] = 1;
+  ContactNetwork one = subset(r.contacts, on, 3);
+  Packing p = r.packing;
+  for (size_t i = 0; i < p.n(); ++i)
+    if (one.coordination[i] == 0) p.diameter[i] *= 0.9;
+  const Packing before = p;
+  NewtonSystem system;
+  Vertex vertex;
+  assert_true(!find_vertex(p, one, system, 1, nullptr, vertex));
+  assert_true(polish(p, one, system, 1) == PolishEnd::too_few);
+  assert_true(p.position == before.position && p.diameter == before.diameter && one.size() == 1);
+}
+
 // Cancelled or out of time while it looks for the vertex: it says so, and nothing has changed.
 void interrupted_at_the_vertex(void **) {
   Packing p;
@@ -165,7 +183,7 @@ void small_lp(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact), cmocka_unit_test(missing_contact), cmocka_unit_test(interrupted_at_the_vertex), cmocka_unit_test(vertex_of_the_vertex),
-                              cmocka_unit_test(small_lp)};
+  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact), cmocka_unit_test(missing_contact), cmocka_unit_test(no_network),
+                              cmocka_unit_test(interrupted_at_the_vertex), cmocka_unit_test(vertex_of_the_vertex), cmocka_unit_test(small_lp)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

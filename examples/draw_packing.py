@@ -46,7 +46,9 @@ def half_lines(x, diameter, contacts):
     pair, normal, gap, force = contacts
     reach = 0.25 * ((diameter[pair[:, 0]] + diameter[pair[:, 1]]) * (1.0 + gap))[:, None] * normal
     first, second = x[pair[:, 0]], x[pair[:, 1]]
-    return np.concatenate([np.stack([first, first - reach], 1), np.stack([second, second + reach], 1)]), np.tile(force, 2)
+    return np.concatenate([np.stack([first, first - reach], 1), np.stack([second, second + reach], 1)]), np.tile(
+        force, 2
+    )
 
 
 def colours(contacts, dim):
@@ -61,15 +63,26 @@ def draw_flat(axes, box, x, diameter, table, contacts):
     shifts = [(a * box, b * box) for a in (-1, 0, 1) for b in (-1, 0, 1)]
     for panel, alpha in ((axes[0], 1.0), (axes[1], 0.25)):
         for shift in shifts:
-            discs = EllipseCollection(diameter, diameter, np.zeros(len(x)), offsets=x + shift, units="xy",
-                                      offset_transform=panel.transData, facecolors=table, edgecolors="white", linewidths=0.3)
+            discs = EllipseCollection(
+                diameter,
+                diameter,
+                np.zeros(len(x)),
+                offsets=x + shift,
+                units="xy",
+                offset_transform=panel.transData,
+                facecolors=table,
+                edgecolors="white",
+                linewidths=0.3,
+            )
             discs.set_alpha(alpha)
             panel.add_collection(discs)
         panel.set_xlim(0, box)
         panel.set_ylim(0, box)
     lines, force = half_lines(x, diameter, contacts)
     for shift in shifts:
-        axes[1].add_collection(LineCollection(lines + np.array(shift), linewidths=0.9 * force, colors="black", capstyle="round"))
+        axes[1].add_collection(
+            LineCollection(lines + np.array(shift), linewidths=0.9 * force, colors="black", capstyle="round")
+        )
 
 
 def view():
@@ -90,7 +103,9 @@ def render(points, radii, table, half, pixels=1000):
     for (px, py, pz), r, colour in zip(points, radii, table):
         u, v, s = (px + half) * scale, (py + half) * scale, r * scale
         u0, u1, v0, v1 = (int(max(0, np.floor(c))) for c in (u - s, u + s + 1, v - s, v + s + 1))
-        gx, gy = np.meshgrid((np.arange(u0, min(u1, pixels)) + 0.5 - u) / s, (np.arange(v0, min(v1, pixels)) + 0.5 - v) / s)
+        gx, gy = np.meshgrid(
+            (np.arange(u0, min(u1, pixels)) + 0.5 - u) / s, (np.arange(v0, min(v1, pixels)) + 0.5 - v) / s
+        )
         inside = gx**2 + gy**2 < 1.0
         gz = np.sqrt(np.where(inside, 1.0 - gx**2 - gy**2, 0.0))
         z = pz + r * gz
@@ -115,7 +130,9 @@ def draw_solid(axes, box, x, diameter, table, contacts):
     order = np.argsort(lines[:, :, 2].mean(1))
     lines, force = lines[order], force[order]
     near = (lines[:, :, 2].mean(1) - lines[:, :, 2].min()) / np.ptp(lines[:, :, 2])
-    shade = np.column_stack([np.outer(1.0 - near, [0.75, 0.78, 0.85]) + np.outer(near, [0.55, 0.05, 0.1]), 0.25 + 0.75 * near])
+    shade = np.column_stack(
+        [np.outer(1.0 - near, [0.75, 0.78, 0.85]) + np.outer(near, [0.55, 0.05, 0.1]), 0.25 + 0.75 * near]
+    )
     axes[1].add_collection(LineCollection(lines[:, :, :2], linewidths=0.85 * force, colors=shade, capstyle="round"))
     corners = np.array([[a, b, c] for a in (0, 1) for b in (0, 1) for c in (0, 1)]) * box
     edges = [(p, q) for k, p in enumerate(corners) for q in corners[k + 1 :] if np.count_nonzero(p != q) == 1]
@@ -148,8 +165,14 @@ def main():
         panel.set_aspect("equal")
         panel.set_axis_off()
     rattlers, bucklers = np.count_nonzero(coordination == 0), np.count_nonzero(coordination == dim + 1)
-    handles = [plt.Line2D([], [], marker="o", linestyle="", markersize=9, color=c, label=text) for c, text in
-               ((STABLE, f"{len(x) - rattlers - bucklers} stable"), (BUCKLER, f"{bucklers} bucklers"), (RATTLER, f"{rattlers} rattlers"))]
+    handles = [
+        plt.Line2D([], [], marker="o", linestyle="", markersize=9, color=c, label=text)
+        for c, text in (
+            (STABLE, f"{len(x) - rattlers - bucklers} stable"),
+            (BUCKLER, f"{bucklers} bucklers"),
+            (RATTLER, f"{rattlers} rattlers"),
+        )
+    ]
     axes[0].legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=3, frameon=False)
     axes[1].text(0.5, -0.03, f"{len(contacts[0])} contact forces", transform=axes[1].transAxes, ha="center")
     figure.subplots_adjust(0.01, 0.05, 0.99, 0.99, 0.02)

@@ -131,9 +131,13 @@ def emit(api):
             out.append(f"    {TYPES[m.type][2]} :: {m.name} = {value}")
         out.append(f"  end type {s.name}")
     if inits:
-        out += ["", "  ! call jam_defaults(o) fills any option type with the defaults of the library.",
-                "  interface jam_defaults", f"    module procedure {_wrap(['default_' + n[4:] for n in inits], '    ')}",
-                "  end interface jam_defaults"]
+        out += [
+            "",
+            "  ! call jam_defaults(o) fills any option type with the defaults of the library.",
+            "  interface jam_defaults",
+            f"    module procedure {_wrap(['default_' + n[4:] for n in inits], '    ')}",
+            "  end interface jam_defaults",
+        ]
     out += ["", "  abstract interface"]
     for c in api.callbacks:
         out += _comment(c.doc, "    ") + _procedure(c.name, _result(c.result), c.args, _callback_arg, "bind(c)", "    ")
@@ -143,7 +147,13 @@ def emit(api):
         out += _procedure(f.name, _result(f.result), f.args, fortran_type, f'bind(c, name="{f.name}")', "    ")
     out += ["  end interface", TAIL]
     for s, init in inits.items():
-        out += [f"  subroutine default_{s[4:]}(o)", f"    type({s}), intent(out) :: o", "    integer(c_int32_t) :: status",
-                f"    status = {init}(o, c_sizeof(o))", f"  end subroutine default_{s[4:]}", ""]
+        out += [
+            f"  subroutine default_{s[4:]}(o)",
+            f"    type({s}), intent(out) :: o",
+            "    integer(c_int32_t) :: status",
+            f"    status = {init}(o, c_sizeof(o))",
+            f"  end subroutine default_{s[4:]}",
+            "",
+        ]
     out.append("end module jam")
     return "\n".join(line for block in out for line in block.rstrip("\n").split("\n")) + "\n"

@@ -61,6 +61,8 @@ def emit(api):
         types = "".join(p[0] + ", " for p in pairs).rstrip()
         types = types if len(pairs) == 1 else types.rstrip(",")
         passed = "".join(", " + p[1] for p in pairs)
-        out.append("\n" + _doc(f.doc) + f"function {f.name}({', '.join(a.name for a in f.args)})\n"
-                   f"    return ccall((:{f.name}, libjam), {result_type(f.result)}, ({types}){passed})\nend")
+        out.append(
+            "\n" + _doc(f.doc) + f"function {f.name}({', '.join(a.name for a in f.args)})\n"
+            f"    return ccall((:{f.name}, libjam), {result_type(f.result)}, ({types}){passed})\nend"
+        )
     return "\n".join(out) + "\n"

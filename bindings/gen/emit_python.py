@@ -30,7 +30,8 @@ def _enum_of(member, enums):
 
 def enum_of_argument(f, a, api):
     """An int32_t argument is an enum's when the comment names an enum of the header that ends with the argument's name; `which` is
-    of the one named beside it. A comment that sends to another function sends to its arguments of the same names too."""
+    of the one named beside it. A comment that sends to another function sends to its arguments of the same names too.
+    """
     if a.role != "scalar" or a.type.scalar != "int32_t":
         return None
     words = re.findall(r"jam_\w+", f.doc)
@@ -49,7 +50,11 @@ def enum_of_argument(f, a, api):
 def is_free(f, inits):
     """Functions that need no system and make none: formulas and fits."""
     roles = {a.role for a in f.args}
-    return f.result.base == "jam_status" and f.name not in inits.values() and not roles & {"handle", "new_handle", "callback"}
+    return (
+        f.result.base == "jam_status"
+        and f.name not in inits.values()
+        and not roles & {"handle", "new_handle", "callback"}
+    )
 
 
 def emit(api):
@@ -60,9 +65,9 @@ def emit(api):
         out.append(f"{name} = {value}")
     for e in api.enums:
         names = [n for n, _, _ in e.items]
-        prefix = names[0][:names[0].rindex("_") + 1]
+        prefix = names[0][: names[0].rindex("_") + 1]
         while not all(n.startswith(prefix) for n in names):
-            prefix = prefix[:prefix.rstrip("_").rindex("_") + 1]
+            prefix = prefix[: prefix.rstrip("_").rindex("_") + 1]
         out += ["", "", f"class {camel(e.name)}(IntEnum):", _doc(e.doc)]
         out += [f"    {n[len(prefix):]} = {v}" + (f"  # {d}" if d else "") for n, v, d in e.items]
     for s in api.structs:
@@ -70,15 +75,17 @@ def emit(api):
             continue
         members = [m for m in s.members if m.name not in ("struct_size", "reserved")]
         notes = "\n".join(f"{m.name}: {m.doc}" for m in members)
-        out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}:",
-                _doc(f"{s.doc}\n\n{notes}\n")]
+        out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}:", _doc(f"{s.doc}\n\n{notes}\n")]
         out += [f"    {m.name}: {_enum_of(m, enums) or TYPES[m.type][3]}" for m in members]
     out += ["", "", "# option structs: {C name: {member: (type, meaning)}}", "OPTIONS = {"]
     for s in api.structs:
         if s.name in inits:
             out.append(f'    "{s.name}": {{')
-            out += [f'        "{m.name}": ("{_enum_of(m, enums) or TYPES[m.type][3]}", {m.doc!r}),'
-                    for m in s.members if m.name not in ("struct_size", "reserved")]
+            out += [
+                f'        "{m.name}": ("{_enum_of(m, enums) or TYPES[m.type][3]}", {m.doc!r}),'
+                for m in s.members
+                if m.name not in ("struct_size", "reserved")
+            ]
             out.append("    },")
     out += ["}", "", "# report structs: {C name: dataclass}", "REPORTS = {"]
     out += [f'    "{s.name}": {camel(s.name)},' for s in api.structs if s.name not in inits]
@@ -86,13 +93,22 @@ def emit(api):
     rows = {a.type.base for f in api.functions for a in f.args if a.role == "array_out" and a.type.base not in TYPES}
     for s in api.structs:
         if s.name in rows:
-            out.append(f'    "{s.name}": [' + ", ".join(f'("{m.name}", "{TYPES[m.type][4]}")' for m in s.members) + "],")
-    out += ["}", "", "# calls: {C name: (on a system, ((argument, role, C type), ...))}; an enum stands for the C type of its values", "CALLS = {"]
+            out.append(
+                f'    "{s.name}": [' + ", ".join(f'("{m.name}", "{TYPES[m.type][4]}")' for m in s.members) + "],"
+            )
+    out += [
+        "}",
+        "",
+        "# calls: {C name: (on a system, ((argument, role, C type), ...))}; an enum stands for the C type of its values",
+        "CALLS = {",
+    ]
     for f in api.functions:
         on_system = bool(f.args) and f.args[0].role == "handle"
         if on_system or is_free(f, inits):
             taken = f.args[1:] if on_system else f.args
-            args = ", ".join(f'("{a.name}", "{a.role}", "{enum_of_argument(f, a, api) or a.type.scalar}")' for a in taken)
+            args = ", ".join(
+                f'("{a.name}", "{a.role}", "{enum_of_argument(f, a, api) or a.type.scalar}")' for a in taken
+            )
             out.append(f'    "{f.name}": ({on_system}, ({args}{"," if len(taken) == 1 else ""})),')
     out.append("}")
     return "\n".join(out) + "\n"

@@ -30,8 +30,8 @@ class HeaderError(Exception):
 
 @dataclass
 class Type:
-    base: str    # "double", "jam_report", "void", ...
-    stars: int   # levels of pointer
+    base: str  # "double", "jam_report", "void", ...
+    stars: int  # levels of pointer
     const: bool  # of what is pointed to (or of the innermost)
 
     @property
@@ -176,8 +176,12 @@ def _comments(text):
     """Doc comments by name: functions and types from the comment above, members and items from the one behind."""
     docs = {}
     comment = r"/\*((?:(?!\*/).)*)\*/\s*"
-    for m in re.finditer(comment + r"(?:JAM_API\s[^;(]*?\b(jam_\w+)\s*\(|typedef (?:struct|enum) (jam_\w+)|"
-                         r"typedef [^;(]*\(\*(jam_\w+)\)|typedef \w+ (jam_\w+);)", text, re.S):
+    for m in re.finditer(
+        comment + r"(?:JAM_API\s[^;(]*?\b(jam_\w+)\s*\(|typedef (?:struct|enum) (jam_\w+)|"
+        r"typedef [^;(]*\(\*(jam_\w+)\)|typedef \w+ (jam_\w+);)",
+        text,
+        re.S,
+    ):
         docs[next(g for g in m.groups()[1:] if g)] = _clean(m.group(1))
     for m in re.finditer(r"typedef (struct|enum) (jam_\w+) \{(.*?)\n\}", text, re.S):
         pattern = r"\b(\w+);" if m.group(1) == "struct" else r"\b(JAM_\w+)\s*=\s*-?\d+,?"
@@ -189,7 +193,9 @@ def _comments(text):
 def read_header(header, swig="swig"):
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "jam.xml"
-        done = subprocess.run([swig, "-xml", "-module", "jam", "-o", str(out), str(header)], capture_output=True, text=True)
+        done = subprocess.run(
+            [swig, "-xml", "-module", "jam", "-o", str(out), str(header)], capture_output=True, text=True
+        )
         if done.returncode or not out.exists():
             raise HeaderError(f"swig -xml failed: {done.stderr}")
         root = ElementTree.parse(out).getroot()
@@ -204,8 +210,13 @@ def read_header(header, swig="swig"):
             api.constants.append((name, int(a["value"])))
         elif node.tag == "enum":
             items = [_attributes(i) for i in node.findall("enumitem")]
-            api.enums.append(Enum(name, [(i["name"], int(i["enumvalue"]), docs.get((name, i["name"]), "")) for i in items],
-                                  docs.get(name, "")))
+            api.enums.append(
+                Enum(
+                    name,
+                    [(i["name"], int(i["enumvalue"]), docs.get((name, i["name"]), "")) for i in items],
+                    docs.get(name, ""),
+                )
+            )
         elif node.tag == "class" and name.startswith("jam_"):
             members = []
             for m in node.iter("cdecl"):
@@ -213,14 +224,21 @@ def read_header(header, swig="swig"):
                 if b.get("kind") != "variable":
                     continue
                 if b["type"] not in TYPES or b.get("decl"):
-                    raise HeaderError(f"{name}.{b['name']}: members are flat and of fixed width, not {b.get('decl')}{b['type']}")
+                    raise HeaderError(
+                        f"{name}.{b['name']}: members are flat and of fixed width, not {b.get('decl')}{b['type']}"
+                    )
                 members.append(Member(b["name"], b["type"], doc=docs.get((name, b["name"]), "")))
             struct = Struct(name, members, doc=docs.get(name, ""))
             _layout(struct)
             api.structs.append(struct)
         elif node.tag == "cdecl" and a.get("kind") == "typedef" and a.get("decl", "").startswith("p.f("):
             api.callbacks.append(Callback(name, parse_type(a["type"]), list(_parms(node)), docs.get(name, "")))
-        elif node.tag == "cdecl" and a.get("kind") == "typedef" and a.get("decl") == "" and parse_type(a["type"]).base.startswith("p.f("):
+        elif (
+            node.tag == "cdecl"
+            and a.get("kind") == "typedef"
+            and a.get("decl") == ""
+            and parse_type(a["type"]).base.startswith("p.f(")
+        ):
             raise HeaderError(f"callback typedef {name} not understood")
         elif node.tag == "cdecl" and a.get("kind") == "function" and name.startswith("jam_"):
             stars = a["decl"].rsplit(").", 1)[1].count("p.")
@@ -229,8 +247,14 @@ def read_header(header, swig="swig"):
     callbacks, structs = {c.name for c in api.callbacks}, {s.name for s in api.structs}
     for f in api.functions:
         classify(f.args, callbacks, structs)
-    lower = [n.lower() for n in [c[0] for c in api.constants] + [i[0] for e in api.enums for i in e.items]
-             + [s.name for s in api.structs] + [f.name for f in api.functions] + [c.name for c in api.callbacks]]
+    lower = [
+        n.lower()
+        for n in [c[0] for c in api.constants]
+        + [i[0] for e in api.enums for i in e.items]
+        + [s.name for s in api.structs]
+        + [f.name for f in api.functions]
+        + [c.name for c in api.callbacks]
+    ]
     twice = {n for n in lower if lower.count(n) > 1}
     if twice:
         raise HeaderError(f"names that Fortran cannot tell apart: {sorted(twice)}")

@@ -135,11 +135,12 @@
   }
   ~jam_crunch_options() { free($self); }
 }
-%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
-(Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
-and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
-its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
-progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1"
+%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
+CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others,
+sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
+zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
+every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
+jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1"
 %extend jam_report {
   jam_report() {
     jam_report *made = (jam_report *)calloc(1, sizeof *made);
@@ -278,38 +279,38 @@ JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) u
 or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
 none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
 that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
-with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
-alone. @since 0.1"
-%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
-or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
-goes on from it makes the same bits as one that never stopped there. Threads: const.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
-%feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
-JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
+JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
+ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+Threads: alone. @since 0.1"
+%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
+stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
+renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
+damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
-Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
-present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
-Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
+dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
+show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
+it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_observe_stop "Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_observed_series "Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
-its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
-length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_observed_spheres "Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
-0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_series "Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
+before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
+NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_observed_spheres "Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_observed_pairs "Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
-sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
-be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_gaps "Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
-h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
-0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
+may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_gaps "Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_observed_correlation "g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
 Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_eos "pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
@@ -323,55 +324,61 @@ Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMM
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_crunch_estimate "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
-JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
+%feature("docstring") jam_crunch_estimate "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
+same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
 %feature("docstring") jam_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
-same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_step_displacements "The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
-only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
-from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
-no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"
+%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
+from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+@since 0.1"
+%feature("docstring") jam_crunch_step_displacements "The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
+and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
+followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
+%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
+steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"
 %feature("docstring") jam_crunch_step_vectors "r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1"
 %feature("docstring") jam_crunch_step_duals "Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1"
+sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
+0.1"
 %feature("docstring") jam_contacts "Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
-%feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_contact_gaps "Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of the weakest
-may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
+%feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
+0.1"
+%feature("docstring") jam_contact_gaps "Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
+the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
 Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
-needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
-Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state
+of self-stress needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's.
+Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_coordination "Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_hessian_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_modes_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_hessian_map "The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
 Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_hessian "Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
-Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1"
+Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
+0.1"
 %feature("docstring") jam_modes "Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
 participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
 is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_geometry_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
-Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
-null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one state of self-stress,
-more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several states of self-stress: the
-non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces, or no contacts). Errors: JAM_E_NULL,
-JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_contact_candidates "Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
-enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
-gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
-Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_stress_states "States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
-from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
-Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
-of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
+moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
+are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
+state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
+states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
+or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
+Threads: alone. @since 0.1"
+%feature("docstring") jam_contact_candidates "Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
+jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
+(m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
+needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_stress_states "States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+(never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
+with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
+= 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
@@ -380,42 +387,44 @@ JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
 *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
 pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
-jam_contacts, JAM_E_ARGUMENT. @since 0.1"
-%feature("docstring") jam_histogram "Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
-there. Threads: const. Errors: as jam_class_values. @since 0.1"
-%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
-diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
+Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1"
+%feature("docstring") jam_histogram "Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
+values there. Threads: const. Errors: as jam_class_values. @since 0.1"
+%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
+mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
+@since 0.1"
 %feature("docstring") jam_structure_factor "S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
 No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
 Threads: alone. @since 0.1"
-%feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
-(1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"
+%feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
+3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"
 %feature("docstring") jam_crystal_score "Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
 about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
-JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
-%feature("docstring") jam_floppy_mode "Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
-common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
+JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
+%feature("docstring") jam_floppy_mode "Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
+a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
 (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
-%feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
-order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
-are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F). Arrays may be
-NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
+%feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
+localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
+at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
+second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
+force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
+jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
-omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
-well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-JAM_E_TOO_FEW. Threads: alone. @since 0.1"
-%feature("docstring") jam_cumulative_spectrum "Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
-error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1"
-%feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
-modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
+%feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
+computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
+`points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
+is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
+Threads: alone. @since 0.1"
+%feature("docstring") jam_cumulative_spectrum "Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
+standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1"
+%feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
+all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
-%feature("docstring") jam_moduli_get "Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
-unstable. Threads: alone. @since 0.1"
-%feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
-nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+%feature("docstring") jam_moduli_get "Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
+the network unstable. Threads: alone. @since 0.1"
+%feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
+other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
 Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"

@@ -22,17 +22,20 @@ int main(int argc, char **argv) {
   if (jam_read(argv[1], NULL, &sys) < 0) return failed(sys); /* plain text or extended XYZ; the text names a bad line */
   info.struct_size = sizeof info;
   jam_info_get(sys, &info);
-  printf("%s: %lld spheres in d = %d, packing fraction %.6f\n", argv[1], (long long)info.n, (int)info.dim, info.packing_fraction);
+  printf("%s: %lld spheres in d = %d, packing fraction %.6f\n", argv[1], (long long)info.n, (int)info.dim,
+         info.packing_fraction);
 
   jam_crunch_options_init(&o, sizeof o);
   o.wall_time = 600; /* seconds; what was reached by then is kept */
   r.struct_size = sizeof r;
   status = jam_crunch(sys, &o, &r);
   if (status < 0) return failed(sys);
-  printf("%s (%s): packing fraction %.12f\n", jam_status_string(status), jam_stop_string(r.stop_reason), r.packing_fraction);
-  printf("%lld contacts, %lld more than one state of self-stress needs, %lld rattlers, %lld bucklers\n", (long long)r.contacts,
-         (long long)r.excess_contacts, (long long)r.rattlers, (long long)r.bucklers);
-  printf("certificate: overlap %.1e, force imbalance %.1e, smallest gap %.1e\n", r.max_overlap, r.force_residual, r.min_gap);
+  printf("%s (%s): packing fraction %.12f\n", jam_status_string(status), jam_stop_string(r.stop_reason),
+         r.packing_fraction);
+  printf("%lld contacts, %lld more than one state of self-stress needs, %lld rattlers, %lld bucklers\n",
+         (long long)r.contacts, (long long)r.excess_contacts, (long long)r.rattlers, (long long)r.bucklers);
+  printf("certificate: overlap %.1e, force imbalance %.1e, smallest gap %.1e\n", r.max_overlap, r.force_residual,
+         r.min_gap);
   if (jam_write(sys, argv[2], JAM_FORMAT_AUTO) < 0) return failed(sys);
   jam_destroy(sys);
   return !r.jammed;

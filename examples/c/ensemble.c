@@ -1,5 +1,5 @@
-/* Many seeds on two threads, one system each: a handle belongs to one thread at a time, different handles are independent.
- * Build: cc ensemble.c $(pkg-config --cflags --libs jam) -pthread -lm */
+/* Many seeds on two threads, one system each: a handle belongs to one thread at a time, different handles are
+ * independent. Build: cc ensemble.c $(pkg-config --cflags --libs jam) -pthread -lm */
 #include <jam/jam.h>
 #include <math.h>
 #include <pthread.h>
@@ -24,7 +24,8 @@ static void pack(int64_t seed) {
   grow.growth_rate = 3e-2;
   grow.pressure = 1e4;
   report.struct_size = sizeof report;
-  if (jam_create(&create, NULL, 0, size, N, &sys) < 0 || jam_compress(sys, &grow, NULL) < 0 || jam_crunch(sys, NULL, &report) < 0)
+  if (jam_create(&create, NULL, 0, size, N, &sys) < 0 || jam_compress(sys, &grow, NULL) < 0 ||
+      jam_crunch(sys, NULL, &report) < 0)
     fprintf(stderr, "seed %lld: %s\n", (long long)seed, jam_last_error()); /* the text is this thread's own */
   else if (report.jammed)
     phi[seed - 1] = report.packing_fraction;

@@ -14,7 +14,8 @@ int main(void) {
   jam_create_options_init(&o, sizeof o);
   o.n = 128;
   o.dim = d;
-  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0 || jam_compress(sys, NULL, NULL) < 0 || jam_crunch(sys, NULL, NULL) < 0) {
+  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0 || jam_compress(sys, NULL, NULL) < 0 ||
+      jam_crunch(sys, NULL, NULL) < 0) {
     fprintf(stderr, "%s\n", jam_last_error());
     jam_destroy(sys);
     return 1;
@@ -27,8 +28,8 @@ int main(void) {
   n = malloc((vectors + 1) * sizeof *n);
   f = malloc((contacts + 1) * sizeof *f);
   sum = calloc((size_t)(o.n * d), sizeof *sum);
-  if (!pair || !n || !f || !sum || jam_contacts(sys, pair, pairs, NULL) < 0 || jam_contact_vectors(sys, n, vectors, NULL) < 0 ||
-      jam_forces(sys, f, contacts, NULL) < 0)
+  if (!pair || !n || !f || !sum || jam_contacts(sys, pair, pairs, NULL) < 0 ||
+      jam_contact_vectors(sys, n, vectors, NULL) < 0 || jam_forces(sys, f, contacts, NULL) < 0)
     return 1;
   for (k = 0; k < contacts; ++k)
     for (c = 0; c < d; ++c) { /* n points from j to i: i is pushed along it, j against it */

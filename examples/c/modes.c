@@ -35,7 +35,8 @@ int main(void) {
 
   moduli.struct_size = sizeof moduli;
   if (jam_moduli_get(sys, NULL, &moduli) < 0) return failed(sys);
-  printf("bulk modulus %.4f (%.4f were all displacements affine), shear modulus %.4f\n", moduli.bulk, moduli.bulk_affine, moduli.shear);
+  printf("bulk modulus %.4f (%.4f were all displacements affine), shear modulus %.4f\n", moduli.bulk,
+         moduli.bulk_affine, moduli.shear);
   jam_destroy(sys);
   return m == K && lambda[0] > 0 ? 0 : 1;
 }

@@ -1,4 +1,5 @@
-/* A picture of a two-dimensional packing and its forces as SVG, which every browser shows.  usage: picture [PICTURE.svg] */
+/* A picture of a two-dimensional packing and its forces as SVG, which every browser shows.  usage: picture
+ * [PICTURE.svg] */
 #include <jam/jam.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,14 +40,18 @@ int main(int argc, char **argv) {
   fprintf(svg, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\" width=\"800\" height=\"800\">\n");
   for (side = -1; side <= 1; ++side) /* the box is periodic: copies on all sides, cut at its edge */
     for (up = -1; up <= 1; ++up) {
-      fprintf(svg, "<g transform=\"translate(%d %d)\" stroke=\"black\" stroke-linecap=\"round\">\n", (int)side, (int)up);
+      fprintf(svg, "<g transform=\"translate(%d %d)\" stroke=\"black\" stroke-linecap=\"round\">\n", (int)side,
+              (int)up);
       for (k = 0; k < N; ++k) /* orange: bucklers, grey: rattlers */
-        fprintf(svg, "<circle cx=\"%.6f\" cy=\"%.6f\" r=\"%.6f\" fill=\"%s\" stroke=\"none\"/>\n", x[2 * k], x[2 * k + 1], sigma[k] / 2,
-                z[k] == 0 ? "#c8c8c8" : z[k] == 3 ? "#f2a541" : "#4c78a8");
+        fprintf(svg, "<circle cx=\"%.6f\" cy=\"%.6f\" r=\"%.6f\" fill=\"%s\" stroke=\"none\"/>\n", x[2 * k],
+                x[2 * k + 1], sigma[k] / 2,
+                z[k] == 0   ? "#c8c8c8"
+                : z[k] == 3 ? "#f2a541"
+                            : "#4c78a8");
       for (k = 0; k < contacts; ++k) { /* from the first centre to the second; n points the other way */
         const double *a = x + 2 * pair[2 * k], r = (sigma[pair[2 * k]] + sigma[pair[2 * k + 1]]) / 2;
-        fprintf(svg, "<path d=\"M%.6f %.6f l%.6f %.6f\" stroke-width=\"%.5f\"/>\n", a[0], a[1], -r * n[2 * k], -r * n[2 * k + 1],
-                0.004 * f[k]);
+        fprintf(svg, "<path d=\"M%.6f %.6f l%.6f %.6f\" stroke-width=\"%.5f\"/>\n", a[0], a[1], -r * n[2 * k],
+                -r * n[2 * k + 1], 0.004 * f[k]);
       }
       fprintf(svg, "</g>\n");
     }

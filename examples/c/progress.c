@@ -5,7 +5,8 @@
 /* Called on this thread, at most every 0.05 s. A result other than 0 stops the call. */
 static int32_t watch(const jam_progress *p, void *user) {
   double *enough = user;
-  if (p->phase == JAM_PHASE_COMPRESS) printf("growing: packing fraction %.4f, p %.3g, %.2f s\n", p->packing_fraction, p->pressure, p->seconds);
+  if (p->phase == JAM_PHASE_COMPRESS)
+    printf("growing: packing fraction %.4f, p %.3g, %.2f s\n", p->packing_fraction, p->pressure, p->seconds);
   if (p->phase == JAM_PHASE_CRUNCH) printf("crunching: LP %lld, gain %.1e\n", (long long)p->steps, p->gain);
   return p->packing_fraction > *enough;
 }
@@ -29,7 +30,8 @@ int main(void) {
   enough = 2.0; /* never */
   if (status >= 0) status = jam_compress(sys, NULL, NULL);
   jam_info_get(sys, &info);
-  printf("second call: %s at packing fraction %.4f, p %.3g\n", jam_status_string(status), info.packing_fraction, info.pressure);
+  printf("second call: %s at packing fraction %.4f, p %.3g\n", jam_status_string(status), info.packing_fraction,
+         info.pressure);
   jam_destroy(sys);
   return status < 0;
 }

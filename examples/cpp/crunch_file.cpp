@@ -11,7 +11,8 @@ int main(int argc, char **argv) try {
   o.wall_time = 600;  // seconds; what was reached by then is kept
   const jam_report r = packing.crunch(o);
   std::printf("phi %.6f -> %.12f, %s, %lld contacts (isostatic %+lld)\n", before.packing_fraction, r.packing_fraction,
-              jam_stop_string(r.stop_reason), static_cast<long long>(r.contacts), static_cast<long long>(r.excess_contacts));
+              jam_stop_string(r.stop_reason), static_cast<long long>(r.contacts),
+              static_cast<long long>(r.excess_contacts));
   std::printf("overlap %.1e, force imbalance %.1e\n", r.max_overlap, r.force_residual);
   packing.write(argv[2]);
   return r.jammed ? 0 : 1;

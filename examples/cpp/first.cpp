@@ -17,8 +17,8 @@ int main() try {
   std::printf("%lld collisions, p = %.3g\n", static_cast<long long>(md.collisions), md.pressure);
 
   const jam_report report = packing.crunch();
-  std::printf("phi_J = %.9f, %lld contacts, %lld rattlers\n", report.packing_fraction, static_cast<long long>(report.contacts),
-              static_cast<long long>(report.rattlers));
+  std::printf("phi_J = %.9f, %lld contacts, %lld rattlers\n", report.packing_fraction,
+              static_cast<long long>(report.contacts), static_cast<long long>(report.rattlers));
   packing.write("first_cpp.xyz");
 
   try {

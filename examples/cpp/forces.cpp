@@ -12,7 +12,7 @@ int main() try {
   packing.compress();
   packing.crunch();
   const std::vector<double> force = packing.forces(), n = packing.contact_vectors();  // mean 1; (contacts, d)
-  const std::vector<std::int32_t> pair = packing.contacts();                           // (contacts, 2)
+  const std::vector<std::int32_t> pair = packing.contacts();                          // (contacts, 2)
   std::vector<double> net(128 * d);
   for (std::size_t k = 0; k < force.size(); ++k)
     for (std::size_t c = 0; c < d; ++c) {  // n points from j to i: i is pushed along it, j against it
@@ -25,8 +25,8 @@ int main() try {
   const auto k = static_cast<std::size_t>(std::max_element(force.begin(), force.end()) - force.begin());
   const jam::View x = packing.positions();  // no copy
   const auto i = static_cast<std::size_t>(pair[2 * k]);
-  std::printf("%zu forces, the strongest %.4f on the sphere at (%.4f, %.4f, %.4f), worst balance %.1e\n", force.size(), force[k],
-              x(i, 0), x(i, 1), x(i, 2), worst);
+  std::printf("%zu forces, the strongest %.4f on the sphere at (%.4f, %.4f, %.4f), worst balance %.1e\n", force.size(),
+              force[k], x(i, 0), x(i, 1), x(i, 2), worst);
   return worst < 1e-8 ? 0 : 1;
 } catch (const std::exception &e) {
   std::fprintf(stderr, "%s\n", e.what());

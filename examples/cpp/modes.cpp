@@ -13,8 +13,10 @@ int main() try {
   o.count = 8;
   std::vector<double> lambda(8), participation(8);
   std::size_t m = 0;
-  jam::check(jam_modes(packing.get(), nullptr, &o, lambda.data(), lambda.size(), nullptr, 0, participation.data(), participation.size(), &m));
-  for (std::size_t k = 0; k < m; ++k) std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(lambda[k], 0)), participation[k]);
+  jam::check(jam_modes(packing.get(), nullptr, &o, lambda.data(), lambda.size(), nullptr, 0, participation.data(),
+                       participation.size(), &m));
+  for (std::size_t k = 0; k < m; ++k)
+    std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(lambda[k], 0)), participation[k]);
 
   jam_moduli moduli = jam::report<jam_moduli>();
   jam::check(jam_moduli_get(packing.get(), nullptr, &moduli));

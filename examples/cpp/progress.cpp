@@ -10,7 +10,8 @@ int main() try {
   jam::System packing = jam::System::random(500, 3, 1);
   int reports = 0;
   packing.on_progress([&](const jam_progress &p) {
-    std::printf("  LP or step %lld, phi %.6f, gain %.1e\n", static_cast<long long>(p.steps), p.packing_fraction, p.gain);
+    std::printf("  LP or step %lld, phi %.6f, gain %.1e\n", static_cast<long long>(p.steps), p.packing_fraction,
+                p.gain);
     return ++reports == 3;  // true stops the call; the state reached is valid
   });
   packing.crunch();

@@ -22,7 +22,9 @@ if __name__ == "__main__":
     with ProcessPoolExecutor() as pool:
         packings = [p for p in pool.map(make, seeds) if p.report.jammed]
     phi = np.array([p.packing_fraction for p in packings])
-    print(f"{len(packings)} of {len(seeds)} jammed; phi_J = {phi.mean():.5f} +- {phi.std(ddof=1) / np.sqrt(len(phi)):.5f}")
+    print(
+        f"{len(packings)} of {len(seeds)} jammed; phi_J = {phi.mean():.5f} +- {phi.std(ddof=1) / np.sqrt(len(phi)):.5f}"
+    )
     forces = np.concatenate([p.forces for p in packings])
     print(f"{len(forces)} forces, mean {forces.mean():.6f}, smallest {forces.min():.2e}")
     if len(sys.argv) > 2:

@@ -13,6 +13,6 @@ print(report)
 if not report.jammed:
     sys.exit("not jammed: " + report.stop_reason.name.lower())
 
-packing.write("packing.xyz")                                # for OVITO and ASE
-jam.files.write_vtk_network(packing, "forces.vtp")          # for ParaView
+packing.write("packing.xyz")  # for OVITO and ASE
+jam.files.write_vtk_network(packing, "forces.vtp")  # for ParaView
 jam.plot.packing(packing, forces=True).figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "packing.png", dpi=150)

@@ -18,7 +18,9 @@ u = modes.vectors[0].reshape(-1)  # (N', d): displacements of the stable spheres
 assert abs(u @ hessian @ u / modes.values[0] - 1) < 1e-6
 
 moduli = packing.moduli()
-print(f"bulk modulus {moduli.bulk:.4f} ({moduli.bulk_affine:.4f} were all displacements affine), shear modulus {moduli.shear:.4f}")
+print(
+    f"bulk modulus {moduli.bulk:.4f} ({moduli.bulk_affine:.4f} were all displacements affine), shear modulus {moduli.shear:.4f}"
+)
 
 if len(sys.argv) > 1:
     every = packing.modes(which="all")

@@ -12,11 +12,11 @@ packing.crunch()
 figure = Figure(figsize=(11, 5.4), layout="constrained")
 left, right = figure.subplots(1, 2)
 jam.plot.packing(packing, left, forces=True)  # disks; bucklers and rattlers coloured, forces over them
-jam.plot.network(packing, right)              # the force network alone, width by force
+jam.plot.network(packing, right)  # the force network alone, width by force
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "picture.png", dpi=120)
 
-packing.write("picture.xyz")                            # OVITO, ASE
-jam.files.write_vtk(packing, "picture.vtp")             # ParaView: filter Glyph, sphere, scale by diameter
+packing.write("picture.xyz")  # OVITO, ASE
+jam.files.write_vtk(packing, "picture.vtp")  # ParaView: filter Glyph, sphere, scale by diameter
 jam.files.write_vtk_network(packing, "picture-forces.vtp")  # filter Tube, vary radius by force
-jam.files.write_csv(packing, "picture.csv")             # spreadsheets
+jam.files.write_csv(packing, "picture.csv")  # spreadsheets
 print(packing.report)

@@ -36,7 +36,10 @@ def main(picture, n=500, seeds=4):
     print("|---|---|---|---|")
     for k, rate in enumerate((1e-2, 1e-3, 3e-4, 1e-4)):
         runs = [grown(n, seed, rate) for seed in range(1, seeds + 1)]
-        print(f"| {rate:g} | {', '.join(f'{r[0]:.2f}' for r in runs)} | {', '.join(f'{r[1]:.4f}' for r in runs)} | {np.mean([r[4] for r in runs]):.1f} |", flush=True)
+        print(
+            f"| {rate:g} | {', '.join(f'{r[0]:.2f}' for r in runs)} | {', '.join(f'{r[1]:.4f}' for r in runs)} | {np.mean([r[4] for r in runs]):.1f} |",
+            flush=True,
+        )
         axes.plot(runs[0][2], np.mean([r[3] for r in runs], axis=0) + 2 * k, lw=1, label=f"G = {rate:g}")
     for x, name in ((2**0.5, "$\\sqrt{2}$"), (3**0.5, "$\\sqrt{3}$"), (2.0, "2")):
         axes.axvline(x, color="k", ls=":", lw=0.8)

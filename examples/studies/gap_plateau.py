@@ -33,12 +33,16 @@ def main(picture, n=1024, collisions=1000.0):
             height = (p - 1) / (4 * packing.packing_fraction)
             middle = np.sqrt(np.maximum(gaps.edge[:-1], gaps.edge[1] / 4) * gaps.edge[1:])
             tail = (middle > 3e3 / target) & (middle < 0.05) & (gaps.density > 0)  # below, pairs with small forces
-            slope = f"{np.polyfit(np.log(middle[tail]), np.log(gaps.density[tail]), 1)[0]:.2f}" if tail.sum() > 5 else ""
-            print(f"| {p:.4g} | {height:.4g} | {gaps.density[0]:.4g}({gaps.error[0]:.1g}) | {gaps.density[0] / height:.3f} | {slope} |")
-            line, = axes.loglog(middle, gaps.density, ".-", ms=4, label=f"p = {target:g}")
+            slope = (
+                f"{np.polyfit(np.log(middle[tail]), np.log(gaps.density[tail]), 1)[0]:.2f}" if tail.sum() > 5 else ""
+            )
+            print(
+                f"| {p:.4g} | {height:.4g} | {gaps.density[0]:.4g}({gaps.error[0]:.1g}) | {gaps.density[0] / height:.3f} | {slope} |"
+            )
+            (line,) = axes.loglog(middle, gaps.density, ".-", ms=4, label=f"p = {target:g}")
             axes.axhline(height, color=line.get_color(), ls=":", lw=1)
     h = np.logspace(-7, -1.3, 20)
-    axes.loglog(h, 0.42 * h ** -0.41269, "k--", lw=1, label="slope -0.413")
+    axes.loglog(h, 0.42 * h**-0.41269, "k--", lw=1, label="slope -0.413")
     axes.set_xlabel("gap h")
     axes.set_ylabel("pairs over those of an ideal gas")
     axes.legend(fontsize=8)

@@ -26,8 +26,11 @@ import numpy as np  # noqa: E402
 import jam  # noqa: E402
 
 PUBLISHED = {  # kappa: (phi_J of the fit, from 1e3, from 1e5, standard error)
-    3e-4: (0.64223, 0.64212, 0.64223, 0.00019), 1e-4: (0.64255, 0.64252, 0.64255, 0.00021),
-    3e-5: (0.64291, 0.64288, 0.64291, 0.00024), 1e-5: (0.64301, 0.64299, 0.64301, 0.00023)}
+    3e-4: (0.64223, 0.64212, 0.64223, 0.00019),
+    1e-4: (0.64255, 0.64252, 0.64255, 0.00021),
+    3e-5: (0.64291, 0.64288, 0.64291, 0.00024),
+    1e-5: (0.64301, 0.64299, 0.64301, 0.00023),
+}
 TO_KAPPA = 1.0 / (2.0 * math.sqrt(3.0))
 ORDERED = 1.0  # jam_crystal_score above this: not a glass, and left out
 
@@ -36,8 +39,14 @@ def crunched(packing):
     with packing.copy() as copy:
         begin = time.process_time()
         report = copy.crunch()
-        return {"phi": report.packing_fraction, "excess": report.excess_contacts, "lps": report.lp_solves, "jammed": report.jammed,
-                "rattlers": report.rattlers, "seconds": round(time.process_time() - begin, 2)}
+        return {
+            "phi": report.packing_fraction,
+            "excess": report.excess_contacts,
+            "lps": report.lp_solves,
+            "jammed": report.jammed,
+            "rattlers": report.rattlers,
+            "seconds": round(time.process_time() - begin, 2),
+        }
 
 
 def one(n, seed, rate):
@@ -55,7 +64,12 @@ def one(n, seed, rate):
             p.append(md.pressure), phi.append(md.packing_fraction)
         fit = jam.raw.jam_glass()
         jam.raw.jam_glass_fit(np.array(phi), np.array(p), fit)
-        row["fit"] = {"phi": fit.jammed_fraction, "error": fit.jammed_error, "dimension": fit.dimension, "r2": fit.r_squared}
+        row["fit"] = {
+            "phi": fit.jammed_fraction,
+            "error": fit.jammed_error,
+            "dimension": fit.dimension,
+            "r2": fit.r_squared,
+        }
         row["score"] = packing.crystal_score()
     row["seconds"] = round(time.process_time() - begin, 2)
     return row
@@ -82,7 +96,9 @@ def draw(path, picture):
     every = [json.loads(line) for line in open(path)]
     rows = [r for r in every if r["score"] < ORDERED]
     print(f"{len(every)} runs, {len(every) - len(rows)} ordered ones left out; mean(standard error)")
-    print("| G | kappa | seeds | MD fit | crunch from 1e3 | from 1e5 | fit - crunch 1e5 | d_fit/3 | LPs | s a run | published fit, 1e3, 1e5 |")
+    print(
+        "| G | kappa | seeds | MD fit | crunch from 1e3 | from 1e5 | fit - crunch 1e5 | d_fit/3 | LPs | s a run | published fit, 1e3, 1e5 |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     points = {"fit": [], "from 1e3": [], "from 1e5": []}
     for rate in sorted({r["rate"] for r in rows}, reverse=True):
@@ -94,16 +110,26 @@ def draw(path, picture):
         told = "{:.5f}, {:.5f}, {:.5f} ({:.5f})".format(*known) if known else ""
         value = lambda x: f"{x[0]:.5f}({x[1]:.5f})"
         difference = mean([r["fit"]["phi"] - r["from 1e5"]["phi"] for r in line])
-        print(f"| {rate:.3g} | {kappa:.3g} | {len(line)} | {value(found['fit'])} | {value(found['from 1e3'])} | {value(found['from 1e5'])} | "
-              f"{difference[0]:+.1e}({difference[1]:.0e}) | {np.mean([r['fit']['dimension'] for r in line]) / 3:.3f} | "
-              f"{np.mean([r['from 1e5']['lps'] for r in line]):.1f} | {np.mean([r['seconds'] for r in line]):.0f} | {told} |")
+        print(
+            f"| {rate:.3g} | {kappa:.3g} | {len(line)} | {value(found['fit'])} | {value(found['from 1e3'])} | {value(found['from 1e5'])} | "
+            f"{difference[0]:+.1e}({difference[1]:.0e}) | {np.mean([r['fit']['dimension'] for r in line]) / 3:.3f} | "
+            f"{np.mean([r['from 1e5']['lps'] for r in line]):.1f} | {np.mean([r['seconds'] for r in line]):.0f} | {told} |"
+        )
     plt.figure(figsize=(6.4, 4.4))
     for shift, (name, marker) in enumerate((("fit", "o"), ("from 1e3", "s"), ("from 1e5", "^"))):
         x, y, e = np.array(points[name]).T
         label = "fit of the glass branch" if name == "fit" else "crunch " + name.replace("1e", "p = 1e")
-        plt.errorbar(x * 1.04 ** shift, y, yerr=e, fmt=marker, capsize=3, label=label)
+        plt.errorbar(x * 1.04**shift, y, yerr=e, fmt=marker, capsize=3, label=label)
     x = np.array(sorted(PUBLISHED))
-    plt.errorbar(x / 1.06, [PUBLISHED[k][0] for k in x], yerr=[PUBLISHED[k][3] for k in x], fmt="x", color="grey", capsize=3, label="published fit")
+    plt.errorbar(
+        x / 1.06,
+        [PUBLISHED[k][0] for k in x],
+        yerr=[PUBLISHED[k][3] for k in x],
+        fmt="x",
+        color="grey",
+        capsize=3,
+        label="published fit",
+    )
     plt.xscale("log")
     plt.xlabel("growth rate in the published unit, G / 3.46")
     plt.ylabel("packing fraction at jamming")

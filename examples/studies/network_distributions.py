@@ -21,8 +21,13 @@ import jam  # noqa: E402
 import tail_exponents as tail  # noqa: E402
 
 LOCALISED, SMALLEST = 1, 2  # flags of jam_contact_classes
-EXPECTED = {"extended forces": 0.42311, "localised forces": 0.17462, "gaps": -0.41269, "frequencies": 0.0,
-            "smallest forces": 0.17462}  # of each sphere: the second criterion for localised ones
+EXPECTED = {
+    "extended forces": 0.42311,
+    "localised forces": 0.17462,
+    "gaps": -0.41269,
+    "frequencies": 0.0,
+    "smallest forces": 0.17462,
+}  # of each sphere: the second criterion for localised ones
 WITH_MODES, MOST_SPHERES = 20, 1500  # packings whose full spectrum is computed, none of them larger
 DOT_BINS = np.linspace(-1, 1, 121)
 
@@ -32,11 +37,16 @@ def measure(path, with_modes):
     with jam.System.read(path) as packing:
         found = packing.contacts_from_geometry()
         if found.excess_contacts != 0 or packing.status != 0:
-            print(f"{path}: {found.excess_contacts} excess contacts, status {packing.status}: left out", file=sys.stderr)
+            print(
+                f"{path}: {found.excess_contacts} excess contacts, status {packing.status}: left out", file=sys.stderr
+            )
             return None
         force, flags = packing.forces, packing.contact_classes()
-        classes = {"extended forces": (flags & LOCALISED) == 0, "localised forces": (flags & LOCALISED) != 0,
-                   "smallest forces": (flags & SMALLEST) != 0}
+        classes = {
+            "extended forces": (flags & LOCALISED) == 0,
+            "localised forces": (flags & LOCALISED) != 0,
+            "smallest forces": (flags & SMALLEST) != 0,
+        }
         dots, z = packing.contact_dots(weighted=0), packing.coordination
         out = {
             **{name: force[which] / force[which].mean() for name, which in classes.items()},
@@ -66,8 +76,10 @@ def draw_cdf(axis, values, name, result):
     shown = np.unique(np.geomspace(1, len(pooled), 400).astype(int)) - 1
     axis.loglog(pooled[shown], cdf[shown], ".", markersize=3, label=name)
     x, at = np.geomspace(result["low"], result["high"], 50), np.searchsorted(pooled, result["low"])
-    for a, style, text in ((result["exponent"], "-", f"fit: 1 + a = {1 + result['exponent']:.3f} ± {result['error']:.3f}"),
-                           (EXPECTED[name], "--", f"expected {1 + EXPECTED[name]:.3f}")):
+    for a, style, text in (
+        (result["exponent"], "-", f"fit: 1 + a = {1 + result['exponent']:.3f} ± {result['error']:.3f}"),
+        (EXPECTED[name], "--", f"expected {1 + EXPECTED[name]:.3f}"),
+    ):
         axis.plot(x, cdf[at] * (x / pooled[at]) ** (1 + a), style, linewidth=1.5, label=text)
     axis.axvspan(result["low"], result["high"], color="0.92", zorder=0)
     axis.set(xlabel={"gaps": "h", "frequencies": "omega"}.get(name, "f"), ylabel="cumulative distribution")
@@ -77,7 +89,13 @@ def draw_cdf(axis, values, name, result):
 def draw_drift(axis, values, name, result, spheres, floor):
     high, a = tail.apparent(values, spheres, floor)
     axis.semilogx(high, a, "o-", markersize=3, label="power law alone, up to x")
-    axis.axhspan(result["exponent"] - result["error"], result["exponent"] + result["error"], color="C1", alpha=0.25, label="with corrections, all ranges")
+    axis.axhspan(
+        result["exponent"] - result["error"],
+        result["exponent"] + result["error"],
+        color="C1",
+        alpha=0.25,
+        label="with corrections, all ranges",
+    )
     axis.axhline(EXPECTED[name], color="gray", linestyle="--", label="expected")
     axis.set(xlabel="upper end x of the range", ylabel=f"exponent of the density, {name}")
     axis.legend(fontsize=8)
@@ -121,15 +139,20 @@ def main():
         if name not in samples[0]:
             continue
         values, r, floor = fit(samples, name)
-        print(f"{name:18} {r['low']:9.2e} .. {r['high']:7.3g} {r['count']:7d} {r['exponent']:9.4f} {r['error']:7.4f} {EXPECTED[name]:9.4f}"
-              f" {abs(r['exponent'] - EXPECTED[name]) / r['error']:7.1f}", flush=True)
+        print(
+            f"{name:18} {r['low']:9.2e} .. {r['high']:7.3g} {r['count']:7d} {r['exponent']:9.4f} {r['error']:7.4f} {EXPECTED[name]:9.4f}"
+            f" {abs(r['exponent'] - EXPECTED[name]) / r['error']:7.1f}",
+            flush=True,
+        )
         if k < 4:
             draw_cdf(axes[0, k] if k < 3 else axes[2, 0], values, name, r)
         if k < 3:
             draw_drift(axes[1, k], values, name, r, samples[0]["spheres"], floor)
     draw_dots(axes[2, 1], samples)
     draw_sums(axes[2, 2], samples)
-    figure.suptitle(f"{len(samples)} packings; grey: from the end of finite size to the weighted mean of the upper ends")
+    figure.suptitle(
+        f"{len(samples)} packings; grey: from the end of finite size to the weighted mean of the upper ends"
+    )
     figure.tight_layout()
     figure.savefig(sys.argv[1], dpi=80)
 

@@ -38,7 +38,9 @@ def draw(axis, packing, map_, contact, field, title):
 def single_state(n, seed):
     """A packing with one state of self-stress, from the first seed that gives one."""
     for k in range(seed, seed + 20):
-        packing = jam.System.random(n=n, dim=2, seed=k, packing_fraction=0.4, diameters=np.where(np.arange(n) % 2, 1.4, 1.0))
+        packing = jam.System.random(
+            n=n, dim=2, seed=k, packing_fraction=0.4, diameters=np.where(np.arange(n) % 2, 1.4, 1.0)
+        )
         packing.compress(growth_rate=1e-2, pressure=1e4)
         excess = packing.crunch().excess_contacts
         if excess == 0:
@@ -56,7 +58,9 @@ def main():
     force, local = packing.forces, (packing.contact_classes() & 1) != 0
     modes, map_ = packing.floppy_modes(), packing.hessian_map()
     b = modes.median * np.sqrt(len(map_))
-    print(f"N' = {len(map_)}: median b sqrt(N') of {local.sum()} localised contacts {np.median(b[local]):.3f}, of {(~local).sum()} extended {np.median(b[~local]):.3f}")
+    print(
+        f"N' = {len(map_)}: median b sqrt(N') of {local.sum()} localised contacts {np.median(b[local]):.3f}, of {(~local).sum()} extended {np.median(b[~local]):.3f}"
+    )
     # Of the most localised fiftieth and of the most extended tenth, the two contacts that are closest in force.
     ones = np.flatnonzero(local & (b <= np.quantile(b, 0.02)))
     twos = np.flatnonzero(~local & (b >= np.quantile(b, 0.9)))

@@ -22,7 +22,12 @@ import sys
 import numpy as np
 
 POWERS = (0.5, 1.0, 2.0)
-GAP_POWERS = (0.25, 0.5, 1.0, 2.0)  # a constant background beside h^-0.41 is a correction h^0.41, below the reach of 1/2
+GAP_POWERS = (
+    0.25,
+    0.5,
+    1.0,
+    2.0,
+)  # a constant background beside h^-0.41 is a correction h^0.41, below the reach of 1/2
 FLOOR, GAP_FLOOR = 3.0, 10.0  # gaps feel the finite size far more than forces
 PER_DECADE, LEAST_BINS = 6, 9
 
@@ -68,7 +73,9 @@ def bins_of(samples, spheres, floor):
     edges = 10.0 ** (np.arange(-int(np.ceil(-np.log10(low) * PER_DECADE)), 1) / PER_DECADE)
     edges[0] = low
     if len(edges) < LEAST_BINS + 2:  # two upper ends to average over
-        raise ValueError(f"finite size ends at {low:.2g} only, which leaves no range below 1: larger packings are needed")
+        raise ValueError(
+            f"finite size ends at {low:.2g} only, which leaves no range below 1: larger packings are needed"
+        )
     return edges, np.array([np.histogram(s, edges)[0] for s in samples])
 
 
@@ -82,8 +89,16 @@ def fit(samples, spheres, powers=POWERS, floor=FLOOR):
     excess = np.mean(counts.var(axis=0, ddof=1) / counts.mean(axis=0)) if len(samples) > 1 else 1.0
     statistic, spread = np.sqrt(max(1.0, excess) * (weight @ variance)), np.sqrt(weight @ (a - mean) ** 2)
     high = np.exp(weight @ np.log(edges[last]))
-    return {"exponent": mean, "error": np.hypot(statistic, spread), "statistic": statistic, "spread": spread, "low": edges[0], "high": high,
-            "excess": excess, "count": int(total[edges[1:] <= high * 1.000001].sum())}
+    return {
+        "exponent": mean,
+        "error": np.hypot(statistic, spread),
+        "statistic": statistic,
+        "spread": spread,
+        "low": edges[0],
+        "high": high,
+        "excess": excess,
+        "count": int(total[edges[1:] <= high * 1.000001].sum()),
+    }
 
 
 def apparent(samples, spheres, floor=FLOOR):
@@ -91,7 +106,10 @@ def apparent(samples, spheres, floor=FLOOR):
     edges, counts = bins_of(samples, spheres, floor)
     ends = np.arange(4, counts.shape[1] + 1)
     used = (np.arange(counts.shape[1]) < ends[:, None]).astype(float)
-    return edges[ends], likelihood(counts.sum(axis=0).astype(float), np.sqrt(edges[:-1] * edges[1:]), np.diff(edges), used, ())[0]
+    return (
+        edges[ends],
+        likelihood(counts.sum(axis=0).astype(float), np.sqrt(edges[:-1] * edges[1:]), np.diff(edges), used, ())[0],
+    )
 
 
 class Synthetic:
@@ -129,8 +147,12 @@ def families():
         yield f"{kind} weibull", Synthetic(a, n, lambda x, a=a: np.exp(-((0.92 * x) ** (1 + a))), "flat")
         yield f"{kind} gauss", Synthetic(a, n, lambda x: np.exp(-((0.75 * x) ** 2)), "flat")
         yield f"{kind} slow departure", Synthetic(a, n, lambda x: np.exp(-0.7 * x) / (1 + x / 0.4), "flat")
-    uppers = {"law alone": lambda x: 1.0 + 0.0 * x, "exponential": lambda x: np.exp(-3.3 * x), "rising": lambda x: 1 + 0.6 * x**0.71,
-              "constant background": lambda x: 1 + 0.5 * x**0.41}
+    uppers = {
+        "law alone": lambda x: 1.0 + 0.0 * x,
+        "exponential": lambda x: np.exp(-3.3 * x),
+        "rising": lambda x: 1 + 0.6 * x**0.71,
+        "constant background": lambda x: 1 + 0.5 * x**0.41,
+    }
     for name, upper in uppers.items():
         for bend in ("flat", "slow"):
             yield f"gaps {name}, {bend}", Synthetic(gap, 12000, upper, bend, x_max=1.0)
@@ -146,11 +168,21 @@ def main():
         found = []
         for k in range(repeats):
             rng = np.random.default_rng(1000 + k)
-            found.append(fit([law.draw(rng) for _ in range(packings)], 1024, GAP_POWERS if gap else POWERS, GAP_FLOOR if gap else FLOOR))
+            found.append(
+                fit(
+                    [law.draw(rng) for _ in range(packings)],
+                    1024,
+                    GAP_POWERS if gap else POWERS,
+                    GAP_FLOOR if gap else FLOOR,
+                )
+            )
         off, error = np.array([f["exponent"] - law.a for f in found]), np.array([f["error"] for f in found])
         high = np.exp(np.mean([np.log(f["high"]) for f in found]))
-        print(f"{name:42} {off.mean():8.4f} {off.std():8.4f} {error.mean():8.4f} {np.mean(abs(off) < error):6.2f}"
-              f" {np.mean(abs(off) < 2 * error):6.2f} {found[0]['low']:8.1e} .. {high:5.2g}", flush=True)
+        print(
+            f"{name:42} {off.mean():8.4f} {off.std():8.4f} {error.mean():8.4f} {np.mean(abs(off) < error):6.2f}"
+            f" {np.mean(abs(off) < 2 * error):6.2f} {found[0]['low']:8.1e} .. {high:5.2g}",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

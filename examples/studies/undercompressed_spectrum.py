@@ -54,9 +54,12 @@ def network(packing):
     np.subtract.at(s, (rows, packing.dim * node[pairs[:, 1:]] + d), r / length[:, None])
     values = np.linalg.eigvalsh(s.T @ s)
     zero = int((values < 1e-10 * values[-1]).sum())
-    return {"omega": np.sqrt(np.maximum(values[packing.dim:], 0)), "zeros": zero - packing.dim,
-            "excess": len(pairs) - packing.dim * (len(spheres) - 1) - 1,
-            "imbalance": imbalance}
+    return {
+        "omega": np.sqrt(np.maximum(values[packing.dim :], 0)),
+        "zeros": zero - packing.dim,
+        "excess": len(pairs) - packing.dim * (len(spheres) - 1) - 1,
+        "imbalance": imbalance,
+    }
 
 
 def crunch(seed, n, pressure):
@@ -95,8 +98,10 @@ def pool(step):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    n, pressure, packings = (kind(sys.argv[k]) if len(sys.argv) > k else default
-                             for k, kind, default in ((2, int, 256), (3, float, 30.0), (4, int, 5)))
+    n, pressure, packings = (
+        kind(sys.argv[k]) if len(sys.argv) > k else default
+        for k, kind, default in ((2, int, 256), (3, float, 30.0), (4, int, 5))
+    )
     steps = [step for seed in range(1, packings + 1) for step in crunch(seed, n, pressure)]
     groups = {}
     for step in steps:
@@ -107,11 +112,19 @@ def main():
     for (place, name), group in sorted(groups.items(), reverse=True):
         colour = "0.6" if group[0]["held"] else "tab:red" if place == -99 else plt.cm.viridis(min(0.9, -place / 14))
         excess = [g["excess"] for g in group]
-        print(f"{name:>24} {len(group):4d} {np.mean(excess):8.1f} +- {np.std(excess):4.1f} {max(g['imbalance'] for g in group):10.1e}"
-              f" {np.mean([g['zeros'] for g in group]):10.1f}")
+        print(
+            f"{name:>24} {len(group):4d} {np.mean(excess):8.1f} +- {np.std(excess):4.1f} {max(g['imbalance'] for g in group):10.1e}"
+            f" {np.mean([g['zeros'] for g in group]):10.1f}"
+        )
         omega = np.sort(np.concatenate([g["omega"] for g in group]))
         height, _ = np.histogram(omega, bins, density=True)
-        axes[0].step(bins[:-1], height, where="post", color=colour, label=f"√Γ - 1: {name}" if place < 2 and place > -99 else name)
+        axes[0].step(
+            bins[:-1],
+            height,
+            where="post",
+            color=colour,
+            label=f"√Γ - 1: {name}" if place < 2 and place > -99 else name,
+        )
         axes[1].loglog(omega, np.arange(1, len(omega) + 1) / len(omega), color=colour)
     x = np.geomspace(1e-3, 1, 10)
     axes[1].plot(x, 0.3 * x, "k:", label="~ omega: flat D(omega)")

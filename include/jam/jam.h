@@ -56,30 +56,30 @@ typedef int32_t jam_status;
 
 /* All status codes; values are ABI and never reused. @since 0.1 */
 typedef enum jam_status_code {
-  JAM_OK = 0,                /* done: the target was reached */
-  JAM_CANCELLED = 1,         /* jam_cancel or a callback asked to stop */
-  JAM_LIMIT = 2,             /* a limit on work or time came before the target */
-  JAM_NOT_CONVERGED = 3,     /* the method stopped making progress; state is the best so far */
-  JAM_PRECISION = 4,         /* the target lies beyond what the numbers can resolve */
-  JAM_NOT_JAMMED = 5,        /* there is no jammed network to work on */
-  JAM_AMBIGUOUS = 6,         /* the answer is not unique; the text says which was returned */
-  JAM_E_NULL = -1,           /* a pointer that is needed is NULL */
-  JAM_E_STRUCT_SIZE = -2,    /* struct_size is zero or larger than this library knows */
-  JAM_E_ARGUMENT = -3,       /* a value is out of its range */
-  JAM_E_DIMENSION = -4,      /* dim is not in 2..JAM_MAX_DIM */
-  JAM_E_NONFINITE = -5,      /* NaN or infinity where a number is needed */
-  JAM_E_OVERLAP = -6,        /* spheres overlap; the text names the worst pair */
-  JAM_E_UNPLACEABLE = -7,    /* the random start cannot reach the packing fraction */
-  JAM_E_BUFFER = -8,         /* the caller's buffer is too short; *needed says how much */
-  JAM_E_MEMORY = -9,         /* out of memory */
-  JAM_E_IO = -10,            /* a file cannot be opened, read or written */
-  JAM_E_FORMAT = -11,        /* a file does not have the format; the text names the line */
-  JAM_E_STATE = -12,         /* the handle has no such result yet, e.g. forces before crunch */
-  JAM_E_SOLVER = -13,        /* no LP or eigenvalue solver gave an answer that checks out */
-  JAM_E_TOO_FEW = -14,       /* too few spheres for what was asked */
-  JAM_E_BUSY = -15,          /* another call is running on this handle */
-  JAM_E_UNSUPPORTED = -16,   /* not available in this build or for this model */
-  JAM_E_INTERNAL = -17       /* a bug in libjam; please report the text */
+  JAM_OK = 0,              /* done: the target was reached */
+  JAM_CANCELLED = 1,       /* jam_cancel or a callback asked to stop */
+  JAM_LIMIT = 2,           /* a limit on work or time came before the target */
+  JAM_NOT_CONVERGED = 3,   /* the method stopped making progress; state is the best so far */
+  JAM_PRECISION = 4,       /* the target lies beyond what the numbers can resolve */
+  JAM_NOT_JAMMED = 5,      /* there is no jammed network to work on */
+  JAM_AMBIGUOUS = 6,       /* the answer is not unique; the text says which was returned */
+  JAM_E_NULL = -1,         /* a pointer that is needed is NULL */
+  JAM_E_STRUCT_SIZE = -2,  /* struct_size is zero or larger than this library knows */
+  JAM_E_ARGUMENT = -3,     /* a value is out of its range */
+  JAM_E_DIMENSION = -4,    /* dim is not in 2..JAM_MAX_DIM */
+  JAM_E_NONFINITE = -5,    /* NaN or infinity where a number is needed */
+  JAM_E_OVERLAP = -6,      /* spheres overlap; the text names the worst pair */
+  JAM_E_UNPLACEABLE = -7,  /* the random start cannot reach the packing fraction */
+  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed says how much */
+  JAM_E_MEMORY = -9,       /* out of memory */
+  JAM_E_IO = -10,          /* a file cannot be opened, read or written */
+  JAM_E_FORMAT = -11,      /* a file does not have the format; the text names the line */
+  JAM_E_STATE = -12,       /* the handle has no such result yet, e.g. forces before crunch */
+  JAM_E_SOLVER = -13,      /* no LP or eigenvalue solver gave an answer that checks out */
+  JAM_E_TOO_FEW = -14,     /* too few spheres for what was asked */
+  JAM_E_BUSY = -15,        /* another call is running on this handle */
+  JAM_E_UNSUPPORTED = -16, /* not available in this build or for this model */
+  JAM_E_INTERNAL = -17     /* a bug in libjam; please report the text */
 } jam_status_code;
 
 /* Why a run ended (jam_md_report.stop_reason, jam_report.stop_reason). @since 0.1 */
@@ -162,9 +162,8 @@ JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
  * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
  * JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
  * Threads: any. @since 0.1 */
-JAM_API jam_status jam_create(const jam_create_options *o, const double *positions,
-                              size_t positions_len, const double *diameters,
-                              size_t diameters_len, jam_system **out);
+JAM_API jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
+                              const double *diameters, size_t diameters_len, jam_system **out);
 /* Deep copy of src with its results, without its callbacks. Threads: const on src.
  * Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
@@ -224,23 +223,23 @@ typedef enum jam_phase {
 
 /* Given to the progress callback; valid during the call only. @since 0.1 */
 typedef struct jam_progress {
-  uint32_t struct_size;     /* sizeof(jam_progress) as the library knows it */
-  int32_t phase;            /* jam_phase */
-  double packing_fraction;  /* now */
-  double pressure;          /* MD: reduced pressure of the last window, NaN before */
-  double gain;              /* crunch: sqrt(Gamma) - 1 of the last step */
-  double max_step;          /* crunch: largest |s_i| over mean diameter */
-  double seconds;           /* since the call began */
-  double fraction;          /* 0..1 where known, else NaN */
-  int64_t collisions;       /* MD: so far in this call */
-  int64_t steps;            /* crunch: LPs so far; analysis: items done */
-  int64_t factorisations;   /* crunch: so far */
-  int64_t snapshot;         /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
+  uint32_t struct_size;    /* sizeof(jam_progress) as the library knows it */
+  int32_t phase;           /* jam_phase */
+  double packing_fraction; /* now */
+  double pressure;         /* MD: reduced pressure of the last window, NaN before */
+  double gain;             /* crunch: sqrt(Gamma) - 1 of the last step */
+  double max_step;         /* crunch: largest |s_i| over mean diameter */
+  double seconds;          /* since the call began */
+  double fraction;         /* 0..1 where known, else NaN */
+  int64_t collisions;      /* MD: so far in this call */
+  int64_t steps;           /* crunch: LPs so far; analysis: items done */
+  int64_t factorisations;  /* crunch: so far */
+  int64_t snapshot;        /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
 } jam_progress;
 
 /* Progress callback, on the calling thread. Non-zero return stops the call with JAM_CANCELLED
- * and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel, jam_checkpoint_write (of
- * the stage as it runs) and const getters, which show the state before the call or the last snapshot. @since 0.1 */
+ * and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel, jam_checkpoint_write
+ * (of the stage as it runs) and const getters, which show the state before the call or the last snapshot. @since 0.1 */
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 /* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
@@ -295,22 +294,24 @@ typedef struct jam_run_options {
   int32_t resume;                 /* 1: go on with the run that stopped early; default 0 */
   double collisions_per_particle; /* to make since the run began, > 0, default 100 */
   double wall_time;               /* seconds of this call, > 0, default infinity */
-  double time;                    /* to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity */
+  double time; /* to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default
+                  infinity */
 } jam_run_options;
 
 /* How the spheres grow. @since 0.1 */
 typedef enum jam_growth_law {
   JAM_GROWTH_DIAMETER = 0, /* growth_rate is d<sigma>/dt over sqrt(kT/m), constant */
-  JAM_GROWTH_DENSITY = 1   /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a
-                            * per cent of sigma); d times it is the relative rate of density. The same number at every n */
+  JAM_GROWTH_DENSITY =
+      1 /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a
+         * per cent of sigma); d times it is the relative rate of density. The same number at every n */
 } jam_growth_law;
 
 /* One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1 */
 typedef struct jam_compress_options {
-  uint32_t struct_size;           /* sizeof(jam_compress_options) */
-  int32_t resume;                 /* 1: go on with the stage that stopped early, of which all but the limits is kept; default 0 */
-  double growth_rate;             /* G > 0, default 1e-2 */
-  double pressure;                /* target reduced pressure, > 1, default 500 */
+  uint32_t struct_size; /* sizeof(jam_compress_options) */
+  int32_t resume;       /* 1: go on with the stage that stopped early, of which all but the limits is kept; default 0 */
+  double growth_rate;   /* G > 0, default 1e-2 */
+  double pressure;      /* target reduced pressure, > 1, default 500 */
   double packing_fraction;        /* target, > 0, default infinity */
   double collisions_per_particle; /* limit since the stage began, > 0, default infinity */
   double wall_time;               /* limit in seconds of this call, > 0, default infinity */
@@ -350,25 +351,25 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
  * or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
  * none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
  * Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
- * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
- * JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+ * JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
  * that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
  * 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
  * Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
- * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
- * with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
- * alone. @since 0.1 */
+ * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
+ * ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+ * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
-/* Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
- * or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
- * goes on from it makes the same bits as one that never stopped there. Threads: const.
- * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
+/* Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
+ * stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
+ * renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+ * JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
-/* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
- * JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
+/* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
+ * damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
 
 /* What jam_observe records. @since 0.1 */
@@ -387,33 +388,34 @@ typedef struct jam_observe_options {
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
-/* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
- * Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
- * present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
- * Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1 */
+/* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
+ * dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
+ * show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
+ * it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+ */
 JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
 /* Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_observe_stop(jam_system *sys);
-/* Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
- * its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
- * length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1 */
+/* Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
+ * before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
+ * NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1 */
 JAM_API jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions,
                                        size_t collisions_len, double *fraction, size_t fraction_len, double *pressure,
-                                       size_t pressure_len, double *error, size_t error_len, double *msd, size_t msd_len,
-                                       size_t *needed);
-/* Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
- * 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+                                       size_t pressure_len, double *error, size_t error_len, double *msd,
+                                       size_t msd_len, size_t *needed);
+/* Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+ * length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
                                         double *displacement, size_t displacement_len, size_t *needed);
 /* Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
- * sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
- * be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+ * sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
+ * may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
                                       size_t *needed);
-/* Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
- * h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
- * 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+/* Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+ * limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+ * with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
                                      size_t density_len, double *error, size_t error_len, size_t *needed);
 /* g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
@@ -432,7 +434,8 @@ typedef enum jam_eos_form {
 } jam_eos_form;
 /* *pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1 */
-JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction, double *pressure);
+JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
+                           double *pressure);
 
 /* A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1 */
 typedef struct jam_glass {
@@ -446,8 +449,8 @@ typedef struct jam_glass {
 } jam_glass;
 /* Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
  * JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1 */
-JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure, size_t pressure_len,
-                                 jam_glass *fit);
+JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure,
+                                 size_t pressure_len, jam_glass *fit);
 
 /* ------------------------------------------------------------------ crunch to the jamming point */
 
@@ -459,23 +462,25 @@ typedef enum jam_lp_solver {
 
 /* Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1 */
 typedef enum jam_crunch_method {
-  JAM_CRUNCH_RELINEARISE = 0, /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
-                               * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
-  JAM_CRUNCH_CHAIN = 1        /* the published chain of LPs alone */
+  JAM_CRUNCH_RELINEARISE =
+      0,               /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
+                        * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
+  JAM_CRUNCH_CHAIN = 1 /* the published chain of LPs alone */
 } jam_crunch_method;
 
-/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
- * (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
- * and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
- * its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
- * progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1 */
+/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
+ * CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others,
+ * sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
+ * zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
+ * every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
+ * jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1 */
 typedef struct jam_crunch_options {
-  uint32_t struct_size;    /* sizeof(jam_crunch_options) */
-  int32_t lp_solver;       /* jam_lp_solver, default IPM (optimizer) */
-  int32_t method;          /* jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does */
-  int32_t polish;          /* 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs
-                            * below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer
-                            * (tol_mechanical_equilibrium: the extra LP past it) */
+  uint32_t struct_size; /* sizeof(jam_crunch_options) */
+  int32_t lp_solver;    /* jam_lp_solver, default IPM (optimizer) */
+  int32_t method;       /* jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does */
+  int32_t polish; /* 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs
+                   * below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer
+                   * (tol_mechanical_equilibrium: the extra LP past it) */
   int32_t max_lps;         /* >= 1, default 1000 (max_iters) */
   int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 (threads) */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence) */
@@ -484,43 +489,43 @@ typedef struct jam_crunch_options {
   double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0, default 4 R) */
   double step_bound;       /* bound on each |s_i| component; 0, the default: adapts (sbound, in radii) */
   double wall_time;        /* limit in seconds, > 0, default infinity */
-  int32_t steps;           /* 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in
-                            * full. 0, the default */
-  int32_t reserved;        /* 0 */
+  int32_t steps;    /* 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in
+                     * full. 0, the default */
+  int32_t reserved; /* 0 */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
 typedef struct jam_report {
-  uint32_t struct_size;     /* set by the caller: sizeof(jam_report) */
-  int32_t jammed;           /* 1: converged to a rigid network that carries balanced forces */
-  int32_t stop_reason;      /* jam_stop_reason */
-  int32_t lp_solver;        /* jam_lp_solver that gave the last LP */
-  int32_t method;           /* jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it */
-  int32_t reserved;         /* 0 */
-  double packing_fraction;  /* phi_J when jammed */
-  double diameter_mean;     /* unit of box */
-  int64_t contacts;         /* pairs with a force, rattlers left out */
-  int64_t rattlers;         /* removed again and again until every sphere left has d+1 contacts */
-  int64_t stable;           /* n - rattlers = N' */
-  int64_t bucklers;         /* stable spheres with exactly d+1 contacts */
-  int64_t one_ss;           /* d (N' - 1) + 1: contacts of a single state of self-stress */
-  int64_t excess_contacts;  /* contacts - one_ss: 0 isostatic, > 0 hyperstatic */
-  int64_t lp_solves;        /* LPs solved in full */
-  int64_t factorisations;   /* Cholesky factorisations */
-  double gain;              /* sqrt(Gamma) - 1 of the last LP */
-  double max_step;          /* largest |s_i| of a stable sphere in the last LP, mean diameters */
-  double max_overlap;       /* largest -h over all pairs, >= 0 */
-  double force_residual;    /* largest |sum_j f_ij n_ij| over mean force */
-  double gamma_residual;    /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
-  double min_force;         /* smallest contact force over the mean */
-  double min_gap;           /* smallest h of a pair of stable spheres that is no contact */
-  double max_contact_gap;   /* largest |h| of a contact */
-  double duality_gap;       /* of the last LP, relative to Gamma */
-  double force_scale;       /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
-  double seconds;           /* wall time of crunch */
-  double seconds_factor;    /* of it in factorisations */
-  double seconds_assemble;  /* of it in neighbour lists and assembly */
-  double seconds_solve;     /* of it in triangular solves */
+  uint32_t struct_size; /* set by the caller: sizeof(jam_report) */
+  int32_t jammed;       /* 1: converged to a rigid network that carries balanced forces */
+  int32_t stop_reason;  /* jam_stop_reason */
+  int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
+  int32_t method; /* jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it */
+  int32_t reserved;        /* 0 */
+  double packing_fraction; /* phi_J when jammed */
+  double diameter_mean;    /* unit of box */
+  int64_t contacts;        /* pairs with a force, rattlers left out */
+  int64_t rattlers;        /* removed again and again until every sphere left has d+1 contacts */
+  int64_t stable;          /* n - rattlers = N' */
+  int64_t bucklers;        /* stable spheres with exactly d+1 contacts */
+  int64_t one_ss;          /* d (N' - 1) + 1: contacts of a single state of self-stress */
+  int64_t excess_contacts; /* contacts - one_ss: 0 isostatic, > 0 hyperstatic */
+  int64_t lp_solves;       /* LPs solved in full */
+  int64_t factorisations;  /* Cholesky factorisations */
+  double gain;             /* sqrt(Gamma) - 1 of the last LP */
+  double max_step;         /* largest |s_i| of a stable sphere in the last LP, mean diameters */
+  double max_overlap;      /* largest -h over all pairs, >= 0 */
+  double force_residual;   /* largest |sum_j f_ij n_ij| over mean force */
+  double gamma_residual;   /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
+  double min_force;        /* smallest contact force over the mean */
+  double min_gap;          /* smallest h of a pair of stable spheres that is no contact */
+  double max_contact_gap;  /* largest |h| of a contact */
+  double duality_gap;      /* of the last LP, relative to Gamma */
+  double force_scale;      /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
+  double seconds;          /* wall time of crunch */
+  double seconds_factor;   /* of it in factorisations */
+  double seconds_assemble; /* of it in neighbour lists and assembly */
+  double seconds_solve;    /* of it in triangular solves */
 } jam_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -546,9 +551,9 @@ typedef struct jam_estimate {
   double seconds;        /* the product of both */
 } jam_estimate;
 
-/* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
- * JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
- * JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1 */
+/* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
+ * same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+ * JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1 */
 JAM_API jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
 /* The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1 */
 JAM_API jam_status jam_report_get(const jam_system *sys, jam_report *report);
@@ -560,43 +565,47 @@ typedef enum jam_step_phase {
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;
 
-/* Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean
- * diameters after the step. NaN where a column has no meaning. @since 0.1 */
+/* Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
+ * mean diameters after the step. NaN where a column has no meaning. @since 0.1 */
 typedef enum jam_history_column {
-  JAM_HISTORY_PHASE = 0,          /* a jam_step_phase */
-  JAM_HISTORY_GAIN = 1,           /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
-  JAM_HISTORY_PHI = 2,            /* packing fraction after the step */
-  JAM_HISTORY_STEP_MAX = 3,       /* largest displacement in this step */
-  JAM_HISTORY_STEP_MSD = 4,       /* mean-square displacement in this step */
-  JAM_HISTORY_TOTAL_MAX = 5,      /* largest displacement since the start of the crunch */
-  JAM_HISTORY_TOTAL_MSD = 6,      /* mean-square displacement since then */
-  JAM_HISTORY_CONTACTS = 7,       /* LP: pairs of stable spheres that carry force in it */
-  JAM_HISTORY_EXCESS = 8,         /* LP: contacts - (d (N' - 1) + 1) */
-  JAM_HISTORY_RATTLERS = 9,       /* LP: spheres left out of that */
-  JAM_HISTORY_SECONDS = 10,       /* wall time of the step */
-  JAM_HISTORY_ITERATIONS = 11,    /* of the LP solver; Newton steps elsewhere */
+  JAM_HISTORY_PHASE = 0,           /* a jam_step_phase */
+  JAM_HISTORY_GAIN = 1,            /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
+  JAM_HISTORY_PHI = 2,             /* packing fraction after the step */
+  JAM_HISTORY_STEP_MAX = 3,        /* largest displacement in this step */
+  JAM_HISTORY_STEP_MSD = 4,        /* mean-square displacement in this step */
+  JAM_HISTORY_TOTAL_MAX = 5,       /* largest displacement since the start of the crunch */
+  JAM_HISTORY_TOTAL_MSD = 6,       /* mean-square displacement since then */
+  JAM_HISTORY_CONTACTS = 7,        /* LP: pairs of stable spheres that carry force in it */
+  JAM_HISTORY_EXCESS = 8,          /* LP: contacts - (d (N' - 1) + 1) */
+  JAM_HISTORY_RATTLERS = 9,        /* LP: spheres left out of that */
+  JAM_HISTORY_SECONDS = 10,        /* wall time of the step */
+  JAM_HISTORY_ITERATIONS = 11,     /* of the LP solver; Newton steps elsewhere */
   JAM_HISTORY_FACTORISATIONS = 12, /* in this step */
-  JAM_HISTORY_DUALITY_GAP = 13,   /* after the step, in Gamma */
-  JAM_HISTORY_PAIRS = 14,         /* rows of the LP */
-  JAM_HISTORY_HELD = 15,          /* LP: displacement components at the step bound: these spheres are out of balance */
-  JAM_HISTORY_PART = 16,          /* LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list */
-  JAM_HISTORY_BOUND = 17          /* LP: step bound */
+  JAM_HISTORY_DUALITY_GAP = 13,    /* after the step, in Gamma */
+  JAM_HISTORY_PAIRS = 14,          /* rows of the LP */
+  JAM_HISTORY_HELD = 15,           /* LP: displacement components at the step bound: these spheres are out of balance */
+  JAM_HISTORY_PART = 16, /* LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list */
+  JAM_HISTORY_BOUND = 17 /* LP: step bound */
 } jam_history_column;
 
-/* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
- * same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
-JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed);
-/* The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
- * only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
- * from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+/* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
+ * from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+ * @since 0.1 */
+JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
+                                      size_t *needed);
+/* The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
+ * and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
+ * followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+ * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
 JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
- * no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1 */
+/* Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
+ * steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1 */
 JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 /* r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1 */
 JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
- * sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1 */
+ * sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
+ * 0.1 */
 JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
@@ -604,15 +613,16 @@ JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, siz
 /* Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
  * Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1 */
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
-/* Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
+ * 0.1 */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of the weakest
- * may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
+/* Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
+ * the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
  * Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
- * needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
- * Errors: as jam_contacts. @since 0.1 */
+/* Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state
+ * of self-stress needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's.
+ * Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
@@ -621,7 +631,8 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t
 /* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the
  * order of jam_hessian_map. Calls on a const handle are quick; the others take long, report JAM_PHASE_ANALYSE and can
  * be cancelled (status JAM_CANCELLED, no output written); they do not change the packing. All need a contact network
- * unless said otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
+ * unless said otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty.
+ */
 
 /* ------------- Hessian, modes */
 /* Stiffness k of a contact, 1 at the mean force. @since 0.1 */
@@ -666,7 +677,8 @@ JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
  * Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 /* Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
- * Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1 */
+ * Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
+ * 0.1 */
 JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
                                size_t row_start_len, int32_t *column, size_t column_len, double *value,
                                size_t value_len, size_t *needed);
@@ -689,46 +701,48 @@ typedef struct jam_geometry_options {
 
 /* What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1 */
 typedef struct jam_geometry_report {
-  uint32_t struct_size;     /* set by the caller: sizeof(jam_geometry_report) */
-  int32_t self_contacts;    /* spheres touching their own image; left out of the network */
-  double tolerance;         /* used */
-  double gap_below;         /* largest |h| within it, rattlers included */
-  double gap_above;         /* smallest |h| beyond it (window when there is none) */
-  double jump;              /* gap_above / gap_below, the latter no smaller than resolution */
-  double resolution;        /* of gaps, from the digits of the coordinates */
-  double second_jump;       /* of the next candidate that could be rigid, 1 when there is none */
-  double second_tolerance;  /* its tolerance */
-  int64_t second_contacts;  /* its contacts, -1 when there is none */
-  int64_t pairs_within;     /* pairs with |h| <= tolerance, rattlers included */
-  int64_t contacts;         /* of stable spheres */
-  int64_t excess_contacts;  /* contacts - (d (N'-1) + 1) */
-  int64_t self_stresses;    /* dimension of the null space of S^T; a lower bound when zero_modes is cut off */
-  int64_t zero_modes;       /* of S^T S, translations among them; no more than 256 others are counted */
-  double force_residual;    /* largest |sum_j f_ij n_ij| over mean force */
-  double min_force;         /* over the mean */
-  int64_t clusters;         /* connected sets of stable spheres; with more than one, each has its own states */
+  uint32_t struct_size;    /* set by the caller: sizeof(jam_geometry_report) */
+  int32_t self_contacts;   /* spheres touching their own image; left out of the network */
+  double tolerance;        /* used */
+  double gap_below;        /* largest |h| within it, rattlers included */
+  double gap_above;        /* smallest |h| beyond it (window when there is none) */
+  double jump;             /* gap_above / gap_below, the latter no smaller than resolution */
+  double resolution;       /* of gaps, from the digits of the coordinates */
+  double second_jump;      /* of the next candidate that could be rigid, 1 when there is none */
+  double second_tolerance; /* its tolerance */
+  int64_t second_contacts; /* its contacts, -1 when there is none */
+  int64_t pairs_within;    /* pairs with |h| <= tolerance, rattlers included */
+  int64_t contacts;        /* of stable spheres */
+  int64_t excess_contacts; /* contacts - (d (N'-1) + 1) */
+  int64_t self_stresses;   /* dimension of the null space of S^T; a lower bound when zero_modes is cut off */
+  int64_t zero_modes;      /* of S^T S, translations among them; no more than 256 others are counted */
+  double force_residual;   /* largest |sum_j f_ij n_ij| over mean force */
+  double min_force;        /* over the mean */
+  int64_t clusters;        /* connected sets of stable spheres; with more than one, each has its own states */
 } jam_geometry_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
-/* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
- * Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
- * null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one state of self-stress,
- * more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several states of self-stress: the
- * non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces, or no contacts). Errors: JAM_E_NULL,
- * JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
-JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report);
-/* Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
- * enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
- * gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
- * Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
-JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len, double *jump,
-                                          size_t jump_len, int32_t *contacts, size_t contacts_len, int32_t *excess,
-                                          size_t excess_len, size_t *needed);
-/* States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
- * from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
- * Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
- * of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
+/* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
+ * moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
+ * are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
+ * state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
+ * states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
+ * or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
+ * Threads: alone. @since 0.1 */
+JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
+                                              jam_geometry_report *report);
+/* Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
+ * jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
+ * (m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
+ * needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len,
+                                          double *jump, size_t jump_len, int32_t *contacts, size_t contacts_len,
+                                          int32_t *excess, size_t excess_len, size_t *needed);
+/* States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+ * (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
+ * with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
+ * = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *needed);
 
@@ -753,8 +767,8 @@ JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted,
                                         size_t s_len, size_t *needed);
 /* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
  * pairs. Threads: const. Errors: as jam_contacts. @since 0.1 */
-JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere,
-                                    size_t sphere_len, size_t *needed);
+JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
+                                    int32_t *sphere, size_t sphere_len, size_t *needed);
 /* What jam_class_values and jam_histogram look at. @since 0.1 */
 typedef enum jam_quantity {
   JAM_QUANTITY_FORCE = 0,        /* contacts: f over its mean in the class */
@@ -774,47 +788,51 @@ typedef enum jam_class {
   JAM_CLASS_SMALLEST = 3,  /* forces only: the smallest of one of its spheres */
   JAM_CLASS_MEDIAN = 4     /* forces only: the (lower) median of one of its spheres */
 } jam_class;
-/* Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
- * jam_contacts, JAM_E_ARGUMENT. @since 0.1 */
+/* Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
+ * Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1 */
 JAM_API jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
                                     size_t *needed);
-/* Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
- * there. Threads: const. Errors: as jam_class_values. @since 0.1 */
-JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins,
-                                 double *out, size_t out_len, size_t *needed);
+/* Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
+ * values there. Threads: const. Errors: as jam_class_values. @since 0.1 */
+JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high,
+                                 int64_t bins, double *out, size_t out_len, size_t *needed);
 /* ------------- structure of the packing */
-/* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
- * diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1 */
-JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
-                                        double r_max, int64_t bins, double *out, size_t out_len, size_t *needed);
+/* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
+ * mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
+ * @since 0.1 */
+JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a,
+                                        int32_t b, double r_max, int64_t bins, double *out, size_t out_len,
+                                        size_t *needed);
 /* S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
  * No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
  * Threads: alone. @since 0.1 */
-JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s,
-                                        size_t s_len, size_t *needed);
-/* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
- * (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1 */
-JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len, size_t *needed);
+JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
+                                        size_t *needed);
+/* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
+ * 3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1 */
+JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
+                                  size_t *needed);
 /* Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
  * about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
-/* Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
- * JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1 */
+/* Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
+ * JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1 */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------- floppy modes */
-/* Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
- * common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+/* Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
+ * a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
  * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
- * weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
- * order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
- * are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F). Arrays may be
- * NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
-JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight, size_t weight_len,
-                                    double *s_plus, size_t s_plus_len, double *s_star, size_t s_star_len, double *stability,
-                                    size_t stability_len, size_t *needed);
+/* The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
+ * localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
+ * at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
+ * second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
+ * force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
+ * jam_floppy_mode. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight,
+                                    size_t weight_len, double *s_plus, size_t s_plus_len, double *s_star,
+                                    size_t s_star_len, double *stability, size_t stability_len, size_t *needed);
 
 /* ------------- spectrum, moduli, comparison */
 /* Options of jam_density_of_states. @since 0.1 */
@@ -853,31 +871,32 @@ typedef struct jam_comparison {
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
-/* Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
- * omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
- * and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
- * well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
- * JAM_E_TOO_FEW. Threads: alone. @since 0.1 */
+/* Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
+ * computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
+ * `points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
+ * is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
+ * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          double *omega, size_t omega_len, double *density, size_t density_len,
                                          double *error, size_t error_len, size_t *needed);
-/* Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
- * error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1 */
-JAM_API jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega,
-                                           size_t omega_len, double *cumulative, size_t cumulative_len, double *error,
-                                           size_t error_len, size_t *needed);
-/* Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
- * modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
-JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u, size_t u_len,
-                               double *out, size_t out_len, size_t *needed);
-/* *value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
+/* Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
+ * standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1 */
+JAM_API jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
+                                           double *omega, size_t omega_len, double *cumulative, size_t cumulative_len,
+                                           double *error, size_t error_len, size_t *needed);
+/* Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
+ * all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
+JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,
+                               size_t u_len, double *out, size_t out_len, size_t *needed);
+/* *value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+ */
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
-/* Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
- * unstable. Threads: alone. @since 0.1 */
+/* Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
+ * the network unstable. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli);
-/* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
- * nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+/* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
+ * other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
  * Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
 JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
                                size_t out_len, size_t *needed);

@@ -5,8 +5,9 @@
  *   jam_report report = packing.crunch();
  *   for (double f : packing.forces()) ...
  *
- * System owns the C handle and moves but does not copy by accident (copy() does). A status below zero throws jam::Error;
- * above zero it is System::status() and the state is valid. Exceptions thrown by callbacks stop the call and come out of it.
+ * System owns the C handle and moves but does not copy by accident (copy() does). A status below zero throws
+ * jam::Error; above zero it is System::status() and the state is valid. Exceptions thrown by callbacks stop the call
+ * and come out of it.
  */
 #ifndef JAM_JAM_HPP
 #define JAM_JAM_HPP
@@ -99,7 +100,8 @@ class System {
   using Progress = std::function<bool(const jam_progress &)>;
   using Log = std::function<void(int level, const char *line)>;
 
-  explicit System(const jam_create_options &o, const std::vector<double> &positions = {}, const std::vector<double> &diameters = {}) {
+  explicit System(const jam_create_options &o, const std::vector<double> &positions = {},
+                  const std::vector<double> &diameters = {}) {
     adopt([&](jam_system **out) {
       return jam_create(&o, positions.data(), positions.size(), diameters.data(), diameters.size(), out);
     });
@@ -118,7 +120,8 @@ class System {
     return System(o, {}, diameters);
   }
   // positions (n, d) row by row; diameters: n values or one for all.
-  static System from_arrays(int dim, const std::vector<double> &positions, const std::vector<double> &diameters, double box = 1.0) {
+  static System from_arrays(int dim, const std::vector<double> &positions, const std::vector<double> &diameters,
+                            double box = 1.0) {
     jam_create_options o = create_options();
     o.dim = dim;
     o.box = box;
@@ -157,7 +160,9 @@ class System {
   void set_positions(const std::vector<double> &x) { check(jam_set_positions(get(), x.data(), x.size())); }
   void set_velocities(const std::vector<double> &v) { check(jam_set_velocities(get(), v.data(), v.size())); }
   void scale_diameters(double factor) { check(jam_scale_diameters(get(), factor)); }
-  void write(const std::string &path, jam_format format = JAM_FORMAT_AUTO) const { check(jam_write(get(), path.c_str(), format)); }
+  void write(const std::string &path, jam_format format = JAM_FORMAT_AUTO) const {
+    check(jam_write(get(), path.c_str(), format));
+  }
 
   // Verbs. Without options: the library's defaults (compress: the two-stage protocol).
   jam_md_report run(const jam_run_options &o) { return verb<jam_md_report>(jam_run, &o); }
@@ -166,7 +171,9 @@ class System {
     o.collisions_per_particle = collisions_per_particle;
     return run(o);
   }
-  jam_md_report compress() { return verb<jam_md_report>(jam_compress, static_cast<const jam_compress_options *>(nullptr)); }
+  jam_md_report compress() {
+    return verb<jam_md_report>(jam_compress, static_cast<const jam_compress_options *>(nullptr));
+  }
   jam_md_report compress(const jam_compress_options &o) { return verb<jam_md_report>(jam_compress, &o); }
   jam_report crunch() { return verb<jam_report>(jam_crunch, static_cast<const jam_crunch_options *>(nullptr)); }
   jam_report crunch(const jam_crunch_options &o) { return verb<jam_report>(jam_crunch, &o); }
@@ -190,8 +197,8 @@ class System {
     check(jam_report_get(get(), &made));
     return made;
   }
-  std::vector<std::int32_t> contacts() const { return array<std::int32_t>(jam_contacts); }      // (contacts, 2)
-  std::vector<double> contact_vectors() const { return array<double>(jam_contact_vectors); }    // (contacts, d)
+  std::vector<std::int32_t> contacts() const { return array<std::int32_t>(jam_contacts); }    // (contacts, 2)
+  std::vector<double> contact_vectors() const { return array<double>(jam_contact_vectors); }  // (contacts, d)
   std::vector<double> contact_gaps() const { return array<double>(jam_contact_gaps); }
   std::vector<double> forces() const { return array<double>(jam_forces); }
   std::vector<std::int32_t> coordination() const { return array<std::int32_t>(jam_coordination); }
@@ -199,7 +206,8 @@ class System {
   // Any other count-then-fill call of the header: sys.array<int32_t>(jam_hessian_map).
   template <class T, class F>
   std::vector<T> array(F function) const {
-    return fetch<T>([&](T *out, std::size_t length, std::size_t *needed) { return function(get(), out, length, needed); });
+    return fetch<T>(
+        [&](T *out, std::size_t length, std::size_t *needed) { return function(get(), out, length, needed); });
   }
 
  private:

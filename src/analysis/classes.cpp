@@ -1,4 +1,5 @@
-// Distributions by class: which values of a quantity belong to localised and which to extended contacts, and their histograms.
+// Distributions by class: which values of a quantity belong to localised and which to extended contacts, and their
+// histograms.
 #include <algorithm>
 #include <cmath>
 #include "analysis/structure.hpp"
@@ -54,7 +55,8 @@ std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, i
 }  // namespace
 
 std::vector<double> class_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
-  if (quantity < JAM_QUANTITY_FORCE || quantity > JAM_QUANTITY_COORDINATION) fail(JAM_E_ARGUMENT, "quantity is %d, not a jam_quantity", quantity);
+  if (quantity < JAM_QUANTITY_FORCE || quantity > JAM_QUANTITY_COORDINATION)
+    fail(JAM_E_ARGUMENT, "quantity is %d, not a jam_quantity", quantity);
   if (which < JAM_CLASS_ALL || which > JAM_CLASS_MEDIAN) fail(JAM_E_ARGUMENT, "which is %d, not a jam_class", which);
   if (quantity == JAM_QUANTITY_FORCE) return class_forces(p, net, which);
   if (which == JAM_CLASS_SMALLEST || which == JAM_CLASS_MEDIAN)
@@ -77,13 +79,15 @@ std::vector<double> class_values(const Packing &p, const ContactNetwork &net, in
 }
 
 std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins) {
-  if (!(high > low && std::isfinite(low) && std::isfinite(high))) fail(JAM_E_ARGUMENT, "low is %g and high %g: they must be finite and low < high", low, high);
+  if (!(high > low && std::isfinite(low) && std::isfinite(high)))
+    fail(JAM_E_ARGUMENT, "low is %g and high %g: they must be finite and low < high", low, high);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
   std::vector<double> out(bins, 0.0);
   const double width = (high - low) / static_cast<double>(bins);
   for (double x : values)
     if (x >= low && x < high)
-      out[std::min(bins - 1, static_cast<size_t>((x - low) / width))] += 1.0 / (width * static_cast<double>(values.size()));
+      out[std::min(bins - 1, static_cast<size_t>((x - low) / width))] +=
+          1.0 / (width * static_cast<double>(values.size()));
   return out;
 }
 

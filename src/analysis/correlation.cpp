@@ -11,10 +11,13 @@
 
 namespace jam {
 
-std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max, size_t bins) {
+std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
+                                     double r_max, size_t bins) {
   const double unit = diameter_mean(p);
-  if (kind_len != 0 && kind_len != p.n()) fail(JAM_E_ARGUMENT, "kind_len is %zu, it must be 0 or n = %zu", kind_len, p.n());
-  if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.box)) fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
+  if (kind_len != 0 && kind_len != p.n())
+    fail(JAM_E_ARGUMENT, "kind_len is %zu, it must be 0 or n = %zu", kind_len, p.n());
+  if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.box))
+    fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
   check_pair_count(p, r_max * unit);
   auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
@@ -34,7 +37,8 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   }
   const double ball = unit_sphere_volume(p.dim) * std::pow(2.0, p.dim), density = nb / std::pow(p.box, p.dim);
   for (size_t k = 0; k < bins; ++k) {
-    const double lo = r_max * unit * static_cast<double>(k) / static_cast<double>(bins), hi = r_max * unit * static_cast<double>(k + 1) / static_cast<double>(bins);
+    const double lo = r_max * unit * static_cast<double>(k) / static_cast<double>(bins),
+                 hi = r_max * unit * static_cast<double>(k + 1) / static_cast<double>(bins);
     const double expected = na * density * ball * (std::pow(hi, p.dim) - std::pow(lo, p.dim));
     g[k] = expected > 0.0 ? g[k] / expected : 0.0;
   }
@@ -44,14 +48,16 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
 StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch, bool lengths_only) {
   const int d = p.dim;
   const double unit = diameter_mean(p), step = 2.0 * M_PI / p.box;
-  if (!(q_max > 0.0 && std::isfinite(q_max))) fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
+  if (!(q_max > 0.0 && std::isfinite(q_max)))
+    fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
   const double reach = q_max / unit / step;
   const double vectors = 0.5 * unit_sphere_volume(d) * std::pow(2.0 * reach, d);
   if (vectors * static_cast<double>(p.n()) > 2e10)
     fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
   const int m = static_cast<int>(std::floor(reach));
   const size_t n = lengths_only ? 0 : p.n(), width = 2 * static_cast<size_t>(m) + 1;
-  // cos and sin of n x for every sphere, component and n: one row a (component, n), so that inner loops run over spheres
+  // cos and sin of n x for every sphere, component and n: one row a (component, n), so that inner loops run over
+  // spheres
   std::vector<double> co(width * d * n), si(width * d * n);
   for (int c = 0; c < d; ++c)
     for (int q = -m; q <= m; ++q)
@@ -79,7 +85,8 @@ StructureFactor structure_factor(const Packing &p, double q_max, const Watch &wa
     for (int q = positive ? -m : 0; q <= m; ++q) {
       const int64_t next = n2 + static_cast<int64_t>(q) * q;
       if (static_cast<double>(next) > reach * reach) continue;
-      const size_t at = (static_cast<size_t>(c) * width + (q + m)) * n;  // n = 0 without stable spheres: no element to refer to
+      const size_t at =
+          (static_cast<size_t>(c) * width + (q + m)) * n;  // n = 0 without stable spheres: no element to refer to
       const double *a = co.data() + at, *b = si.data() + at;
       for (size_t i = 0; i < n; ++i) {
         re[c + 1][i] = re[c][i] * a[i] - im[c][i] * b[i];
@@ -112,7 +119,8 @@ double zonal(int d, int l, double x) {
 }
 }  // namespace
 
-// Q_l^2 = 4 pi / (2 l + 1) sum_m |mean_j Y_lm(n_j)|^2 = mean over pairs (j, k) of P_l(n_j . n_k), by the addition theorem.
+// Q_l^2 = 4 pi / (2 l + 1) sum_m |mean_j Y_lm(n_j)|^2 = mean over pairs (j, k) of P_l(n_j . n_k), by the addition
+// theorem.
 std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
   if (l < 1 || l > 64) fail(JAM_E_ARGUMENT, "l is %d, it must be in 1..64", l);
   if (!(cutoff > 0.0 && cutoff <= 3.0)) fail(JAM_E_ARGUMENT, "cutoff is %g, it must be in (0, 3]", cutoff);
@@ -155,7 +163,8 @@ double crystal_score(const Packing &p) {
 
 std::vector<double> local_fractions(const Packing &p) {
 #ifdef JAM_HAVE_VORO
-  if (p.dim != 3) fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
+  if (p.dim != 3)
+    fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
   const int cells = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(p.n()) / 6.0)));
   voro::container_periodic_poly box(p.box, 0, p.box, 0, 0, p.box, cells, cells, cells, 8);
   for (size_t i = 0; i < p.n(); ++i)

@@ -1,27 +1,30 @@
-// The full spectrum: Householder reduction, divide and conquer, back transformation (LAPACK by OpenBLAS). Reduction and back
-// transformation go panel by panel, as dsytrd and dormtr do inside, so that they can be cancelled; dstedc is one call.
+// The full spectrum: Householder reduction, divide and conquer, back transformation (LAPACK by OpenBLAS). Reduction and
+// back transformation go panel by panel, as dsytrd and dormtr do inside, so that they can be cancelled; dstedc is one
+// call.
 #include <algorithm>
 #include <cmath>
 #include "analysis/modes.hpp"
 #include "core/error.hpp"
 
 extern "C" {
-void dlatrd_(const char *uplo, const int *n, const int *nb, double *a, const int *lda, double *e, double *tau, double *w, const int *ldw);
-void dsyr2k_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a, const int *lda,
-             const double *b, const int *ldb, const double *beta, double *c, const int *ldc);
+void dlatrd_(const char *uplo, const int *n, const int *nb, double *a, const int *lda, double *e, double *tau,
+             double *w, const int *ldw);
+void dsyr2k_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a,
+             const int *lda, const double *b, const int *ldb, const double *beta, double *c, const int *ldc);
 void dsytd2_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e, double *tau, int *info);
-void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz, double *work, const int *lwork,
-             int *iwork, const int *liwork, int *info);
+void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz, double *work,
+             const int *lwork, int *iwork, const int *liwork, int *info);
 void dsterf_(const int *n, double *d, double *e, int *info);
-void dormtr_(const char *side, const char *uplo, const char *trans, const int *m, const int *n, const double *a, const int *lda,
-             const double *tau, double *c, const int *ldc, double *work, const int *lwork, int *info);
+void dormtr_(const char *side, const char *uplo, const char *trans, const int *m, const int *n, const double *a,
+             const int *lda, const double *tau, double *c, const int *ldc, double *work, const int *lwork, int *info);
 }
 
 namespace jam {
 namespace {
 
 // Lower triangle of a to tridiagonal form d, e; reflectors stay in a and tau. False when stopped.
-bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double *tau, const std::function<bool(double)> &stop) {
+bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double *tau,
+                    const std::function<bool(double)> &stop) {
   const int panel = 32;
   const double one = 1.0, minus_one = -1.0;
   std::vector<double> w(static_cast<size_t>(n) * panel);
@@ -32,7 +35,8 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
     if (stop(0.6 * (1.0 - left * left * left))) return false;
     const int rest = n - k, below = rest - panel;
     dlatrd_("L", &rest, &panel, at(k, k), &n, e + k, tau + k, w.data(), &rest);
-    dsyr2k_("L", "N", &below, &panel, &minus_one, at(k + panel, k), &n, &w[panel], &rest, &one, at(k + panel, k + panel), &n);
+    dsyr2k_("L", "N", &below, &panel, &minus_one, at(k + panel, k), &n, &w[panel], &rest, &one,
+            at(k + panel, k + panel), &n);
     for (int j = k; j < k + panel; ++j) d[j] = *at(j, j);
   }
   const int rest = n - k;
@@ -43,7 +47,8 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
 
 }  // namespace
 
-bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors, const std::function<bool(double)> &stop) {
+bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
+                 const std::function<bool(double)> &stop) {
   lambda.assign(n, 0.0);
   if (n == 0) return true;
   std::vector<double> e(std::max(1, n - 1)), tau(std::max(1, n - 1));
@@ -70,7 +75,8 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   for (int first = 0; first < n; first += 512) {
     if (stop(0.8 + 0.2 * first / n)) return false;
     const int columns = std::min(512, n - first);
-    dormtr_("L", "L", "N", &n, &columns, a.data(), &n, tau.data(), &z[static_cast<size_t>(first) * n], &n, work.data(), &lwork, &info);
+    dormtr_("L", "L", "N", &n, &columns, a.data(), &n, tau.data(), &z[static_cast<size_t>(first) * n], &n, work.data(),
+            &lwork, &info);
     if (info != 0) fail(JAM_E_SOLVER, "dormtr gave info %d", info);
   }
   a.swap(z);

@@ -1,5 +1,6 @@
-// Density of states by Chebyshev moments in x = (2 lambda - high - low) / (high - low) = cos theta. Without pre-stress low = 0 and
-// omega = omega_max sin((pi - theta) / 2): the resolution in theta is a uniform resolution in omega, also at omega = 0.
+// Density of states by Chebyshev moments in x = (2 lambda - high - low) / (high - low) = cos theta. Without pre-stress
+// low = 0 and omega = omega_max sin((pi - theta) / 2): the resolution in theta is a uniform resolution in omega, also
+// at omega = 0.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -58,11 +59,14 @@ double smallest_eigenvalue(const StableGraph &g, const ContactWeights &w) {
 
 struct Interval {
   double low, high;
-  double theta(double lambda) const { return std::acos(std::max(-1.0, std::min(1.0, (2.0 * lambda - high - low) / (high - low)))); }
+  double theta(double lambda) const {
+    return std::acos(std::max(-1.0, std::min(1.0, (2.0 * lambda - high - low) / (high - low))));
+  }
 };
 
 // mu_m = <v| T_m(x) |v>, m < moments, by two moments a product: T_{2m} = 2 T_m T_m - 1, T_{2m+1} = 2 T_{m+1} T_m - T_1.
-void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std::vector<double> &mu, const std::function<void()> &watch) {
+void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std::vector<double> &mu,
+                const std::function<void()> &watch) {
   const size_t n = v.size();
   const double scale = 2.0 / (span.high - span.low), shift = (span.high + span.low) / (span.high - span.low);
   auto apply = [&](const std::vector<double> &x, std::vector<double> &y) {
@@ -87,7 +91,8 @@ void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std:
 // Jackson's damping, which keeps the density positive.
 double jackson(size_t m, size_t moments) {
   const double q = M_PI / static_cast<double>(moments + 1), x = static_cast<double>(m);
-  return ((static_cast<double>(moments) - x + 1.0) * std::cos(q * x) + std::sin(q * x) / std::tan(q)) / static_cast<double>(moments + 1);
+  return ((static_cast<double>(moments) - x + 1.0) * std::cos(q * x) + std::sin(q * x) / std::tan(q)) /
+         static_cast<double>(moments + 1);
 }
 
 // mu_0 + 2 sum mu_m cos(m theta), by Clenshaw's recurrence.
@@ -148,14 +153,16 @@ struct Average {
 
 }  // namespace
 
-DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o, const Watch &watch) {
+DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o,
+                                  const Watch &watch) {
   if (o.moments < 8 || o.moments > 1000000) fail(JAM_E_ARGUMENT, "moments is %d, it must be in 8..1e6", o.moments);
   if (o.vectors < 2 || o.vectors > 100000) fail(JAM_E_ARGUMENT, "vectors is %d, it must be in 2..1e5", o.vectors);
   if (o.points < 1 || o.points > 10000000) fail(JAM_E_ARGUMENT, "points is %d, it must be in 1..1e7", o.points);
   const BlockMatrix h = make_hessian(g, w);
   const size_t n = h.rows(), points = static_cast<size_t>(o.points), moments = static_cast<size_t>(o.moments);
   const Interval span{smallest_eigenvalue(g, w), largest_eigenvalue(g, h)};
-  if (n <= static_cast<size_t>(g.dim) || !(span.high > 0.0)) fail(JAM_E_TOO_FEW, "%d stable spheres have no density of states", g.nodes);
+  if (n <= static_cast<size_t>(g.dim) || !(span.high > 0.0))
+    fail(JAM_E_TOO_FEW, "%d stable spheres have no density of states", g.nodes);
   const double first = -std::sqrt(-span.low);
   DensityOfStates out;
   out.step = (std::sqrt(span.high) - first) / static_cast<double>(points);

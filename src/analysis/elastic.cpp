@@ -10,8 +10,8 @@
 namespace jam {
 namespace {
 
-// Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: as it stands, and with the
-// spheres relaxing. The relaxed one is summed over what is left of each du, so nothing cancels.
+// Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: as it stands, and
+// with the spheres relaxing. The relaxed one is summed over what is left of each du, so nothing cancels.
 struct Strained {
   const StableGraph &g;
   const ContactWeights &w;
@@ -55,8 +55,8 @@ struct Strained {
 
 }  // namespace
 
-// With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round, G = E'' / V. Bulk: K = V d^2 E / dV^2
-// = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
+// With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round, G = E'' / V. Bulk:
+// K = V d^2 E / dV^2 = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
 jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w, const Watch &watch) {
   jam_moduli m{};
   const int d = p.dim;
@@ -64,12 +64,14 @@ jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactW
   const double volume = std::pow(p.box, d), directions = d * (d - 1);
   const PinnedSolver solver(g, w);
   if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.hessian().norm_bound())
-    fail(JAM_E_STATE, "with this pre-stress the Hessian has negative eigenvalues: the network is unstable and has no moduli");
+    fail(JAM_E_STATE,
+         "with this pre-stress the Hessian has negative eigenvalues: the network is unstable and has no moduli");
   const Strained strained{g, w, solver};
   std::vector<double> du(g.contacts() * width);
   double affine = 0.0, relaxed = 0.0, pressure = 0.0;
   for (size_t k = 0; k < g.contacts(); ++k) {
-    for (size_t c = 0; c < width; ++c) du[k * width + c] = g.distance[k] * g.normal[k * width + c] / d;  // volume strain 1
+    for (size_t c = 0; c < width; ++c)
+      du[k * width + c] = g.distance[k] * g.normal[k * width + c] / d;  // volume strain 1
     pressure += strained.transverse(k) * g.distance[k] * g.distance[k] / (d * volume);
   }
   strained.relax(du, affine, relaxed);

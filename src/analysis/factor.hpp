@@ -8,7 +8,7 @@ namespace jam {
 class ShiftedFactor {
  public:
   explicit ShiftedFactor(const BlockMatrix &m);  // keeps a reference to m; its pattern is ordered once, its
-                                                // values are read again by every factorise
+                                                 // values are read again by every factorise
   ~ShiftedFactor();
   // Factorises m + shift; false when that is not positive definite.
   bool factorise(double shift);

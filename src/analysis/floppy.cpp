@@ -13,10 +13,12 @@ void FloppyModes::resize(size_t m) {
   for (auto *x : {&median, &weight, &s_plus, &s_star, &stability}) x->resize(m);
 }
 
-FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch) : g_(g), space_(g, watch) {
+FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch)
+    : g_(g), space_(g, watch) {
   const StressStates s = find_stress(g, space_, false, watch);
   if (s.dimension != 1 || s.zero_modes != g.dim)
-    fail(JAM_E_STATE, "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
+    fail(JAM_E_STATE,
+         "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
          static_cast<long long>(s.dimension), static_cast<long long>(s.zero_modes));
   force_ = s.force;
   const size_t n = g.unknowns();
@@ -29,7 +31,8 @@ FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, cons
   for (size_t k = 0; k < all.size(); ++k) {
     const int32_t a = g.node[all.i[k]], b = g.node[all.j[k]];
     if (a == b) continue;
-    const double length = std::sqrt(pair_vector(p, all, k, r.data())), sigma = 0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]]);
+    const double length = std::sqrt(pair_vector(p, all, k, r.data())),
+                 sigma = 0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]]);
     i_.push_back(a);
     j_.push_back(b);
     for (double x : r) normal_.push_back(x / length);
@@ -69,14 +72,16 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   const double gamma = inflation(l);
   double s_plus = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < i_.size(); ++k) {
-    const double *u = dr + static_cast<size_t>(i_[k]) * d, *v = dr + static_cast<size_t>(j_[k]) * d, *n = &normal_[k * d];
+    const double *u = dr + static_cast<size_t>(i_[k]) * d, *v = dr + static_cast<size_t>(j_[k]) * d,
+                 *n = &normal_[k * d];
     double closing = gamma * sigma_[k];
     for (size_t c = 0; c < d; ++c) closing -= n[c] * (u[c] - v[c]);
     if (closing * s_plus > open_[k]) s_plus = open_[k] / closing;
   }
   double bend = 0.0;
   for (size_t k = 0; k < g_.contacts(); ++k) {
-    const double *u = dr + static_cast<size_t>(g_.a[k]) * d, *v = dr + static_cast<size_t>(g_.b[k]) * d, *n = &g_.normal[k * d];
+    const double *u = dr + static_cast<size_t>(g_.a[k]) * d, *v = dr + static_cast<size_t>(g_.b[k]) * d,
+                 *n = &g_.normal[k * d];
     double along = 0.0, sum = 0.0;
     for (size_t c = 0; c < d; ++c) {
       const double x = u[c] - v[c];
@@ -90,7 +95,8 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   out.stability[l] = out.s_star[l] / s_plus;
 }
 
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch) {
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g,
+                             const Watch &watch) {
   const BlasSingleThread single;
   const FloppySolver solver(p, network, g, watch);
   const size_t m = g.contacts(), n = g.unknowns(), block = 64;

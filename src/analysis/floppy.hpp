@@ -6,16 +6,16 @@
 namespace jam {
 
 struct FloppyModes {
-  std::vector<double> median;  // b: median |dr_i| over |dr|
-  std::vector<double> weight;  // W: f over the median |dr_i| of the field for s = 1
-  std::vector<double> s_plus;  // opening at which, to first order, the next contact forms
-  std::vector<double> s_star;  // opening of least diameter: f / sum_k f_k |dr_perp,k|^2 / r_k
+  std::vector<double> median;     // b: median |dr_i| over |dr|
+  std::vector<double> weight;     // W: f over the median |dr_i| of the field for s = 1
+  std::vector<double> s_plus;     // opening at which, to first order, the next contact forms
+  std::vector<double> s_star;     // opening of least diameter: f / sum_k f_k |dr_perp,k|^2 / r_k
   std::vector<double> stability;  // s_star / s_plus
   void resize(size_t m);
 };
 
-// To first order in the opening s of contact l all other contacts stay closed when the diameters change by a common factor
-// 1 + gamma s: S dr = s (e_l + gamma sigma), which has a solution since f is orthogonal to the right side for
+// To first order in the opening s of contact l all other contacts stay closed when the diameters change by a common
+// factor 1 + gamma s: S dr = s (e_l + gamma sigma), which has a solution since f is orthogonal to the right side for
 // gamma = -f_l / sum f sigma. dr has no net translation and is given for s = 1.
 class FloppySolver {
  public:
@@ -39,6 +39,7 @@ class FloppySolver {
 };
 
 // All contacts, in blocks.
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch = Watch());
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g,
+                             const Watch &watch = Watch());
 
 }  // namespace jam

@@ -16,7 +16,8 @@ bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNe
   while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;
   for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j; ++q) {
     bool same = true;
-    for (int c = 0; c < p.dim; ++c) same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < 0.5 * p.box;
+    for (int c = 0; c < p.dim; ++c)
+      same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < 0.5 * p.box;
     if (same) return true;
   }
   return false;
@@ -27,7 +28,9 @@ bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNe
 void check_pair_count(const Packing &p, double reach) {
   const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.box, p.dim), n = static_cast<double>(p.n());
   const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + 48.0);
-  if (bytes > 8e9) fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than 8e9", pairs, reach, bytes);
+  if (bytes > 8e9)
+    fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than 8e9", pairs, reach,
+         bytes);
 }
 
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
@@ -52,7 +55,8 @@ Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool s
   std::vector<double> r(p.dim);
   std::vector<std::pair<double, size_t>> found(all.size());
   for (size_t k = 0; k < all.size(); ++k)
-    found[k] = {std::sqrt(pair_vector(p, all, k, r.data())) / (0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]])) - 1.0, k};
+    found[k] = {
+        std::sqrt(pair_vector(p, all, k, r.data())) / (0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]])) - 1.0, k};
   std::sort(found.begin(), found.end());
   Gaps out;
   for (const auto &[h, k] : found) {
@@ -77,10 +81,12 @@ std::vector<std::vector<size_t>> contacts_of(const Packing &p, const ContactNetw
 std::vector<int32_t> classify_contacts(const Packing &p, const ContactNetwork &net) {
   std::vector<int32_t> flags(net.size(), 0);
   for (size_t k = 0; k < net.size(); ++k)
-    if (net.coordination[net.pairs.i[k]] == p.dim + 1 || net.coordination[net.pairs.j[k]] == p.dim + 1) flags[k] |= JAM_CONTACT_LOCALISED;
+    if (net.coordination[net.pairs.i[k]] == p.dim + 1 || net.coordination[net.pairs.j[k]] == p.dim + 1)
+      flags[k] |= JAM_CONTACT_LOCALISED;
   for (auto &of : contacts_of(p, net)) {
     if (of.empty() || net.force.empty()) continue;
-    std::sort(of.begin(), of.end(), [&](size_t x, size_t y) { return net.force[x] != net.force[y] ? net.force[x] < net.force[y] : x < y; });
+    std::sort(of.begin(), of.end(),
+              [&](size_t x, size_t y) { return net.force[x] != net.force[y] ? net.force[x] < net.force[y] : x < y; });
     flags[of.front()] |= JAM_CONTACT_SMALLEST;
     flags[of[(of.size() - 1) / 2]] |= JAM_CONTACT_MEDIAN;
   }

@@ -34,7 +34,8 @@ GapList pairs_below(const Packing &p, double limit) {
   }
   g.order.resize(g.gap.size());
   std::iota(g.order.begin(), g.order.end(), size_t{0});
-  std::stable_sort(g.order.begin(), g.order.end(), [&](size_t x, size_t y) { return std::fabs(g.gap[x]) < std::fabs(g.gap[y]); });
+  std::stable_sort(g.order.begin(), g.order.end(),
+                   [&](size_t x, size_t y) { return std::fabs(g.gap[x]) < std::fabs(g.gap[y]); });
   return g;
 }
 
@@ -136,8 +137,9 @@ struct Jump {
   double ratio, below, above;
 };
 
-// The largest jumps of the sorted gaps, best first: the best of all, and the best of those that leave at least half of the
-// spheres with enough contacts (ratios are large among the few smallest gaps, too). Gaps below the resolution count as that.
+// The largest jumps of the sorted gaps, best first: the best of all, and the best of those that leave at least half of
+// the spheres with enough contacts (ratios are large among the few smallest gaps, too). Gaps below the resolution count
+// as that.
 std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resolution, double window) {
   std::vector<Jump> jumps;
   const double enough = p.dim * 0.5 * static_cast<double>(p.n());
@@ -151,7 +153,8 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
   const auto best = [&](size_t first, size_t last) {
     const size_t keep = std::min<size_t>(last - first, most_candidates);
     const auto begin = jumps.begin() + static_cast<std::ptrdiff_t>(first);
-    std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep), jumps.begin() + static_cast<std::ptrdiff_t>(last),
+    std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep),
+                      jumps.begin() + static_cast<std::ptrdiff_t>(last),
                       [](const Jump &x, const Jump &y) { return x.ratio > y.ratio; });
     return std::vector<Jump>(begin, begin + static_cast<std::ptrdiff_t>(keep));
   };
@@ -198,7 +201,8 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
 }
 
 GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o, const Watch &watch) {
-  if (!(o.tolerance >= 0.0 && o.tolerance < 1.0)) fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in [0, 1)", o.tolerance);
+  if (!(o.tolerance >= 0.0 && o.tolerance < 1.0))
+    fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in [0, 1)", o.tolerance);
   check_window(o.window);
   GeometryResult out;
   jam_geometry_report &r = out.report;
@@ -258,15 +262,18 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   r.min_force = stress.min_force;
   r.excess_contacts = excess_of(out.network, p.dim);
   r.clusters = count_clusters(graph);
-  // The null space decides between two: rattlers that rest against their cage at a tiny gap make the second network hyperstatic.
-  clear = clear || (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
+  // The null space decides between two: rattlers that rest against their cage at a tiny gap make the second network
+  // hyperstatic.
+  clear = clear ||
+          (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
   if (!stress.positive)
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear)
     out.status = JAM_AMBIGUOUS;
   // Scale: mean of lambda r with sum lambda sigma^2 = 1 and lambda = c f / r.
   double sum = 0.0;
-  for (size_t k = 0; k < graph.contacts(); ++k) sum += out.network.force[k] * graph.sigma[k] * graph.sigma[k] / graph.distance[k];
+  for (size_t k = 0; k < graph.contacts(); ++k)
+    sum += out.network.force[k] * graph.sigma[k] * graph.sigma[k] / graph.distance[k];
   out.network.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
   return out;
 }

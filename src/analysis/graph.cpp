@@ -32,7 +32,8 @@ StableGraph make_graph(const Packing &p, const ContactNetwork &network) {
 void stretch(const StableGraph &g, const double *x, double *y) {
   const int d = g.dim;
   for (size_t k = 0; k < g.contacts(); ++k) {
-    const double *n = &g.normal[k * d], *u = x + static_cast<size_t>(g.a[k]) * d, *v = x + static_cast<size_t>(g.b[k]) * d;
+    const double *n = &g.normal[k * d], *u = x + static_cast<size_t>(g.a[k]) * d,
+                 *v = x + static_cast<size_t>(g.b[k]) * d;
     double s = 0.0;
     for (int c = 0; c < d; ++c) s += n[c] * (u[c] - v[c]);
     y[k] = s;
@@ -71,7 +72,8 @@ void BlockMatrix::multiply(const double *x, double *y) const {
   for (int32_t i = 0; i < nodes; ++i)
     for (int r = 0; r < d; ++r) {
       double s = 0.0;
-      for (int c = 0; c < d; ++c) s += diag[static_cast<size_t>(i) * dd + r * d + c] * x[static_cast<size_t>(i) * d + c];
+      for (int c = 0; c < d; ++c)
+        s += diag[static_cast<size_t>(i) * dd + r * d + c] * x[static_cast<size_t>(i) * d + c];
       y[static_cast<size_t>(i) * d + r] = s;
     }
   for (size_t e = 0; e < ei.size(); ++e) {
@@ -107,7 +109,8 @@ double BlockMatrix::norm_bound() const {
 CsrMatrix to_csr(const BlockMatrix &m) {
   const int d = m.dim, dd = d * d;
   const size_t n = m.nodes, blocks = n + 2 * m.ei.size();
-  if (blocks * dd > 0x7fffffff) fail(JAM_E_ARGUMENT, "the matrix has %zu entries, more than int32 indices can count", blocks * dd);
+  if (blocks * dd > 0x7fffffff)
+    fail(JAM_E_ARGUMENT, "the matrix has %zu entries, more than int32 indices can count", blocks * dd);
   // Block rows: edges are sorted by (ei, ej), so lower neighbours come ascending first, then the diagonal.
   std::vector<std::vector<std::pair<int32_t, int64_t>>> row(n);
   for (size_t e = 0; e < m.ei.size(); ++e) row[m.ej[e]].push_back({m.ei[e], -static_cast<int64_t>(e) - 1});

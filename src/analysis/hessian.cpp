@@ -26,7 +26,8 @@ void check_hessian_options(const jam_hessian_options &o) {
 }
 
 bool needs_forces(const jam_hessian_options &o) {
-  return o.prestress > 0.0 || o.stiffness == JAM_STIFFNESS_HARD || (o.stiffness == JAM_STIFFNESS_POWER && o.alpha != 2.0);
+  return o.prestress > 0.0 || o.stiffness == JAM_STIFFNESS_HARD ||
+         (o.stiffness == JAM_STIFFNESS_POWER && o.alpha != 2.0);
 }
 
 ContactWeights contact_weights(const StableGraph &g, double sigma_mean, const jam_hessian_options &o) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/SparseCholesky>
 #include <Spectra/SymEigsSolver.h>
+#include <Eigen/SparseCholesky>
 
 #include "analysis/factor.hpp"
 #include "analysis/watch.hpp"
@@ -29,10 +29,14 @@ jam_modes_options default_modes_options() {
 }
 
 void check_modes_options(const jam_modes_options &o, const StableGraph &g) {
-  if (o.which < JAM_MODES_LOWEST || o.which > JAM_MODES_ALL) fail(JAM_E_ARGUMENT, "which is %d, not a jam_modes_which", o.which);
-  if (o.which != JAM_MODES_ALL && o.count < 1) fail(JAM_E_ARGUMENT, "count is %lld, it must be at least 1", static_cast<long long>(o.count));
-  if (!(o.frequency >= 0.0 && std::isfinite(o.frequency))) fail(JAM_E_ARGUMENT, "frequency is %g, it must be finite and >= 0", o.frequency);
-  if (!(o.tolerance > 0.0 && o.tolerance < 1.0)) fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in (0, 1)", o.tolerance);
+  if (o.which < JAM_MODES_LOWEST || o.which > JAM_MODES_ALL)
+    fail(JAM_E_ARGUMENT, "which is %d, not a jam_modes_which", o.which);
+  if (o.which != JAM_MODES_ALL && o.count < 1)
+    fail(JAM_E_ARGUMENT, "count is %lld, it must be at least 1", static_cast<long long>(o.count));
+  if (!(o.frequency >= 0.0 && std::isfinite(o.frequency)))
+    fail(JAM_E_ARGUMENT, "frequency is %g, it must be finite and >= 0", o.frequency);
+  if (!(o.tolerance > 0.0 && o.tolerance < 1.0))
+    fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in (0, 1)", o.tolerance);
   const double n = static_cast<double>(g.unknowns());
   const double krylov = 8.0 * n * (3.0 * static_cast<double>(o.count) + 20.0), dense = 24.0 * n * n;
   const double need = o.which == JAM_MODES_ALL ? dense : std::min(krylov, dense);
@@ -128,7 +132,8 @@ bool search(Operator &op, int64_t count, Spectra::SortRule rule, double toleranc
 }
 
 // Keeps the `count` best, makes them orthonormal and gives them their Rayleigh quotients.
-void harvest(const StableGraph &g, const ContactWeights &w, Operator &op, std::vector<double> theta, bool magnitude, int64_t count, Modes &out) {
+void harvest(const StableGraph &g, const ContactWeights &w, Operator &op, std::vector<double> theta, bool magnitude,
+             int64_t count, Modes &out) {
   const size_t n = g.unknowns();
   std::vector<size_t> order(theta.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -149,7 +154,8 @@ void harvest(const StableGraph &g, const ContactWeights &w, Operator &op, std::v
     col.normalize();
   }
   std::vector<std::pair<double, size_t>> lambda;
-  for (size_t k = 0; k < order.size(); ++k) lambda.push_back({curvature(g, w, v.col(static_cast<Eigen::Index>(k)).data()), k});
+  for (size_t k = 0; k < order.size(); ++k)
+    lambda.push_back({curvature(g, w, v.col(static_cast<Eigen::Index>(k)).data()), k});
   std::sort(lambda.begin(), lambda.end());
   for (const auto &[l, k] : lambda) {
     out.lambda.push_back(l);
@@ -166,7 +172,8 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
       for (int c = 0; c < d; ++c) a[static_cast<size_t>(j * d + c) * n + (i * d + r)] = block[r * d + c];
   };
   for (int32_t i = 0; i < h.nodes; ++i) put(i, i, &h.diag[static_cast<size_t>(i) * d * d]);
-  for (size_t e = 0; e < h.ei.size(); ++e) put(h.ej[e], h.ei[e], &h.off[e * d * d]);  // lower triangle; blocks are symmetric
+  for (size_t e = 0; e < h.ei.size(); ++e)
+    put(h.ej[e], h.ei[e], &h.off[e * d * d]);  // lower triangle; blocks are symmetric
   auto stop = [&](double fraction) {
     jam_progress p{};
     p.phase = JAM_PHASE_ANALYSE;
@@ -182,7 +189,8 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
 void select(const StableGraph &g, const jam_modes_options &o, Modes &m) {
   const size_t n = g.unknowns();
   std::vector<size_t> keep;
-  // Translations may be mixed with other zero modes: take them out of the vectors and drop what is left of least length.
+  // Translations may be mixed with other zero modes: take them out of the vectors and drop what is left of least
+  // length.
   const double tiny = 1e-9 * std::max(1.0, m.lambda.empty() ? 0.0 : std::fabs(m.lambda.back()));
   Eigen::Map<Eigen::MatrixXd> v(m.vector.data(), static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   std::vector<size_t> zero;
@@ -207,7 +215,9 @@ void select(const StableGraph &g, const jam_modes_options &o, Modes &m) {
   const size_t want = std::min<size_t>(keep.size(), static_cast<size_t>(o.count));
   if (o.which == JAM_MODES_HIGHEST) keep.erase(keep.begin(), keep.end() - static_cast<std::ptrdiff_t>(want));
   if (o.which == JAM_MODES_NEAR) {
-    std::stable_sort(keep.begin(), keep.end(), [&](size_t x, size_t y) { return std::fabs(m.lambda[x] - target) < std::fabs(m.lambda[y] - target); });
+    std::stable_sort(keep.begin(), keep.end(), [&](size_t x, size_t y) {
+      return std::fabs(m.lambda[x] - target) < std::fabs(m.lambda[y] - target);
+    });
     keep.resize(want);
     std::sort(keep.begin(), keep.end());
   }
@@ -220,7 +230,8 @@ void select(const StableGraph &g, const jam_modes_options &o, Modes &m) {
   m = std::move(cut);
 }
 
-jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o, Monitor &monitor, Modes &out) {
+jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o,
+                     Monitor &monitor, Modes &out) {
   const size_t n = g.unknowns();
   std::vector<double> theta;
   bool complete = false;
@@ -232,7 +243,12 @@ jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockM
   if (o.which == JAM_MODES_LOWEST) {
     ShiftedFactor factor(h);
     factor.factorise_from(1e-9 * h.norm_bound());
-    run([&](const double *x, double *y) { std::copy(x, x + n, y); factor.solve(y); }, Spectra::SortRule::LargestAlge);
+    run(
+        [&](const double *x, double *y) {
+          std::copy(x, x + n, y);
+          factor.solve(y);
+        },
+        Spectra::SortRule::LargestAlge);
   } else if (o.which == JAM_MODES_HIGHEST) {
     run([&](const double *x, double *y) { h.multiply(x, y); }, Spectra::SortRule::LargestAlge);
   } else {
@@ -243,24 +259,29 @@ jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockM
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
     ldlt.setShift(-o.frequency * o.frequency);
     ldlt.compute(a);
-    if (ldlt.info() != Eigen::Success) fail(JAM_E_SOLVER, "frequency %g hits an eigenvalue; change it a little", o.frequency);
-    run([&](const double *x, double *y) {
-      Eigen::Map<Eigen::VectorXd>(y, rows) = ldlt.solve(Eigen::Map<const Eigen::VectorXd>(x, rows));
-    }, Spectra::SortRule::LargestMagn);
+    if (ldlt.info() != Eigen::Success)
+      fail(JAM_E_SOLVER, "frequency %g hits an eigenvalue; change it a little", o.frequency);
+    run(
+        [&](const double *x, double *y) {
+          Eigen::Map<Eigen::VectorXd>(y, rows) = ldlt.solve(Eigen::Map<const Eigen::VectorXd>(x, rows));
+        },
+        Spectra::SortRule::LargestMagn);
   }
   return complete ? JAM_OK : JAM_NOT_CONVERGED;
 }
 
 }  // namespace
 
-jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor, Modes &out) {
+jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
+                      Modes &out) {
   const BlasSingleThread single;
   check_modes_options(o, g);
   const BlockMatrix h = make_hessian(g, w);
   const size_t n = g.unknowns();
   jam_status status = JAM_OK;
   const double wanted = static_cast<double>(o.count);
-  const bool dense = o.which == JAM_MODES_ALL || n <= 300 || (4.0 * wanted >= static_cast<double>(n) && 24.0 * n * n <= o.memory_limit) ||
+  const bool dense = o.which == JAM_MODES_ALL || n <= 300 ||
+                     (4.0 * wanted >= static_cast<double>(n) && 24.0 * n * n <= o.memory_limit) ||
                      (o.which == JAM_MODES_NEAR && o.frequency == 0.0 && n <= 3000);
   if (dense) {
     status = all_modes(h, monitor, out);
@@ -274,7 +295,8 @@ jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_m
       status = JAM_CANCELLED;
     }
   }
-  for (size_t k = 0; k < out.lambda.size(); ++k) out.participation.push_back(inverse_participation(g.dim, g.nodes, &out.vector[k * n]));
+  for (size_t k = 0; k < out.lambda.size(); ++k)
+    out.participation.push_back(inverse_participation(g.dim, g.nodes, &out.vector[k * n]));
   return status;
 }
 

@@ -8,8 +8,8 @@
 namespace jam {
 
 struct Modes {
-  std::vector<double> lambda;  // ascending
-  std::vector<double> vector;  // (modes, nodes, dim), unit length
+  std::vector<double> lambda;         // ascending
+  std::vector<double> vector;         // (modes, nodes, dim), unit length
   std::vector<double> participation;  // inverse participation ratio Y, 1/N' .. 1
 };
 
@@ -17,11 +17,13 @@ jam_modes_options default_modes_options();
 // JAM_E_ARGUMENT, JAM_E_MEMORY (with the estimate) before any work.
 void check_modes_options(const jam_modes_options &o, const StableGraph &g);
 // Returns JAM_OK, JAM_CANCELLED (nothing given) or JAM_NOT_CONVERGED (the modes that converged).
-jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor, Modes &out);
+jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
+                      Modes &out);
 
 // All eigenvalues (and vectors) of a dense symmetric matrix given column-major in a, which is overwritten by the
 // vectors. `stop` is asked between stages. False when stopped.
-bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors, const std::function<bool(double)> &stop);
+bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
+                 const std::function<bool(double)> &stop);
 // Y = sum |v_i|^4 / (sum |v_i|^2)^2 of a field (nodes, dim).
 double inverse_participation(int dim, int32_t nodes, const double *v);
 

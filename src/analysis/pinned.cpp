@@ -30,7 +30,8 @@ int32_t count_clusters(const StableGraph &g) {
   return count;
 }
 
-PinnedSolver::PinnedSolver(const StableGraph &g, const ContactWeights &w) : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
+PinnedSolver::PinnedSolver(const StableGraph &g, const ContactWeights &w)
+    : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
   const std::vector<int32_t> root = cluster_roots(g);
   const double bound = h_.norm_bound();
   const size_t d = static_cast<size_t>(g.dim);

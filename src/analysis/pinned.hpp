@@ -10,9 +10,10 @@ namespace jam {
 // Connected sets of touching spheres.
 int32_t count_clusters(const StableGraph &g);
 
-// H x = b for b without components along the zero modes of H = S~^T S~, by one factorisation. One sphere of every cluster
-// is tied to its place by a spring: for such b the spring carries no force, so the solution is exact, and only its
-// translation is arbitrary. A tiny shift stands for zero modes that are no translations; refinement takes its error out.
+// H x = b for b without components along the zero modes of H = S~^T S~, by one factorisation. One sphere of every
+// cluster is tied to its place by a spring: for such b the spring carries no force, so the solution is exact, and only
+// its translation is arbitrary. A tiny shift stands for zero modes that are no translations; refinement takes its error
+// out.
 class PinnedSolver {
  public:
   PinnedSolver(const StableGraph &g, const ContactWeights &w);

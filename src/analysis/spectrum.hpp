@@ -7,16 +7,18 @@ namespace jam {
 
 jam_dos_options default_dos_options();
 struct DensityOfStates {
-  std::vector<double> omega;       // middle of each bin, from -sqrt(-lambda_min) with pre-stress (omega^2 < 0: unstable)
+  std::vector<double> omega;  // middle of each bin, from -sqrt(-lambda_min) with pre-stress (omega^2 < 0: unstable)
   std::vector<double> density, density_error;        // D(omega) there
   std::vector<double> cumulative, cumulative_error;  // share of modes below the upper end of the bin
-  double step = 0.0;               // width of a bin
+  double step = 0.0;                                 // width of a bin
 };
 // Kernel polynomial method (Weisse et al., Rev. Mod. Phys. 78, 275 (2006)).
-DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o, const Watch &watch = Watch());
+DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o,
+                                  const Watch &watch = Watch());
 
 // JAM_E_STATE when pre-stress makes the network unstable.
-jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w, const Watch &watch = Watch());
+jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w,
+                          const Watch &watch = Watch());
 
 // displacement (n, d) from a to b without its mean over spheres stable in both.
 jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, const Packing &b, const ContactNetwork *nb,

@@ -82,8 +82,8 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
 }
 
 // The translations of every cluster are zero modes, and tied in the factorised matrix; what is left of its kernel is
-// found by (shift / (H + shift))^4, which keeps it and divides a mode of eigenvalue lambda by (lambda / shift)^4. Block by
-// block, until one brings a vector that is no new zero mode.
+// found by (shift / (H + shift))^4, which keeps it and divides a mode of eigenvalue lambda by (lambda / shift)^4. Block
+// by block, until one brings a vector that is no new zero mode.
 int64_t NullSpace::zero_modes() const {
   if (zeros_ >= 0) return zeros_;
   const size_t n = g_.unknowns();
@@ -101,12 +101,19 @@ int64_t NullSpace::zero_modes() const {
       for (double &v : x) v *= solver_.shift();
     }
     for (int b = 0; b < block; ++b) {
-      std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b), x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
+      std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b),
+                            x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
       const double fresh = orthogonalise(kernel, v), length = norm(v);
       // A new zero mode has kept a good part of a random vector, and has no curvature.
-      if (fresh < 1e-4 || length < 1e-6) { more = false; continue; }
+      if (fresh < 1e-4 || length < 1e-6) {
+        more = false;
+        continue;
+      }
       for (double &q : v) q /= length;
-      if (curvature(g_, w, v.data()) > floor) { more = false; continue; }
+      if (curvature(g_, w, v.data()) > floor) {
+        more = false;
+        continue;
+      }
       kernel.push_back(v);
     }
   }
@@ -117,9 +124,9 @@ int64_t NullSpace::dimension() const {
   return static_cast<int64_t>(g_.contacts()) - static_cast<int64_t>(g_.unknowns()) + zero_modes();
 }
 
-// Minimises phi(u) = 1/2 sum max(0, 1 - (S u)_k)^2, which is convex; at its minimum f = max(0, 1 - S u) balances and is the
-// point of the cone {f >= 0, S^T f = 0} nearest to (1, 1, ...), which is its direction of least norm at a given mean
-// (Moreau's decomposition; semismooth Newton with an exact line search).
+// Minimises phi(u) = 1/2 sum max(0, 1 - (S u)_k)^2, which is convex; at its minimum f = max(0, 1 - S u) balances and is
+// the point of the cone {f >= 0, S^T f = 0} nearest to (1, 1, ...), which is its direction of least norm at a given
+// mean (Moreau's decomposition; semismooth Newton with an exact line search).
 bool least_force(const StableGraph &g, std::vector<double> &f, const Watch &watch) {
   const size_t m = g.contacts(), n = g.unknowns();
   std::vector<double> u(n, 0.0), su(m, 0.0), gradient(n), step(n), sstep(m);
@@ -214,7 +221,8 @@ StressStates find_stress(const StableGraph &g, const NullSpace &space, bool with
       space.project(out.force, 1);
       if (*std::min_element(out.force.begin(), out.force.end()) < -1e-9) out.force = least;
     }
-  } else if (norm(out.force) <= 1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
+  } else if (norm(out.force) <=
+             1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
     out.force = fresh(2);
     space.project(out.force);
   }
@@ -224,9 +232,11 @@ StressStates find_stress(const StableGraph &g, const NullSpace &space, bool with
   if (out.dimension == 1) out.positive = out.min_force > 0.0;
   if (with_basis) {
     if (static_cast<double>(out.dimension) * static_cast<double>(m) * 8.0 > 1e9)
-      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1e9 bytes", static_cast<long long>(out.dimension), m);
+      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1e9 bytes",
+           static_cast<long long>(out.dimension), m);
     q.clear();
-    for (uint64_t k = 0; static_cast<int64_t>(q.size()) < out.dimension && k < 4 * static_cast<uint64_t>(out.dimension) + 8; ++k) {
+    for (uint64_t k = 0;
+         static_cast<int64_t>(q.size()) < out.dimension && k < 4 * static_cast<uint64_t>(out.dimension) + 8; ++k) {
       std::vector<double> v = k == 0 && out.positive ? out.force : fresh(10 + k);
       space.project(v);
       if (orthogonalise(q, v) < 1e-6) continue;

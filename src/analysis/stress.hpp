@@ -29,17 +29,18 @@ class NullSpace {
 struct StressStates {
   int64_t dimension = 0;
   int64_t zero_modes = 0;
-  std::vector<double> force;     // mean 1; of least norm and non-negative when dimension > 1
-  std::vector<double> basis;     // (dimension, contacts) orthonormal, when asked for
-  double residual = 0.0;         // largest |sum_j f_ij n_ij| over mean force
-  double min_force = 0.0;        // over the mean
-  bool positive = false;         // all forces > 0 (>= 0 when dimension > 1) and one is > 0
+  std::vector<double> force;  // mean 1; of least norm and non-negative when dimension > 1
+  std::vector<double> basis;  // (dimension, contacts) orthonormal, when asked for
+  double residual = 0.0;      // largest |sum_j f_ij n_ij| over mean force
+  double min_force = 0.0;     // over the mean
+  bool positive = false;      // all forces > 0 (>= 0 when dimension > 1) and one is > 0
 };
 
 // The force of a network. Throws nothing for unjammed networks: dimension 0, or `positive` false.
 StressStates find_stress(const StableGraph &g, bool with_basis, const Watch &watch = Watch());
 StressStates find_stress(const StableGraph &g, const NullSpace &space, bool with_basis, const Watch &watch = Watch());
-// The least-norm f >= 0 with S^T f = 0 and mean 1, by projecting (1, 1, ...) on that cone; false when only f = 0 is in it.
+// The least-norm f >= 0 with S^T f = 0 and mean 1, by projecting (1, 1, ...) on that cone; false when only f = 0 is in
+// it.
 bool least_force(const StableGraph &g, std::vector<double> &f, const Watch &watch = Watch());
 
 }  // namespace jam

@@ -7,16 +7,16 @@
 
 namespace jam {
 
-// All pairs (every image, a sphere's own too) with h < h_max but the contacts of `network` (which may be NULL); stable_only
-// leaves out pairs with a rattler of the network.
+// All pairs (every image, a sphere's own too) with h < h_max but the contacts of `network` (which may be NULL);
+// stable_only leaves out pairs with a rattler of the network.
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
 
 // JAM_E_MEMORY with the estimate when a list of all pairs within `reach` would be unreasonably long.
 void check_pair_count(const Packing &p, double reach);
 
 struct Gaps {
-  std::vector<double> gap;     // ascending
-  std::vector<int32_t> pair;   // (gaps, 2)
+  std::vector<double> gap;    // ascending
+  std::vector<int32_t> pair;  // (gaps, 2)
 };
 // Their gaps.
 Gaps find_gaps(const Packing &p, const ContactNetwork *network, double h_max, bool stable_only);
@@ -41,13 +41,15 @@ std::vector<double> class_values(const Packing &p, const ContactNetwork &network
 std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins);
 
 // g_ab(r) in `bins` bins up to r_max mean diameters. kind: one label a sphere or empty; a, b < 0: any.
-std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max, size_t bins);
+std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
+                                     double r_max, size_t bins);
 
 struct StructureFactor {
   std::vector<double> q, s;  // one value for each length of an allowed wave vector 2 pi n / L, ascending
 };
 // lengths_only: q is right, s is not.
-StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch = Watch(), bool lengths_only = false);
+StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch = Watch(),
+                                 bool lengths_only = false);
 
 // Q_l of every sphere from all neighbours with |r| < cutoff sigma_ij.
 std::vector<double> bond_order(const Packing &p, int l, double cutoff);

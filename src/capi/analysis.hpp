@@ -10,7 +10,8 @@
 namespace jam {
 
 inline void need_network(const jam_system *sys) {
-  if (!sys->has_report) fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+  if (!sys->has_report)
+    fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
 }
 // A verb whose work is left by Stopped when the monitor says so; nothing has been written then.
 template <class F>
@@ -43,7 +44,8 @@ void put_output(const std::vector<T> &data, T *out, size_t expected) {
   if (!out) return;
   const size_t have = data.size() < expected ? data.size() : expected;
   for (size_t k = 0; k < have; ++k) out[k] = data[k];
-  for (size_t k = have; k < expected; ++k) out[k] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
+  for (size_t k = have; k < expected; ++k)
+    out[k] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
 }
 
 }  // namespace jam

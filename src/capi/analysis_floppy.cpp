@@ -11,16 +11,18 @@ jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t
     need_network(sys);
     const StableGraph g = make_graph(sys->packing, sys->contacts);
     if (contact < 0 || static_cast<size_t>(contact) >= g.contacts())
-      fail(JAM_E_ARGUMENT, "contact is %lld, it must be in 0..%zu", static_cast<long long>(contact), g.contacts() ? g.contacts() - 1 : 0);
+      fail(JAM_E_ARGUMENT, "contact is %lld, it must be in 0..%zu", static_cast<long long>(contact),
+           g.contacts() ? g.contacts() - 1 : 0);
     std::vector<double> dr(g.unknowns());
-    if (out && out_len >= dr.size()) FloppySolver(sys->packing, sys->contacts, g, watch).fields(static_cast<size_t>(contact), 1, dr);
+    if (out && out_len >= dr.size())
+      FloppySolver(sys->packing, sys->contacts, g, watch).fields(static_cast<size_t>(contact), 1, dr);
     return give_array(dr.data(), dr.size(), out, out_len, needed);
   });
 }
 
-jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight, size_t weight_len, double *s_plus,
-                            size_t s_plus_len, double *s_star, size_t s_star_len, double *stability, size_t stability_len,
-                            size_t *needed) {
+jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight, size_t weight_len,
+                            double *s_plus, size_t s_plus_len, double *s_star, size_t s_star_len, double *stability,
+                            size_t stability_len, size_t *needed) {
   return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     need_network(sys);
     const StableGraph g = make_graph(sys->packing, sys->contacts);

@@ -7,8 +7,12 @@ using namespace jam;
 
 extern "C" {
 
-jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size) { return init_options(o, size, default_hessian_options()); }
-jam_status jam_modes_options_init(jam_modes_options *o, size_t size) { return init_options(o, size, default_modes_options()); }
+jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size) {
+  return init_options(o, size, default_hessian_options());
+}
+jam_status jam_modes_options_init(jam_modes_options *o, size_t size) {
+  return init_options(o, size, default_modes_options());
+}
 
 jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
@@ -18,8 +22,8 @@ jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len
   });
 }
 
-jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start, size_t row_start_len, int32_t *column,
-                       size_t column_len, double *value, size_t value_len, size_t *needed) {
+jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start, size_t row_start_len,
+                       int32_t *column, size_t column_len, double *value, size_t value_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need_network(sys);
@@ -37,8 +41,9 @@ jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int3
   });
 }
 
-jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda, size_t lambda_len,
-                     double *vector, size_t vector_len, double *participation, size_t participation_len, size_t *needed) {
+jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda,
+                     size_t lambda_len, double *vector, size_t vector_len, double *participation,
+                     size_t participation_len, size_t *needed) {
   return guard_verb(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     jam_modes_options full = default_modes_options();
@@ -49,14 +54,16 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.dim));
     const size_t m = full.which == JAM_MODES_ALL ? n : std::min<size_t>(internal, static_cast<size_t>(full.count));
     if (needed) *needed = m;
-    if (!needed && !lambda && !vector && !participation) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (!needed && !lambda && !vector && !participation)
+      fail(JAM_E_NULL, "needed is NULL and there is no output array");
     check_output(lambda, lambda_len, m, "lambda");
     check_output(vector, vector_len, m * n, "vector");
     check_output(participation, participation_len, m, "participation");
     if (m == 0) return JAM_NOT_JAMMED;
     if (!lambda && !vector && !participation) return JAM_OK;
     Modes modes;
-    const jam_status status = find_modes(g, contact_weights(g, diameter_mean(sys->packing), options), full, sys->monitor, modes);
+    const jam_status status =
+        find_modes(g, contact_weights(g, diameter_mean(sys->packing), options), full, sys->monitor, modes);
     if (status == JAM_CANCELLED) return status;
     put_output(modes.lambda, lambda, m);
     put_output(modes.vector, vector, m * n);

@@ -7,7 +7,9 @@ using namespace jam;
 
 extern "C" {
 
-jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) { return init_options(o, size, default_geometry_options()); }
+jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) {
+  return init_options(o, size, default_geometry_options());
+}
 
 jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report) {
   return guard_watched(sys, [&](const Watch &watch) -> jam_status {
@@ -30,10 +32,12 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
   });
 }
 
-jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len, double *jump, size_t jump_len,
-                                  int32_t *contacts, size_t contacts_len, int32_t *excess, size_t excess_len, size_t *needed) {
+jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len, double *jump,
+                                  size_t jump_len, int32_t *contacts, size_t contacts_len, int32_t *excess,
+                                  size_t excess_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    if (!needed && !limit && !jump && !contacts && !excess) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (!needed && !limit && !jump && !contacts && !excess)
+      fail(JAM_E_NULL, "needed is NULL and there is no output array");
     const ContactCandidates c = contact_candidates(sys->packing, window);
     const size_t m = c.limit.size();
     if (needed) *needed = m;
@@ -49,8 +53,8 @@ jam_status jam_contact_candidates(const jam_system *sys, double window, double *
   });
 }
 
-jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len, double *residual,
-                             size_t *needed) {
+jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
+                             double *residual, size_t *needed) {
   return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     need_network(sys);
     const StableGraph g = make_graph(sys->packing, sys->contacts);

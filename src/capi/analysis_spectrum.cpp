@@ -17,8 +17,8 @@ struct SpectralArrays {
 };
 
 // Density of states or its integral: omega stands in the middle or at the upper end of a bin.
-jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, const SpectralArrays &out, bool cumulative,
-                         size_t *needed) {
+jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
+                         const SpectralArrays &out, bool cumulative, size_t *needed) {
   return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     jam_dos_options full = default_dos_options();
@@ -26,7 +26,8 @@ jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const ja
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
-    if (!needed && !out.omega && !out.value && !out.error) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    if (!needed && !out.omega && !out.value && !out.error)
+      fail(JAM_E_NULL, "needed is NULL and there is no output array");
     if (needed) *needed = points;
     check_output(out.omega, out.omega_len, points, "omega");
     check_output(out.value, out.value_len, points, cumulative ? "cumulative" : "density");
@@ -47,19 +48,24 @@ jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const ja
 
 extern "C" {
 
-jam_status jam_dos_options_init(jam_dos_options *o, size_t size) { return init_options(o, size, default_dos_options()); }
+jam_status jam_dos_options_init(jam_dos_options *o, size_t size) {
+  return init_options(o, size, default_dos_options());
+}
 
-jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega, size_t omega_len,
-                                 double *density, size_t density_len, double *error, size_t error_len, size_t *needed) {
+jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega,
+                                 size_t omega_len, double *density, size_t density_len, double *error, size_t error_len,
+                                 size_t *needed) {
   return spectral_call(sys, h, o, {omega, omega_len, density, density_len, error, error_len}, false, needed);
 }
 
-jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega, size_t omega_len,
-                                   double *cumulative, size_t cumulative_len, double *error, size_t error_len, size_t *needed) {
+jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
+                                   double *omega, size_t omega_len, double *cumulative, size_t cumulative_len,
+                                   double *error, size_t error_len, size_t *needed) {
   return spectral_call(sys, h, o, {omega, omega_len, cumulative, cumulative_len, error, error_len}, true, needed);
 }
 
-jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len, double *value) {
+jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
+                         double *value) {
   return guard_const(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need(value, "value");
@@ -72,15 +78,16 @@ jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, co
   });
 }
 
-jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u, size_t u_len, double *out,
-                       size_t out_len, size_t *needed) {
+jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u, size_t u_len,
+                       double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     check_array_in(vector, vector_len, "vector");
     check_array_in(u, u_len, "u");
     need_network(sys);
     const size_t n = make_graph(sys->packing, sys->contacts).unknowns();
     if (u_len != n) fail(JAM_E_ARGUMENT, "u_len is %zu, it must be d N' = %zu", u_len, n);
-    if (vector_len % std::max<size_t>(n, 1) != 0) fail(JAM_E_ARGUMENT, "vector_len is %zu, no multiple of d N' = %zu", vector_len, n);
+    if (vector_len % std::max<size_t>(n, 1) != 0)
+      fail(JAM_E_ARGUMENT, "vector_len is %zu, no multiple of d N' = %zu", vector_len, n);
     std::vector<double> c(n ? vector_len / n : 0, 0.0);
     for (size_t m = 0; m < c.size(); ++m)
       for (size_t k = 0; k < n; ++k) c[m] += vector[m * n + k] * u[k];
@@ -96,12 +103,14 @@ jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_mod
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const StableGraph g = make_graph(sys->packing, sys->contacts);
-    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), watch), moduli);
+    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), watch),
+                moduli);
     return JAM_OK;
   });
 }
 
-jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out, size_t out_len, size_t *needed) {
+jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
+                       size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need(other, "other");
     if (!comparison && !out && !needed) fail(JAM_E_NULL, "comparison, out and needed are all NULL");

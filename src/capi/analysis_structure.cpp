@@ -6,8 +6,8 @@ using namespace jam;
 
 extern "C" {
 
-jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len, int32_t *pair, size_t pair_len,
-                    size_t *needed) {
+jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
+                    int32_t *pair, size_t pair_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     if (stable_only) need_network(sys);
     const Gaps g = find_gaps(sys->packing, sys->has_report ? &sys->contacts : nullptr, h_max, stable_only != 0);
@@ -29,7 +29,8 @@ jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout
   });
 }
 
-jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s, size_t s_len, size_t *needed) {
+jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
+                                size_t s_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
     if (!needed && !c && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
@@ -43,8 +44,8 @@ jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double 
   });
 }
 
-jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere, size_t sphere_len,
-                            size_t *needed) {
+jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len, int32_t *sphere,
+                            size_t sphere_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
     const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
@@ -58,7 +59,8 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
   });
 }
 
-jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len, size_t *needed) {
+jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
+                            size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
     const std::vector<double> v = class_values(sys->packing, sys->contacts, quantity, which);
@@ -66,10 +68,11 @@ jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t whi
   });
 }
 
-jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins, double *out,
-                         size_t out_len, size_t *needed) {
+jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins,
+                         double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+    if (bins < 1 || bins > 100000000)
+      fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
     need_network(sys);
     const std::vector<double> density =
         histogram(class_values(sys->packing, sys->contacts, quantity, which), low, high, static_cast<size_t>(bins));
@@ -77,18 +80,21 @@ jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which,
   });
 }
 
-jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b, double r_max,
-                                int64_t bins, double *out, size_t out_len, size_t *needed) {
+jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
+                                double r_max, int64_t bins, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     if (kind_len) need(kind, "kind");
-    if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+    if (bins < 1 || bins > 100000000)
+      fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
     if (!out && needed && out_len == 0) return *needed = static_cast<size_t>(bins), JAM_OK;
-    const std::vector<double> g = pair_correlation(sys->packing, kind, kind_len, a, b, r_max, static_cast<size_t>(bins));
+    const std::vector<double> g =
+        pair_correlation(sys->packing, kind, kind_len, a, b, r_max, static_cast<size_t>(bins));
     return give_array(g.data(), g.size(), out, out_len, needed);
   });
 }
 
-jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len, size_t *needed) {
+jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
+                                size_t *needed) {
   return guard_watched(sys, [&](const Watch &watch) -> jam_status {
     if (!needed && !q && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     const StructureFactor f = structure_factor(sys->packing, q_max, watch, !q && !s);
@@ -101,7 +107,8 @@ jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t
   });
 }
 
-jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len, size_t *needed) {
+jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
+                          size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     const std::vector<double> q = bond_order(sys->packing, l, cutoff);
     return give_array(q.data(), q.size(), out, out_len, needed);

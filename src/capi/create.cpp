@@ -13,7 +13,8 @@ void jam_system::note_diameters() noexcept {
   packing_fraction = jam::packing_fraction(packing);
   diameter_mean = jam::diameter_mean(packing);
   const double first = packing.diameter[0];
-  monodisperse = std::all_of(packing.diameter.begin(), packing.diameter.end(), [first](double s) { return s == first; });
+  monodisperse =
+      std::all_of(packing.diameter.begin(), packing.diameter.end(), [first](double s) { return s == first; });
 }
 
 void jam_system::commit(const Packing &result) noexcept {
@@ -31,7 +32,8 @@ void jam_system::show(const Packing &result) noexcept {
 }
 
 namespace {
-jam_status view(const jam_system *sys, const std::vector<double> Packing::*member, const double **out, size_t *len) noexcept {
+jam_status view(const jam_system *sys, const std::vector<double> Packing::*member, const double **out,
+                size_t *len) noexcept {
   return guard_const(sys, [&]() -> jam_status {
     need(out, "view");
     need(len, "view_len");
@@ -44,10 +46,12 @@ jam_status view(const jam_system *sys, const std::vector<double> Packing::*membe
 
 extern "C" {
 
-jam_status jam_create_options_init(jam_create_options *o, size_t size) { return init_options(o, size, default_create_options()); }
+jam_status jam_create_options_init(jam_create_options *o, size_t size) {
+  return init_options(o, size, default_create_options());
+}
 
-jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len, const double *diameters,
-                      size_t diameters_len, jam_system **out) {
+jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
+                      const double *diameters, size_t diameters_len, jam_system **out) {
   return guard([&]() -> jam_status {
     need(out, "out");
     jam_create_options full = default_create_options();
@@ -102,15 +106,22 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
   });
 }
 
-jam_status jam_positions_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::position, v, len); }
-jam_status jam_diameters_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::diameter, v, len); }
-jam_status jam_velocities_view(const jam_system *sys, const double **v, size_t *len) { return view(sys, &Packing::velocity, v, len); }
+jam_status jam_positions_view(const jam_system *sys, const double **v, size_t *len) {
+  return view(sys, &Packing::position, v, len);
+}
+jam_status jam_diameters_view(const jam_system *sys, const double **v, size_t *len) {
+  return view(sys, &Packing::diameter, v, len);
+}
+jam_status jam_velocities_view(const jam_system *sys, const double **v, size_t *len) {
+  return view(sys, &Packing::velocity, v, len);
+}
 
 jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len) {
   return guard_set(sys, [&]() -> jam_status {
     Packing p = sys->packing;
     need(positions, "positions");
-    if (positions_len != p.position.size()) fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
+    if (positions_len != p.position.size())
+      fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
     check_array_in(positions, positions_len, "positions");
     for (size_t k = 0; k < positions_len; ++k) p.position[k] = wrap(positions[k], p.box);
     settle_overlaps(p, JAM_OVERLAP_REFUSE);
@@ -124,7 +135,8 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
   return guard_set(sys, [&]() -> jam_status {
     std::vector<double> &v = sys->packing.velocity;
     need(velocities, "velocities");
-    if (velocities_len != v.size()) fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
+    if (velocities_len != v.size())
+      fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
     check_array_in(velocities, velocities_len, "velocities");
     std::copy(velocities, velocities + velocities_len, v.begin());
     sys->packing.has_velocity = true;
@@ -135,7 +147,8 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
 
 jam_status jam_scale_diameters(jam_system *sys, double factor) {
   return guard_set(sys, [&]() -> jam_status {
-    if (!(factor > 0.0) || !std::isfinite(factor)) fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
+    if (!(factor > 0.0) || !std::isfinite(factor))
+      fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
     if (factor > 1.0) settle_overlaps(p, JAM_OVERLAP_REFUSE);

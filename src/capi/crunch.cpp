@@ -1,6 +1,6 @@
 // Header section "crunch to the jamming point" and the arrays of the contact network.
-#include "capi/guard.hpp"
 #include "crunch/crunch.hpp"
+#include "capi/guard.hpp"
 
 using namespace jam;
 
@@ -16,7 +16,8 @@ jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
 template <class F>
 jam_status with_step(const jam_system *sys, F &&f) noexcept {
   return guard_const(sys, [&]() -> jam_status {
-    if (!sys->step || !sys->step->shown) fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
+    if (!sys->step || !sys->step->shown)
+      fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
     return f(*sys->step);
   });
 }
@@ -24,7 +25,9 @@ jam_status with_step(const jam_system *sys, F &&f) noexcept {
 
 extern "C" {
 
-jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size) { return init_options(o, size, default_crunch_options()); }
+jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size) {
+  return init_options(o, size, default_crunch_options());
+}
 
 jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report) {
   return guard_verb(sys, [&]() -> jam_status {
@@ -46,7 +49,9 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *
     sys->history = std::move(history).rows();
     sys->has_history = true;
     give_struct(sys->report, report);
-    if (result.status < 0) fail(result.status, "%s", result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
+    if (result.status < 0)
+      fail(result.status, "%s",
+           result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
     return result.status;
   });
 }
@@ -74,7 +79,8 @@ jam_status jam_report_get(const jam_system *sys, jam_report *report) {
 jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     if (!sys->has_history) fail(JAM_E_STATE, "there is no history: call jam_crunch first");
-    if (column < 0 || column >= static_cast<int32_t>(history_columns)) fail(JAM_E_ARGUMENT, "column is %d, not a jam_history_column", column);
+    if (column < 0 || column >= static_cast<int32_t>(history_columns))
+      fail(JAM_E_ARGUMENT, "column is %d, not a jam_history_column", column);
     std::vector<double> values;
     values.reserve(sys->history.size());
     for (const HistoryRow &row : sys->history) values.push_back(row[column]);
@@ -82,16 +88,22 @@ jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out
   });
 }
 jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.displacement.data(), s.displacement.size(), out, out_len, needed); });
+  return with_step(sys, [&](const CrunchStep &s) {
+    return give_array(s.displacement.data(), s.displacement.size(), out, out_len, needed);
+  });
 }
 jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
-  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.pair.data(), s.pair.size(), iout, iout_len, needed); });
+  return with_step(
+      sys, [&](const CrunchStep &s) { return give_array(s.pair.data(), s.pair.size(), iout, iout_len, needed); });
 }
 jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.vector.data(), s.vector.size(), out, out_len, needed); });
+  return with_step(
+      sys, [&](const CrunchStep &s) { return give_array(s.vector.data(), s.vector.size(), out, out_len, needed); });
 }
 jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_step(sys, [&](const CrunchStep &s) { return give_array(s.multiplier.data(), s.multiplier.size(), out, out_len, needed); });
+  return with_step(sys, [&](const CrunchStep &s) {
+    return give_array(s.multiplier.data(), s.multiplier.size(), out, out_len, needed);
+  });
 }
 
 jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
@@ -103,16 +115,21 @@ jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, s
   });
 }
 jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.vector.data(), c.vector.size(), out, out_len, needed); });
+  return with_contacts(
+      sys, [&](const ContactNetwork &c) { return give_array(c.vector.data(), c.vector.size(), out, out_len, needed); });
 }
 jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.gap.data(), c.gap.size(), out, out_len, needed); });
+  return with_contacts(
+      sys, [&](const ContactNetwork &c) { return give_array(c.gap.data(), c.gap.size(), out, out_len, needed); });
 }
 jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.force.data(), c.force.size(), out, out_len, needed); });
+  return with_contacts(
+      sys, [&](const ContactNetwork &c) { return give_array(c.force.data(), c.force.size(), out, out_len, needed); });
 }
 jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
-  return with_contacts(sys, [&](const ContactNetwork &c) { return give_array(c.coordination.data(), c.coordination.size(), iout, iout_len, needed); });
+  return with_contacts(sys, [&](const ContactNetwork &c) {
+    return give_array(c.coordination.data(), c.coordination.size(), iout, iout_len, needed);
+  });
 }
 
 }  // extern "C"

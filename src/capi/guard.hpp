@@ -64,7 +64,8 @@ jam_status guard_set(jam_system *sys, F &&f) noexcept {
   });
 }
 
-// A verb on a handle: can be cancelled, also by a cancel that came before it, and takes that cancel with it when it ends.
+// A verb on a handle: can be cancelled, also by a cancel that came before it, and takes that cancel with it when it
+// ends.
 template <class F>
 jam_status guard_verb(jam_system *sys, F &&f) noexcept {
   return guard([&] {

@@ -25,8 +25,8 @@ void limit_diameters(const jam_create_options &o, FileContent &file) {
   const double scale = o.model == JAM_MODEL_MK ? widest : std::max(widest, std::pow(volume, 1.0 / o.dim));
   if (scale <= 1.0 + overlap_tolerance) return;
   if (o.overlap != JAM_OVERLAP_SHRINK)
-    fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", o.box, widest * o.box,
-         volume);
+    fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", o.box,
+         widest * o.box, volume);
   for (double &s : file.diameter) s /= scale;
 }
 
@@ -46,7 +46,8 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_system **
     if (file.box > 0.0) full.box = file.box;
     limit_diameters(full, file);
     auto sys = std::make_unique<jam_system>();
-    sys->packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size());
+    sys->packing =
+        make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size());
     sys->note_diameters();
     *out = sys.release();
     return JAM_OK;

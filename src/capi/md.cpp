@@ -11,8 +11,8 @@ using namespace jam;
 
 namespace {
 
-// While a stage runs, callbacks may look at it: jam_checkpoint_write takes it as it is between two events. Snapshots show in
-// the views; should the call fail later, the handle gets its state back.
+// While a stage runs, callbacks may look at it: jam_checkpoint_write takes it as it is between two events. Snapshots
+// show in the views; should the call fail later, the handle gets its state back.
 class Live {
  public:
   Live(jam_system *sys, const Stage *stage, bool shows) : sys_(sys) {
@@ -74,8 +74,12 @@ jam_status verb(jam_system *sys, const Options *o, Options full, Check &&check, 
 
 extern "C" {
 
-jam_status jam_run_options_init(jam_run_options *o, size_t size) { return init_options(o, size, default_run_options()); }
-jam_status jam_compress_options_init(jam_compress_options *o, size_t size) { return init_options(o, size, default_compress_options()); }
+jam_status jam_run_options_init(jam_run_options *o, size_t size) {
+  return init_options(o, size, default_run_options());
+}
+jam_status jam_compress_options_init(jam_compress_options *o, size_t size) {
+  return init_options(o, size, default_compress_options());
+}
 
 jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report) {
   return guard_verb(sys, [&] { return verb(sys, o, default_run_options(), check_run_options, report); });
@@ -103,8 +107,10 @@ jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_r
 jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
-    if (sys->live) write_checkpoint(current(*sys->live), write_stage(*sys->live), path);
-    else write_checkpoint(sys->packing, sys->paused ? write_stage(*sys->paused) : std::string(), path);
+    if (sys->live)
+      write_checkpoint(current(*sys->live), write_stage(*sys->live), path);
+    else
+      write_checkpoint(sys->packing, sys->paused ? write_stage(*sys->paused) : std::string(), path);
     return JAM_OK;
   });
 }
@@ -132,13 +138,15 @@ jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double ja
   });
 }
 
-jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure, size_t pressure_len, jam_glass *fit) {
+jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure, size_t pressure_len,
+                         jam_glass *fit) {
   return guard([&]() -> jam_status {
     need(fraction, "fraction");
     need(pressure, "pressure");
     need(fit, "fit");
     check_out_struct(fit, "fit");
-    if (fraction_len != pressure_len) fail(JAM_E_ARGUMENT, "fraction_len is %zu, pressure_len is %zu", fraction_len, pressure_len);
+    if (fraction_len != pressure_len)
+      fail(JAM_E_ARGUMENT, "fraction_len is %zu, pressure_len is %zu", fraction_len, pressure_len);
     give_struct(fit_glass(fraction, pressure, fraction_len), fit);
     return JAM_OK;
   });

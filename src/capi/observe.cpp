@@ -47,7 +47,9 @@ std::vector<double> errors(const Histogram &h) {
 
 extern "C" {
 
-jam_status jam_observe_options_init(jam_observe_options *o, size_t size) { return init_options(o, size, default_observe_options()); }
+jam_status jam_observe_options_init(jam_observe_options *o, size_t size) {
+  return init_options(o, size, default_observe_options());
+}
 
 jam_status jam_observe(jam_system *sys, const jam_observe_options *o) {
   return guard_set(sys, [&]() -> jam_status {
@@ -67,9 +69,10 @@ jam_status jam_observe_stop(jam_system *sys) {
   });
 }
 
-jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions, size_t collisions_len,
-                               double *fraction, size_t fraction_len, double *pressure, size_t pressure_len, double *error,
-                               size_t error_len, double *msd, size_t msd_len, size_t *needed) {
+jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions,
+                               size_t collisions_len, double *fraction, size_t fraction_len, double *pressure,
+                               size_t pressure_len, double *error, size_t error_len, double *msd, size_t msd_len,
+                               size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
     const struct {
       const char *name;
@@ -93,7 +96,8 @@ jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size
                                 size_t displacement_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
     if (needed) *needed = sys->packing.n();
-    if (collisions && o.collisions().empty()) fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
+    if (collisions && o.collisions().empty())
+      fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
     check_room("collisions", o.collisions().size(), collisions, collisions_len);
     check_room("displacement", o.travelled().size(), displacement, displacement_len);
     give(o.collisions(), collisions, collisions_len);
@@ -104,8 +108,9 @@ jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size
   });
 }
 
-jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions, size_t collisions_len,
-                              double *momentum, size_t momentum_len, double *time, size_t *needed) {
+jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
+                              size_t collisions_len, double *momentum, size_t momentum_len, double *time,
+                              size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
     if (o.collisions().empty()) fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
     const std::vector<PairSums::Slot> slots = o.pairs().sorted();
@@ -114,7 +119,9 @@ jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_
     check_room("collisions", slots.size(), collisions, collisions_len);
     check_room("momentum", slots.size(), momentum, momentum_len);
     for (size_t k = 0; k < slots.size(); ++k) {
-      if (pair) pair[2 * k] = static_cast<int32_t>(slots[k].key >> 32), pair[2 * k + 1] = static_cast<int32_t>(slots[k].key & 0xffffffffu);
+      if (pair)
+        pair[2 * k] = static_cast<int32_t>(slots[k].key >> 32),
+                 pair[2 * k + 1] = static_cast<int32_t>(slots[k].key & 0xffffffffu);
       if (collisions) collisions[k] = slots[k].collisions;
       if (momentum) momentum[k] = slots[k].momentum;
     }
@@ -138,7 +145,8 @@ jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_le
   });
 }
 
-jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len, size_t *needed) {
+jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
+                                    size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
     const Histogram &h = o.correlation();
     if (needed) *needed = h.bins();

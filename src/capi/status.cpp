@@ -9,59 +9,76 @@ void set_last_error(const char *text) noexcept { std::snprintf(last_error, sizeo
 }  // namespace jam
 
 // One list for code and text; the numbers are checked against the header by the compiler through the switch.
-#define JAM_STATUS_TEXTS(X)                                       \
-  X(JAM_OK, "done")                                               \
-  X(JAM_CANCELLED, "cancelled")                                   \
-  X(JAM_LIMIT, "a limit on work or time came first")              \
-  X(JAM_NOT_CONVERGED, "no further progress")                     \
-  X(JAM_PRECISION, "beyond the resolution of the numbers")        \
-  X(JAM_NOT_JAMMED, "no jammed network")                          \
-  X(JAM_AMBIGUOUS, "the answer is not unique")                    \
-  X(JAM_E_NULL, "a needed pointer is NULL")                       \
-  X(JAM_E_STRUCT_SIZE, "struct_size is unknown")                  \
-  X(JAM_E_ARGUMENT, "a value is out of its range")                \
-  X(JAM_E_DIMENSION, "the dimension is not supported")            \
-  X(JAM_E_NONFINITE, "NaN or infinity in the input")              \
-  X(JAM_E_OVERLAP, "spheres overlap")                             \
-  X(JAM_E_UNPLACEABLE, "the random start cannot be placed")       \
-  X(JAM_E_BUFFER, "the output buffer is too short")               \
-  X(JAM_E_MEMORY, "out of memory")                                \
-  X(JAM_E_IO, "file cannot be opened, read or written")           \
-  X(JAM_E_FORMAT, "file does not have the format")                \
-  X(JAM_E_STATE, "no such result yet")                            \
-  X(JAM_E_SOLVER, "no solver gave an answer that checks out")     \
-  X(JAM_E_TOO_FEW, "too few spheres")                             \
-  X(JAM_E_BUSY, "another call is running on this handle")         \
-  X(JAM_E_UNSUPPORTED, "not available in this build or model")    \
+#define JAM_STATUS_TEXTS(X)                                    \
+  X(JAM_OK, "done")                                            \
+  X(JAM_CANCELLED, "cancelled")                                \
+  X(JAM_LIMIT, "a limit on work or time came first")           \
+  X(JAM_NOT_CONVERGED, "no further progress")                  \
+  X(JAM_PRECISION, "beyond the resolution of the numbers")     \
+  X(JAM_NOT_JAMMED, "no jammed network")                       \
+  X(JAM_AMBIGUOUS, "the answer is not unique")                 \
+  X(JAM_E_NULL, "a needed pointer is NULL")                    \
+  X(JAM_E_STRUCT_SIZE, "struct_size is unknown")               \
+  X(JAM_E_ARGUMENT, "a value is out of its range")             \
+  X(JAM_E_DIMENSION, "the dimension is not supported")         \
+  X(JAM_E_NONFINITE, "NaN or infinity in the input")           \
+  X(JAM_E_OVERLAP, "spheres overlap")                          \
+  X(JAM_E_UNPLACEABLE, "the random start cannot be placed")    \
+  X(JAM_E_BUFFER, "the output buffer is too short")            \
+  X(JAM_E_MEMORY, "out of memory")                             \
+  X(JAM_E_IO, "file cannot be opened, read or written")        \
+  X(JAM_E_FORMAT, "file does not have the format")             \
+  X(JAM_E_STATE, "no such result yet")                         \
+  X(JAM_E_SOLVER, "no solver gave an answer that checks out")  \
+  X(JAM_E_TOO_FEW, "too few spheres")                          \
+  X(JAM_E_BUSY, "another call is running on this handle")      \
+  X(JAM_E_UNSUPPORTED, "not available in this build or model") \
   X(JAM_E_INTERNAL, "internal error of libjam")
 
 extern "C" {
 
 const char *jam_status_string(jam_status code) {
   switch (code) {
-#define X(name, text) case name: return text;
+#define X(name, text) \
+  case name:          \
+    return text;
     JAM_STATUS_TEXTS(X)
 #undef X
-    default: return "unknown status";
+    default:
+      return "unknown status";
   }
 }
 
 const char *jam_stop_string(int32_t reason) {
   switch (reason) {
-    case JAM_STOP_NONE: return "none";
-    case JAM_STOP_PRESSURE: return "pressure";
-    case JAM_STOP_PACKING_FRACTION: return "packing_fraction";
-    case JAM_STOP_COLLISIONS: return "collisions";
-    case JAM_STOP_WALL_TIME: return "wall_time";
-    case JAM_STOP_CANCELLED: return "cancelled";
-    case JAM_STOP_STALLED: return "stalled";
-    case JAM_STOP_PRECISION: return "precision";
-    case JAM_STOP_CONVERGED: return "converged";
-    case JAM_STOP_LP_LIMIT: return "lp_limit";
-    case JAM_STOP_SOLVER: return "solver";
-    case JAM_STOP_UNJAMMED: return "unjammed";
-    case JAM_STOP_TIME: return "time";
-    default: return "unknown";
+    case JAM_STOP_NONE:
+      return "none";
+    case JAM_STOP_PRESSURE:
+      return "pressure";
+    case JAM_STOP_PACKING_FRACTION:
+      return "packing_fraction";
+    case JAM_STOP_COLLISIONS:
+      return "collisions";
+    case JAM_STOP_WALL_TIME:
+      return "wall_time";
+    case JAM_STOP_CANCELLED:
+      return "cancelled";
+    case JAM_STOP_STALLED:
+      return "stalled";
+    case JAM_STOP_PRECISION:
+      return "precision";
+    case JAM_STOP_CONVERGED:
+      return "converged";
+    case JAM_STOP_LP_LIMIT:
+      return "lp_limit";
+    case JAM_STOP_SOLVER:
+      return "solver";
+    case JAM_STOP_UNJAMMED:
+      return "unjammed";
+    case JAM_STOP_TIME:
+      return "time";
+    default:
+      return "unknown";
   }
 }
 

@@ -14,12 +14,15 @@ namespace {
 
 void check_options(const jam_create_options &o) {
   if (o.dim < 2 || o.dim > JAM_MAX_DIM) fail(JAM_E_DIMENSION, "dim is %d, supported are 2..%d", o.dim, JAM_MAX_DIM);
-  if (o.n < 0 || o.n > INT32_MAX) fail(JAM_E_ARGUMENT, "n is %lld, it must be in 1..2^31-1", static_cast<long long>(o.n));
+  if (o.n < 0 || o.n > INT32_MAX)
+    fail(JAM_E_ARGUMENT, "n is %lld, it must be in 1..2^31-1", static_cast<long long>(o.n));
   if (!(o.box > 0.0) || !std::isfinite(o.box)) fail(JAM_E_ARGUMENT, "box is %g, it must be positive and finite", o.box);
   if (o.overlap != JAM_OVERLAP_REFUSE && o.overlap != JAM_OVERLAP_SHRINK)
     fail(JAM_E_ARGUMENT, "overlap is %d, not a jam_overlap_policy", o.overlap);
-  if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK) fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
-  if (o.masses != JAM_MASSES_EQUAL && o.masses != JAM_MASSES_VOLUME) fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
+  if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK)
+    fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
+  if (o.masses != JAM_MASSES_EQUAL && o.masses != JAM_MASSES_VOLUME)
+    fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
   if (o.model == JAM_MODEL_MK && !(o.mk_zeta >= 0.0)) fail(JAM_E_ARGUMENT, "mk_zeta is %g, it must be >= 0", o.mk_zeta);
 }
 
@@ -32,7 +35,8 @@ size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t d
   if (n > INT32_MAX) fail(JAM_E_ARGUMENT, "n is %zu, it must be in 1..2^31-1", n);
   if (positions_len && positions_len != n * o.dim)
     fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, n * o.dim);
-  if (diameters_len > 1 && diameters_len != n) fail(JAM_E_ARGUMENT, "diameters_len is %zu, it must be 1 or n = %zu", diameters_len, n);
+  if (diameters_len > 1 && diameters_len != n)
+    fail(JAM_E_ARGUMENT, "diameters_len is %zu, it must be 1 or n = %zu", diameters_len, n);
   if (positions_len && diameters_len == 0) fail(JAM_E_ARGUMENT, "positions are given without diameters");
   return n;
 }
@@ -40,7 +44,8 @@ size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t d
 std::vector<double> take_diameters(size_t n, const double *diameters, size_t len) {
   for (size_t k = 0; k < len; ++k)
     if (!(diameters[k] > 0.0) || !std::isfinite(diameters[k]))
-      fail(std::isfinite(diameters[k]) ? JAM_E_ARGUMENT : JAM_E_NONFINITE, "diameters[%zu] is %g, it must be positive and finite", k, diameters[k]);
+      fail(std::isfinite(diameters[k]) ? JAM_E_ARGUMENT : JAM_E_NONFINITE,
+           "diameters[%zu] is %g, it must be positive and finite", k, diameters[k]);
   if (len == n) return {diameters, diameters + n};
   return std::vector<double>(n, len == 1 ? diameters[0] : 1.0);
 }
@@ -63,7 +68,9 @@ class GrowingCells {
     head_[cell] = i;
   }
   // True when a sphere of diameter sigma at x overlaps one that is there (nearest images).
-  bool blocked(const double *x, double sigma) const { return side_ == 1 ? in_cell(0, x, sigma) : visit(p_.dim - 1, 0, x, sigma); }
+  bool blocked(const double *x, double sigma) const {
+    return side_ == 1 ? in_cell(0, x, sigma) : visit(p_.dim - 1, 0, x, sigma);
+  }
 
  private:
   int64_t index(double x) const {
@@ -117,7 +124,9 @@ void place_at_random(Packing &p) {
   const size_t n = p.n();
   const int d = p.dim;
   p.position.assign(n * d, 0.0);
-  if (diameter_max(p) > p.box) fail(JAM_E_UNPLACEABLE, "the largest diameter %g does not fit the box %g; packing fraction reached: 0", diameter_max(p), p.box);
+  if (diameter_max(p) > p.box)
+    fail(JAM_E_UNPLACEABLE, "the largest diameter %g does not fit the box %g; packing fraction reached: 0",
+         diameter_max(p), p.box);
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
@@ -132,7 +141,8 @@ void place_at_random(Packing &p) {
     int64_t tries = 0;
     do {
       if (++tries > most_tries || ++total > most_total)
-        fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f", placed, packing_fraction(p));
+        fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f",
+             placed, packing_fraction(p));
       for (int c = 0; c < d; ++c) x[c] = wrap(p.box * rng.uniform(), p.box);
     } while (cells.blocked(x, p.diameter[i]));
     cells.add(i);
@@ -155,12 +165,14 @@ void plant(Packing &p) {
       int32_t attempt = 0;
       for (;; ++attempt) {
         if (attempt == most)
-          fail(JAM_E_UNPLACEABLE, "planting found no shift for spheres %d and %d: %g of the box, packing fraction %g, mk_zeta %g", i, j, touch,
-               packing_fraction(p), p.mk_zeta);
+          fail(JAM_E_UNPLACEABLE,
+               "planting found no shift for spheres %d and %d: %g of the box, packing fraction %g, mk_zeta %g", i, j,
+               touch, packing_fraction(p), p.mk_zeta);
         quenched.draw(i, j, attempt, 1.0, shift);
         double r2 = 0.0;
         for (int c = 0; c < d; ++c) {
-          double x = (p.position[static_cast<size_t>(i) * d + c] - p.position[static_cast<size_t>(j) * d + c]) / p.box + shift[c];
+          double x = (p.position[static_cast<size_t>(i) * d + c] - p.position[static_cast<size_t>(j) * d + c]) / p.box +
+                     shift[c];
           x -= std::nearbyint(x);
           r2 += x * x;
         }
@@ -175,7 +187,8 @@ void settle_overlaps(Packing &p, int32_t policy) {
   const auto widest = std::max_element(p.diameter.begin(), p.diameter.end());
   if (p.model == JAM_MODEL_EUCLID && *widest > p.box * (1.0 + overlap_tolerance)) {
     if (policy == JAM_OVERLAP_REFUSE)
-      fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g", widest - p.diameter.begin(), *widest, p.box);
+      fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g",
+           widest - p.diameter.begin(), *widest, p.box);
     const double factor = p.box / *widest;
     for (double &s : p.diameter) s *= factor;
   }
@@ -183,18 +196,20 @@ void settle_overlaps(Packing &p, int32_t policy) {
   if (worst.gap >= -overlap_tolerance) return;
   if (policy == JAM_OVERLAP_REFUSE)
     fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
-  if (worst.gap <= -1.0 + 1e-12) fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
+  if (worst.gap <= -1.0 + 1e-12)
+    fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
   for (double &s : p.diameter) s *= 1.0 + worst.gap;
 }
 
-Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len, const double *diameters,
-                     size_t diameters_len) {
+Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
+                     const double *diameters, size_t diameters_len) {
   check_options(o);
   if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
   if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
   const size_t n = count_spheres(o, positions_len, diameters_len);
   for (size_t k = 0; k < positions_len; ++k)
-    if (!std::isfinite(positions[k])) fail(JAM_E_NONFINITE, "positions[%zu] is %g (sphere %zu, component %zu)", k, positions[k], k / o.dim, k % o.dim);
+    if (!std::isfinite(positions[k]))
+      fail(JAM_E_NONFINITE, "positions[%zu] is %g (sphere %zu, component %zu)", k, positions[k], k / o.dim, k % o.dim);
   Packing p;
   p.dim = o.dim;
   p.box = o.box;
@@ -212,8 +227,10 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
     const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
-    if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0) plant(p);
-    else place_at_random(p);
+    if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
+      plant(p);
+    else
+      place_at_random(p);
   }
   p.velocity.assign(n * o.dim, 0.0);
   return p;

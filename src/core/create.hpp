@@ -9,15 +9,15 @@ constexpr double overlap_tolerance = 1e-12;
 
 jam_create_options default_create_options();
 // Checks everything jam_create documents; positions_len == 0 means a random sequential start.
-Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len, const double *diameters,
-                     size_t diameters_len);
+Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
+                     const double *diameters, size_t diameters_len);
 // Throws JAM_E_OVERLAP naming the worst pair, or shrinks all diameters to contact, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
 // Random sequential addition, largest spheres first, at the diameters that p holds. JAM_E_UNPLACEABLE with
 // the fraction reached when one sphere finds no place in many tries.
 void place_at_random(Packing &p);
-// Mari-Kurchan start at equilibrium at any density (Krzakala and Zdeborova, J. Chem. Phys. 134, 034513 (2011)): positions
-// anywhere, then the shift of each pair again and again until it does not overlap.
+// Mari-Kurchan start at equilibrium at any density (Krzakala and Zdeborova, J. Chem. Phys. 134, 034513 (2011)):
+// positions anywhere, then the shift of each pair again and again until it does not overlap.
 void plant(Packing &p);
 
 }  // namespace jam

@@ -11,9 +11,7 @@ namespace jam {
 // throwing never needs the heap beyond the exception object itself.
 class Error : public std::exception {
  public:
-  Error(jam_status code, const char *text) noexcept : code_(code) {
-    std::snprintf(text_, sizeof text_, "%s", text);
-  }
+  Error(jam_status code, const char *text) noexcept : code_(code) { std::snprintf(text_, sizeof text_, "%s", text); }
   const char *what() const noexcept override { return text_; }
   jam_status code() const noexcept { return code_; }
 

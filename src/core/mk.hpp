@@ -1,5 +1,5 @@
-// Quenched shifts of the Mari-Kurchan model (J. Chem. Phys. 135, 124504 (2011)), from a counter-based generator: nothing is
-// stored but the few pairs whose shift was drawn again when the start was planted.
+// Quenched shifts of the Mari-Kurchan model (J. Chem. Phys. 135, 124504 (2011)), from a counter-based generator:
+// nothing is stored but the few pairs whose shift was drawn again when the start was planted.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,11 @@ namespace jam {
 class MkShifts {
  public:
   explicit MkShifts(const Packing &p)
-      : dim_(p.dim), zeta_(p.mk_zeta), uniform_(!std::isfinite(p.mk_zeta)), key_(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::mk_shift))), redrawn_(p.mk_redrawn) {}
+      : dim_(p.dim),
+        zeta_(p.mk_zeta),
+        uniform_(!std::isfinite(p.mk_zeta)),
+        key_(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::mk_shift))),
+        redrawn_(p.mk_redrawn) {}
 
   // Shift of the pair in box sides, each component in [-1/2, 1/2]: r_ij = r_i - r_j + box * shift, antisymmetric.
   void get(int32_t i, int32_t j, double *shift) const {
@@ -25,7 +29,9 @@ class MkShifts {
     for (int c = 0; c < dim_; ++c) shift[c] = sign * component(pair, attempt, c);
   }
   // The parts of draw, for loops that give up after the first component; a < b.
-  uint64_t pair_key(int32_t a, int32_t b) const { return mix64(key_ ^ mix64(static_cast<uint64_t>(a) << 32 | static_cast<uint64_t>(b))); }
+  uint64_t pair_key(int32_t a, int32_t b) const {
+    return mix64(key_ ^ mix64(static_cast<uint64_t>(a) << 32 | static_cast<uint64_t>(b)));
+  }
   double component(uint64_t pair, int32_t attempt, int c) const {
     const uint64_t bits = mix64(pair + static_cast<uint64_t>(attempt) * 16 + static_cast<uint64_t>(c));
     const double x = static_cast<double>(static_cast<int64_t>(bits >> 11)) * 0x1.0p-53 - 0.5;
@@ -36,9 +42,9 @@ class MkShifts {
 
  private:
   int32_t attempt(int32_t a, int32_t b) const {
-    const auto at = std::lower_bound(redrawn_.begin(), redrawn_.end(), MkRedrawn{a, b, 0}, [](const MkRedrawn &x, const MkRedrawn &y) {
-      return x.i != y.i ? x.i < y.i : x.j < y.j;
-    });
+    const auto at =
+        std::lower_bound(redrawn_.begin(), redrawn_.end(), MkRedrawn{a, b, 0},
+                         [](const MkRedrawn &x, const MkRedrawn &y) { return x.i != y.i ? x.i < y.i : x.j < y.j; });
     return at != redrawn_.end() && at->i == a && at->j == b ? at->attempt : 0;
   }
   int dim_;

@@ -19,7 +19,11 @@ class Monitor {
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
   // Called by capi at the start of a verb; a cancel that came before still stops that verb.
-  void begin() { start_ = now_seconds(); last_ = start_ - 1.0; wall_time = std::numeric_limits<double>::infinity(); }
+  void begin() {
+    start_ = now_seconds();
+    last_ = start_ - 1.0;
+    wall_time = std::numeric_limits<double>::infinity();
+  }
   // Called by capi at the end of a verb.
   void end() { cancelled_.store(false, std::memory_order_relaxed); }
   double seconds() const { return now_seconds() - start_; }

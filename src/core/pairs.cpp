@@ -20,7 +20,8 @@ struct Candidate {
 void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &found) {
   std::sort(found.begin(), found.end(), [dim](const Candidate &a, const Candidate &b) {
     if (a.j != b.j) return a.j < b.j;
-    return std::lexicographical_compare(a.offset.begin(), a.offset.begin() + dim, b.offset.begin(), b.offset.begin() + dim);
+    return std::lexicographical_compare(a.offset.begin(), a.offset.begin() + dim, b.offset.begin(),
+                                        b.offset.begin() + dim);
   });
   for (const Candidate &c : found) {
     list.i.push_back(i);
@@ -57,7 +58,8 @@ class ImageScan {
       found_->push_back(now_);
       return;
     }
-    const double dx = p_.position[static_cast<size_t>(i_) * d + c] - p_.position[static_cast<size_t>(j_) * d + c] + shift_[c];
+    const double dx =
+        p_.position[static_cast<size_t>(i_) * d + c] - p_.position[static_cast<size_t>(j_) * d + c] + shift_[c];
     const double nearest = -std::nearbyint(dx / p_.box);
     for (int m = -reach_; m <= reach_; ++m) {
       const double shift = (nearest + m) * p_.box;
@@ -85,7 +87,9 @@ struct Cutoff {
   const double *own = nullptr;
 
   double most() const { return reach + slope * diameter_max(p); }
-  double of(int32_t i, int32_t j) const { return (own ? std::max(own[i], own[j]) : reach) + slope * 0.5 * (p.diameter[i] + p.diameter[j]); }
+  double of(int32_t i, int32_t j) const {
+    return (own ? std::max(own[i], own[j]) : reach) + slope * 0.5 * (p.diameter[i] + p.diameter[j]);
+  }
 };
 
 Cutoff own_cutoff(const Packing &p, const std::vector<double> &reach, double slope) {
@@ -104,7 +108,8 @@ class CellGrid {
     for (int32_t i = 0; i < n; ++i) {
       int64_t cell = 0;
       for (int c = dim_ - 1; c >= 0; --c) {
-        const auto k = static_cast<int64_t>(p.position[static_cast<size_t>(i) * dim_ + c] / p.box * static_cast<double>(side_));
+        const auto k =
+            static_cast<int64_t>(p.position[static_cast<size_t>(i) * dim_ + c] / p.box * static_cast<double>(side_));
         cell = cell * side_ + std::min(std::max<int64_t>(k, 0), side_ - 1);
       }
       home_[i] = cell;
@@ -195,9 +200,13 @@ PairList by_cells(const Cutoff &cutoff) {
 }  // namespace
 
 PairList find_pairs(const Packing &p, double reach, double slope) { return by_cells({p, reach, slope}); }
-PairList find_pairs(const Packing &p, const std::vector<double> &reach, double slope) { return by_cells(own_cutoff(p, reach, slope)); }
+PairList find_pairs(const Packing &p, const std::vector<double> &reach, double slope) {
+  return by_cells(own_cutoff(p, reach, slope));
+}
 PairList find_pairs_brute(const Packing &p, double reach, double slope) { return by_brute_force({p, reach, slope}); }
-PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope) { return by_brute_force(own_cutoff(p, reach, slope)); }
+PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope) {
+  return by_brute_force(own_cutoff(p, reach, slope));
+}
 
 std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to) {
   std::vector<double> out(to.size(), 0.0);

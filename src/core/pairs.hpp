@@ -13,7 +13,11 @@ struct PairList {
   std::vector<int32_t> i, j;
   std::vector<double> offset;  // (count, dim)
   size_t size() const { return i.size(); }
-  void clear() { i.clear(); j.clear(); offset.clear(); }
+  void clear() {
+    i.clear();
+    j.clear();
+    offset.clear();
+  }
 };
 
 // All pairs with |r_ij| < reach + slope * sigma_ij, every image, sorted by (i, j) and then image.
@@ -26,7 +30,8 @@ PairList find_pairs(const Packing &p, const std::vector<double> &reach, double s
 PairList find_pairs_brute(const Packing &p, double reach, double slope);
 PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope);
 
-// Values of the pairs of one list for those of another; 0 for pairs that the first does not hold. Images of one pair keep their order.
+// Values of the pairs of one list for those of another; 0 for pairs that the first does not hold. Images of one pair
+// keep their order.
 std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to);
 
 // Smallest h = |r_ij| / sigma_ij - 1 over all pairs and its pair; h = +inf with no pair closer than 2 sigma_max.
@@ -42,7 +47,8 @@ void wrap_positions(Packing &p, PairList &pairs);
 // Squared length of r_ij of pair k.
 inline double pair_vector(const Packing &p, const PairList &pairs, size_t k, double *r) {
   const int d = p.dim;
-  const double *a = &p.position[static_cast<size_t>(pairs.i[k]) * d], *b = &p.position[static_cast<size_t>(pairs.j[k]) * d];
+  const double *a = &p.position[static_cast<size_t>(pairs.i[k]) * d],
+               *b = &p.position[static_cast<size_t>(pairs.j[k]) * d];
   double r2 = 0.0;
   for (int c = 0; c < d; ++c) {
     r[c] = (a[c] - b[c]) + pairs.offset[k * d + c];

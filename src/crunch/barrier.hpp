@@ -18,8 +18,8 @@ struct BarrierStep {
 class Barrier {
  public:
   PairList pairs;
-  PackingLp lp;              // rows at the present positions
-  std::vector<double> y;     // multipliers of the rows
+  PackingLp lp;           // rows at the present positions
+  std::vector<double> y;  // multipliers of the rows
   double unit = 1.0, mu = 0.0;
 
   // Rows at the true distances of p. False when a gap is no longer positive.
@@ -30,14 +30,17 @@ class Barrier {
   // Largest displacement of a sphere.
   double longest_move(const BarrierStep &x) const;
   double longest_dual(const BarrierStep &x) const;
-  // Row k after alpha x, with the bending that the linear row leaves out: c + alpha w + alpha^2 |s_i - s_j|^2 / sigma^2.
-  double gap_after(const BarrierStep &x, size_t k, double alpha) const { return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]); }
+  // Row k after alpha x, with the bending that the linear row leaves out: c + alpha w + alpha^2 |s_i - s_j|^2 /
+  // sigma^2.
+  double gap_after(const BarrierStep &x, size_t k, double alpha) const {
+    return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]);
+  }
 
   struct Best {
     double alpha, merit;
   };
-  // The best step along x, no sphere farther than `trust`: a few passes over the rows, where a factorisation costs hundreds.
-  // `merit` is by how much it makes the negative of the barrier function larger (below zero: better).
+  // The best step along x, no sphere farther than `trust`: a few passes over the rows, where a factorisation costs
+  // hundreds. `merit` is by how much it makes the negative of the barrier function larger (below zero: better).
   Best search(const BarrierStep &x, double trust);
 
  private:

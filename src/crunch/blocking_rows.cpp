@@ -7,8 +7,8 @@ namespace {
 
 // A row is pushed where less than this part of its gap would be left, and let go where more than twice that is.
 constexpr double left = 0.1;
-// A force grows by at most so many times what it is, and a row gives way to it by a tenth of what it last did at least: the first answers
-// of rows that push each other are far off.
+// A force grows by at most so many times what it is, and a row gives way to it by a tenth of what it last did at least:
+// the first answers of rows that push each other are far off.
 constexpr double growth = 10.0, less = 0.1;
 
 }  // namespace

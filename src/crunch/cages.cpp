@@ -6,8 +6,8 @@
 namespace jam {
 namespace {
 
-// A side is walled when the line to some neighbour has at least this component along it, times 1/sqrt(d): of 2 d neighbours along the axes,
-// turned as badly as can be, the best has 1/sqrt(d).
+// A side is walled when the line to some neighbour has at least this component along it, times 1/sqrt(d): of 2 d
+// neighbours along the axes, turned as badly as can be, the best has 1/sqrt(d).
 constexpr double walled = 0.9;
 // Longest reach, mean diameters: of spheres a tenth as large as the others few are free still.
 constexpr double farthest = 2.4;
@@ -32,7 +32,8 @@ std::vector<size_t> without_cage(const Packing &p, const PairList &pairs) {
   }
   std::vector<size_t> free;
   for (size_t i = 0; i < p.n(); ++i)
-    if (*std::min_element(&wall[i * sides], &wall[i * sides] + sides) < walled / std::sqrt(static_cast<double>(d))) free.push_back(i);
+    if (*std::min_element(&wall[i * sides], &wall[i * sides] + sides) < walled / std::sqrt(static_cast<double>(d)))
+      free.push_back(i);
   return free;
 }
 

@@ -5,9 +5,10 @@
 
 namespace jam {
 
-// All pairs with |r_ij| < reach + slope sigma_ij. A sphere that they leave room to run to one side gets a longer reach of its own, doubled
-// until it has a cage or the reach is that of the farthest: in a mixture small spheres rattle in holes wider than the reach, and a barrier whose
-// rows change as they cross their hole has no maximum to go to. Sorted as by find_pairs.
+// All pairs with |r_ij| < reach + slope sigma_ij. A sphere that they leave room to run to one side gets a longer reach
+// of its own, doubled until it has a cage or the reach is that of the farthest: in a mixture small spheres rattle in
+// holes wider than the reach, and a barrier whose rows change as they cross their hole has no maximum to go to. Sorted
+// as by find_pairs.
 PairList caged_pairs(const Packing &p, double reach, double slope = 1.0);
 
 }  // namespace jam

@@ -46,10 +46,12 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, jam_report &report) 
       bool contact = false;
       for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j && !contact; ++q) {
         double apart = 0.0;
-        for (int c = 0; c < d; ++c) apart = std::max(apart, std::fabs(net.pairs.offset[q * d + c] - pairs.offset[k * d + c]));
+        for (int c = 0; c < d; ++c)
+          apart = std::max(apart, std::fabs(net.pairs.offset[q * d + c] - pairs.offset[k * d + c]));
         contact = apart < 0.5 * p.box;
       }
-      if (!contact && i != j && net.coordination[i] > 0 && net.coordination[j] > 0) report.min_gap = std::min(report.min_gap, gap);
+      if (!contact && i != j && net.coordination[i] > 0 && net.coordination[j] > 0)
+        report.min_gap = std::min(report.min_gap, gap);
     }
     if (std::isfinite(report.min_gap)) return;
   }

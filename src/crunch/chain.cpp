@@ -18,7 +18,8 @@ double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0))
 
 }  // namespace
 
-Chain::Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history, const CrunchSeams &seams)
+Chain::Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history,
+             const CrunchSeams &seams)
     : o_(o), monitor_(monitor), history_(history), seams_(seams), ipm_(system_) {
   out_.packing = start;
   out_.contacts.coordination.assign(start.n(), 0);
@@ -28,7 +29,8 @@ Chain::Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor
 
 CrunchResult Chain::run() {
   try {
-    if (contact_gap(out_.packing) < already_closed) {  // one LP in full, as narrow as the last one of a run, tells whether it is jammed
+    if (contact_gap(out_.packing) <
+        already_closed) {  // one LP in full, as narrow as the last one of a run, tells whether it is jammed
       bound_ = narrowest, last_gain_ = 0.0;
       one_lp();
     }
@@ -37,7 +39,8 @@ CrunchResult Chain::run() {
       while (out_.report.stop_reason == JAM_STOP_NONE) {
         one_lp();
         if (out_.report.stop_reason == JAM_STOP_NONE && closes()) break;
-        if (out_.report.stop_reason == JAM_STOP_NONE && in_valley(out_.report.gain, out_.report.max_step)) follow_path();
+        if (out_.report.stop_reason == JAM_STOP_NONE && in_valley(out_.report.gain, out_.report.max_step))
+          follow_path();
       }
     } while (wants_another_lp());
     finish();
@@ -89,7 +92,9 @@ void Chain::build_lp() {
 bool Chain::acceptable(const LpSolution &x, LpCheck &check) const {
   check = check_lp(lp_, x);
   // An LP that ends early leans on step bounds that it has not reached yet; any feasible answer of it is a safe step.
-  const double tight = early_ > 0.0 ? std::numeric_limits<double>::infinity() : x.g > 1e-9 ? 1e-3 : 1e-5;  // the rest is left to polish
+  const double tight = early_ > 0.0 ? std::numeric_limits<double>::infinity()
+                       : x.g > 1e-9 ? 1e-3
+                                    : 1e-5;  // the rest is left to polish
   return x.solved && check.infeasibility < 1e-9 && check.gamma < 1e-6 && check.balance < tight && std::isfinite(x.g);
 }
 
@@ -99,11 +104,12 @@ bool Chain::ask(jam_lp_solver solver, const IpmControl &control) {
   if (seams_.answer) seams_.answer(answer_, solver);
   LpCheck check;
   const bool good = acceptable(answer_, check);
-  // An interior point that was interrupted says so by an answer that does not check out; one that did is not thrown away.
+  // An interior point that was interrupted says so by an answer that does not check out; one that did is not thrown
+  // away.
   if (good && !monitor_.cancelled()) return keep(check, solver), true;
   if (monitor_.interrupted()) return true;
-  monitor_.log(JAM_LOG_WARNING, "%s: infeasibility %.1e balance %.1e |sum y - 1| %.1e", solver == JAM_LP_IPM ? "interior point" : "Clp", check.infeasibility,
-               check.balance, check.gamma);
+  monitor_.log(JAM_LOG_WARNING, "%s: infeasibility %.1e balance %.1e |sum y - 1| %.1e",
+               solver == JAM_LP_IPM ? "interior point" : "Clp", check.infeasibility, check.balance, check.gamma);
   return false;
 }
 
@@ -117,7 +123,9 @@ void Chain::solve() {
   if (o_.lp_solver == JAM_LP_IPM) {
     if (moved_ <= settled && held_ == 0) control.multipliers = &forces_;
     if (early_ > 0.0)  // in a valley the path takes over, and wants slack where the chain wants its vertex
-      control.leave = [this](const LpSolution &x) { return in_valley(gain_of(x), largest_step(x, find_network(lp_, x), lp_.dim)); };
+      control.leave = [this](const LpSolution &x) {
+        return in_valley(gain_of(x), largest_step(x, find_network(lp_, x), lp_.dim));
+      };
     if (ask(JAM_LP_IPM, control)) return;
     control.multipliers = nullptr;
     control.leave = nullptr;
@@ -127,7 +135,8 @@ void Chain::solve() {
     if (ask(JAM_LP_IPM, control)) return;
     monitor_.log(JAM_LOG_WARNING, "the interior point failed twice; Clp takes over");
   }
-  if (!ask(JAM_LP_CLP, control)) fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out; the log has the residuals");
+  if (!ask(JAM_LP_CLP, control))
+    fail(JAM_E_SOLVER, "no LP solver gave an answer that checks out; the log has the residuals");
 }
 
 void Chain::keep(const LpCheck &check, jam_lp_solver solver) {
@@ -152,9 +161,11 @@ void Chain::one_lp() {
   const double gain = gain_of(answer_), step = largest_step(answer_, network_, lp_.dim);
   out_.report.gain = gain;
   out_.report.max_step = moved_ = step;
-  monitor_.log(JAM_LOG_INFO, "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
-               static_cast<long long>(out_.report.lp_solves), gain, step, alpha, pairs_.size(), answer_.iterations, network_.active.size(),
-               static_cast<long long>(network_.stable_count), bound_, packing_fraction(out_.packing));
+  monitor_.log(
+      JAM_LOG_INFO,
+      "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
+      static_cast<long long>(out_.report.lp_solves), gain, step, alpha, pairs_.size(), answer_.iterations,
+      network_.active.size(), static_cast<long long>(network_.stable_count), bound_, packing_fraction(out_.packing));
   lp_step(alpha);
   if (show(JAM_PHASE_CRUNCH, gain, step)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
   judge(gain, step, alpha);
@@ -166,7 +177,8 @@ void Chain::lp_step(double alpha) {
   HistoryRow &row = history_.moved(out_.packing, JAM_STEP_LP, monitor_.seconds(), system_.factorisations, moved.data());
   held_ = 0;
   for (const double s : answer_.s) held_ += std::fabs(s) > 0.999 * lp_.bound;
-  const double contacts = static_cast<double>(network_.active.size()), stable = static_cast<double>(network_.stable_count);
+  const double contacts = static_cast<double>(network_.active.size()),
+               stable = static_cast<double>(network_.stable_count);
   row[JAM_HISTORY_GAIN] = std::expm1(0.5 * std::log1p(alpha * answer_.g));
   row[JAM_HISTORY_CONTACTS] = contacts;
   row[JAM_HISTORY_EXCESS] = contacts - (stable > 0.0 ? lp_.dim * (stable - 1.0) + 1.0 : 0.0);
@@ -180,18 +192,21 @@ void Chain::lp_step(double alpha) {
 }
 
 void Chain::judge(double gain, double step, double alpha) {
-  if (gain <= o_.gain_tolerance && step <= o_.step_tolerance && early_ == 0.0) return stop(JAM_STOP_CONVERGED, JAM_OK);  // rigid or not: `finish`
+  if (gain <= o_.gain_tolerance && step <= o_.step_tolerance && early_ == 0.0)
+    return stop(JAM_STOP_CONVERGED, JAM_OK);  // rigid or not: `finish`
   if (alpha == 0.0) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
   if (out_.report.lp_solves >= o_.max_lps) return stop(JAM_STOP_LP_LIMIT, JAM_LIMIT);
   if (cut_off()) return;
   // Rounding floor: the gain is below tolerance and the steps do not get there.
   if (gain <= o_.gain_tolerance) ++idle_;
   if (idle_ >= 12) return stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
-  // An LP that ended early leaves gaps of a part of its gain. Where only the bound ends a gain that does not fall, or a floppy mode
-  // that has yet to close a contact, it is too tight.
-  const bool floppy = network_.stable_count > 0 && static_cast<int64_t>(network_.active.size()) <= lp_.dim * (network_.stable_count - 1);
+  // An LP that ended early leaves gaps of a part of its gain. Where only the bound ends a gain that does not fall, or a
+  // floppy mode that has yet to close a contact, it is too tight.
+  const bool floppy = network_.stable_count > 0 &&
+                      static_cast<int64_t>(network_.active.size()) <= lp_.dim * (network_.stable_count - 1);
   const double wider = held_ > 0 && (floppy || gain > 0.2 * last_gain_) ? 5.0 * lp_.bound : 0.0;
-  if (o_.step_bound == 0.0) bound_ = std::min(std::max({5.0 * step, gain, narrowest, wider}), alpha < 1.0 ? 0.7 * bound_ : 0.5);
+  if (o_.step_bound == 0.0)
+    bound_ = std::min(std::max({5.0 * step, gain, narrowest, wider}), alpha < 1.0 ? 0.7 * bound_ : 0.5);
   last_gain_ = gain;
 }
 

@@ -1,5 +1,5 @@
-// One attempt at a crunch: LPs, the barrier path between them, the end. Its parts are in chain.cpp (LPs), chain_path.cpp and
-// chain_end.cpp.
+// One attempt at a crunch: LPs, the barrier path between them, the end. Its parts are in chain.cpp (LPs),
+// chain_path.cpp and chain_end.cpp.
 #pragma once
 #include <vector>
 
@@ -10,13 +10,14 @@ namespace jam {
 
 // Step bound of the last LPs, mean diameters.
 constexpr double narrowest = 1e-6;
-// After a longest step below this (mean diameters) the forces hardly change: the next LP starts from them, unless they leant on step
-// bounds, without which they do not balance.
+// After a longest step below this (mean diameters) the forces hardly change: the next LP starts from them, unless they
+// leant on step bounds, without which they do not balance.
 constexpr double settled = 1e-5;
 
 class Chain {
  public:
-  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history, const CrunchSeams &seams);
+  Chain(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history,
+        const CrunchSeams &seams);
   CrunchResult run();
 
  private:
@@ -66,12 +67,12 @@ class Chain {
   double unit_ = 1.0, reach_ = 0.0, bound_ = 0.1, early_ = 0.0;
   double last_gain_ = 1.0;
   double moved_ = 1.0;  // longest step since known_, mean diameters; 0 after a path that reached its end
-  int64_t held_ = 0;  // displacements that the last LP's bound ended
+  int64_t held_ = 0;    // displacements that the last LP's bound ended
   int idle_ = 0;
   int paths_ = 0;         // barrier paths followed: another quench than LPs alone
   bool closed_ = false;   // polish ended the LPs
   bool retried_ = false;  // an LP more because polish refused
-  bool kept_ = false;  // the last LP gave an answer that passed the checks
+  bool kept_ = false;     // the last LP gave an answer that passed the checks
 };
 
 }  // namespace jam

@@ -6,12 +6,14 @@
 
 namespace jam {
 
-// Where LPs gain nothing that counts but still move spheres, the answer may be at the end all the same: the contacts close at once, and
-// forces that balance and push then bound the gain by nothing, which is what an LP that moves nothing would say. True: the crunch is at
-// its end.
+// Where LPs gain nothing that counts but still move spheres, the answer may be at the end all the same: the contacts
+// close at once, and forces that balance and push then bound the gain by nothing, which is what an LP that moves
+// nothing would say. True: the crunch is at its end.
 bool Chain::closes() {
   constexpr int patience = 2;
-  if (!o_.polish || idle_ < patience || out_.report.gain > o_.gain_tolerance || held_ > 0 || moved_ > settled || network_.active.empty()) return false;
+  if (!o_.polish || idle_ < patience || out_.report.gain > o_.gain_tolerance || held_ > 0 || moved_ > settled ||
+      network_.active.empty())
+    return false;
   out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
   const PolishEnd end = polished();
   closed_ = end == PolishEnd::done;
@@ -20,8 +22,8 @@ bool Chain::closes() {
   return out_.report.stop_reason != JAM_STOP_NONE;
 }
 
-// Contacts of the last LP and their last digits. Where polish refuses, an LP that lists fewer pairs that nearly touch decides
-// once more which of them carry force; after that its answer stays.
+// Contacts of the last LP and their last digits. Where polish refuses, an LP that lists fewer pairs that nearly touch
+// decides once more which of them carry force; after that its answer stays.
 bool Chain::wants_another_lp() {
   if (closed_ || answer_.y.empty() || network_.stable.empty()) return false;
   out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
@@ -29,7 +31,7 @@ bool Chain::wants_another_lp() {
   if (out_.report.lp_solves >= o_.max_lps || out_.report.stop_reason != JAM_STOP_CONVERGED) return false;
   retried_ = true;
   bound_ = std::max(0.03 * lp_.bound, 1e-9), last_gain_ = 0.0;
-  moved_ = 1.0;  // a cold start: the warm one leads to a corner of the multipliers where they are not unique
+  moved_ = 1.0;    // a cold start: the warm one leads to a corner of the multipliers where they are not unique
   pairs_.clear();  // polish left another graph in system_
   stop(JAM_STOP_NONE, JAM_OK);
   return true;
@@ -37,16 +39,21 @@ bool Chain::wants_another_lp() {
 
 // False when polish refused.
 bool Chain::last_digits() {
-  if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false)) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
+  if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false))
+    return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
   PolishEnd end = polished();
   ContactNetwork fewer = out_.contacts;
   while (end != PolishEnd::done && end != PolishEnd::interrupted && drop_idle_contact(fewer, lp_.dim)) {
     end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
     if (end == PolishEnd::done) out_.contacts = std::move(fewer), polish_step();
   }
-  const char *why = end == PolishEnd::open_contact ? "a contact does not close" : end == PolishEnd::too_few ? "contacts are too few to balance"
-                    : end == PolishEnd::negative_force ? "a force turns negative" : end == PolishEnd::overlap ? "another pair would overlap" : nullptr;
-  if (why) monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
+  const char *why = end == PolishEnd::open_contact     ? "a contact does not close"
+                    : end == PolishEnd::too_few        ? "contacts are too few to balance"
+                    : end == PolishEnd::negative_force ? "a force turns negative"
+                    : end == PolishEnd::overlap        ? "another pair would overlap"
+                                                       : nullptr;
+  if (why)
+    monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
   if (end == PolishEnd::interrupted) cut_off();
   return !why;
 }
@@ -61,7 +68,8 @@ PolishEnd Chain::polished() {
 
 void Chain::polish_step() {
   HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
-  for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS}) row[column] = history_.rows().end()[-2][column];
+  for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS})
+    row[column] = history_.rows().end()[-2][column];
   const double idle = row[JAM_HISTORY_CONTACTS] - static_cast<double>(out_.contacts.size());
   row[JAM_HISTORY_CONTACTS] -= idle, row[JAM_HISTORY_EXCESS] -= idle;
   if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
@@ -71,7 +79,8 @@ void Chain::finish() {
   jam_report &r = out_.report;
   r.method = paths_ ? JAM_CRUNCH_RELINEARISE : JAM_CRUNCH_CHAIN;
   certify(out_.packing, out_.contacts, r);
-  r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 && r.force_residual < (o_.polish ? 1e-6 : 1e-5) && r.min_force > 0.0;
+  r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 &&
+             r.force_residual < (o_.polish ? 1e-6 : 1e-5) && r.min_force > 0.0;
   if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
   r.factorisations = system_.factorisations;
   r.seconds = monitor_.seconds();
@@ -80,7 +89,8 @@ void Chain::finish() {
   r.seconds_solve = system_.seconds_solve;
 }
 
-// Out of memory, or no LP solved: the state is the last good one, without contacts. Allocates nothing that it cannot do without.
+// Out of memory, or no LP solved: the state is the last good one, without contacts. Allocates nothing that it cannot do
+// without.
 void Chain::finish_failed() {
   for (double &x : out_.packing.position) x = wrap(x, out_.packing.box);
   ContactNetwork &c = out_.contacts;

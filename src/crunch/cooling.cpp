@@ -9,16 +9,17 @@ namespace {
 // Squared Newton decrement a row below which the maximum counts as reached. Looser values leave the path.
 constexpr double reached = 0.005;
 // The point reached is a saddle, and mu is warmed up, after so many Newton steps at one mu or after `cut` of them
-// that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the valley steps are longer
-// at larger mu. Of more than `many` rows more are in the way, one or a few with each step, and both take as much longer. But mu falls
-// where the decrement is within `all_but` of the maximum's: a few of very many spheres hold up the rest; and after `flow` steps with a
-// duality gap above `hot`, which is a slow flow.
+// that ended before half their length and left the decrement where it was, since it last fell by `fall`: down the
+// valley steps are longer at larger mu. Of more than `many` rows more are in the way, one or a few with each step, and
+// both take as much longer. But mu falls where the decrement is within `all_but` of the maximum's: a few of very many
+// spheres hold up the rest; and after `flow` steps with a duality gap above `hot`, which is a slow flow.
 constexpr int stuck = 40, cut = 8, flow = 15;
 constexpr double fall = 0.6, many = 5e4, all_but = 4.0, hot = 1e-3;
-// By how much: little, so that what the rest of a large packing has reached is kept; more where that led back to a saddle as warm as
-// `again` times the last one.
+// By how much: little, so that what the rest of a large packing has reached is kept; more where that led back to a
+// saddle as warm as `again` times the last one.
 constexpr double reheat = 10.0, reheat_again = 100.0, again = 0.5;
-// A start colder than its forces can balance at creeps along the walls: after so many steps in a row it is warmed up by `warm`.
+// A start colder than its forces can balance at creeps along the walls: after so many steps in a row it is warmed up by
+// `warm`.
 constexpr int creeps = 4, most_warmed = 3;
 constexpr double warm = 10.0;
 

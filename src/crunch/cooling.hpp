@@ -8,13 +8,13 @@ class Cooling {
  public:
   // What the last Newton step left.
   struct Step {
-    double decrement;  // squared Newton decrement over mu at its start
-    double rows;       // how many terms the barrier has
-    double gap;        // duality gap
-    double balance;    // largest force out of balance, relative
-    double part;       // of the whole Newton step that was taken
-    double trust;      // of the longest step allowed that was taken
-    bool last = false; // one cooling more would end the path
+    double decrement;   // squared Newton decrement over mu at its start
+    double rows;        // how many terms the barrier has
+    double gap;         // duality gap
+    double balance;     // largest force out of balance, relative
+    double part;        // of the whole Newton step that was taken
+    double trust;       // of the longest step allowed that was taken
+    bool last = false;  // one cooling more would end the path
   };
   // The factor of mu before the next Newton step: 1; `shrink`, to cool; above 1, to warm up.
   double before(const Step &last);

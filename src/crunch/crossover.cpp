@@ -11,8 +11,8 @@
 namespace jam {
 namespace {
 
-// Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided, and `choice` more than must be open; `batch` of those
-// that pull join at a time; of more than `most` the interior point was not at its end.
+// Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided, and `choice` more than must
+// be open; `batch` of those that pull join at a time; of more than `most` the interior point was not at its end.
 constexpr double weak = 1e-3, narrow = 2e-6;
 constexpr size_t most = 800, choice = 16, batch = 64;
 constexpr int most_rounds = 30;
@@ -29,16 +29,25 @@ std::vector<double> pins(const ContactNetwork &net, int dim) {
   return diagonal;
 }
 
-// Undecided rows u change by o >= -h; the others stay. Both are rows of one motion where the change is in the range of all rows, of
-// projector P: (1 - P) (0, o) = 0. On u alone that is (1 - G) o = 0 with G = P_uu, of rank `spare`: as many as there are states of
-// self-stress without pressure. The gain is gamma . o.
+// Undecided rows u change by o >= -h; the others stay. Both are rows of one motion where the change is in the range of
+// all rows, of projector P: (1 - P) (0, o) = 0. On u alone that is (1 - G) o = 0 with G = P_uu, of rank `spare`: as
+// many as there are states of self-stress without pressure. The gain is gamma . o.
 class SmallLp {
  public:
   SmallLp(const Packing &p, const ContactNetwork &all, NewtonSystem &system, Monitor *monitor)
-      : all_(all), dim_(p.dim), monitor_(monitor), a_(relative_rows(p, all)), pins_(pins(all, p.dim)), rows_(all.pairs, p.dim, a_, pins_, system),
-        spare_(static_cast<size_t>(excess_contacts(all, p.dim))), sigma_(all.size()), undecided_(all.size(), 0), wanted_(all.size()) {
+      : all_(all),
+        dim_(p.dim),
+        monitor_(monitor),
+        a_(relative_rows(p, all)),
+        pins_(pins(all, p.dim)),
+        rows_(all.pairs, p.dim, a_, pins_, system),
+        spare_(static_cast<size_t>(excess_contacts(all, p.dim))),
+        sigma_(all.size()),
+        undecided_(all.size(), 0),
+        wanted_(all.size()) {
     const double unit = diameter_mean(p);
-    for (size_t k = 0; k < all.size(); ++k) sigma_[k] = 0.5 * (p.diameter[all.pairs.i[k]] + p.diameter[all.pairs.j[k]]) / unit;
+    for (size_t k = 0; k < all.size(); ++k)
+      sigma_[k] = 0.5 * (p.diameter[all.pairs.i[k]] + p.diameter[all.pairs.j[k]]) / unit;
   }
 
   bool solve(Vertex &out) {
@@ -61,16 +70,18 @@ class SmallLp {
     return std::all_of(y_.begin(), y_.end(), [](double y) { return y >= 0.0; });  // nor is it no number
   }
 
-  // At first all weak ones, at least so many that there is a choice; later the strongest that pull in the last answer: with them
-  // settled most others push again.
+  // At first all weak ones, at least so many that there is a choice; later the strongest that pull in the last answer:
+  // with them settled most others push again.
   bool admit() {
-    if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); })) return false;  // the network is no frame
+    if (!std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); }))
+      return false;  // the network is no frame
     const bool first = u_.empty();
     std::vector<double> sorted;
     for (size_t k = 0; k < y_.size(); ++k)
       if (!undecided_[k] && (first || y_[k] < 0.0)) sorted.push_back(y_[k]);
     if (sorted.empty()) return spare_ <= u_.size();
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first ? spare_ + choice : batch, sorted.size()) - 1);
+    const auto last =
+        sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first ? spare_ + choice : batch, sorted.size()) - 1);
     std::nth_element(sorted.begin(), last, sorted.end());
     const double limit = first ? std::max(weak, *last) : *last;
     for (size_t k = 0; k < y_.size(); ++k)
@@ -99,7 +110,8 @@ class SmallLp {
     const Eigen::MatrixXd v = eigen.eigenvectors().rightCols(spare_);
     Eigen::VectorXd h(n);
     std::vector<double> cost(n), rows(spare_ * n);
-    const double largest = std::abs(*std::max_element(gamma_.begin(), gamma_.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    const double largest = std::abs(
+        *std::max_element(gamma_.begin(), gamma_.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
     for (size_t q = 0; q < n; ++q) h[q] = all_.gap[u_[q]] / narrow, cost[q] = -gamma_[q] / largest;
     for (size_t r = 0; r < spare_; ++r)
       for (size_t q = 0; q < n; ++q) rows[r * n + q] = v(q, r);
@@ -107,14 +119,16 @@ class SmallLp {
     x_ = solve_small_lp(cost, rows, std::vector<double>(rhs.data(), rhs.data() + rhs.size()));
     if (monitor_) {
       const auto pull = std::count_if(y_.begin(), y_.end(), [](double y) { return y < 0.0; });
-      const double zero = n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0, least = eigen.eigenvalues()[n - spare_];
-      monitor_->log(JAM_LOG_DEBUG, "crossover: %td pull, %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", pull, n, spare_, zero, least,
-                    x_.empty() ? "no vertex" : "vertex");
+      const double zero = n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0,
+                   least = eigen.eigenvalues()[n - spare_];
+      monitor_->log(JAM_LOG_DEBUG, "crossover: %td pull, %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", pull,
+                    n, spare_, zero, least, x_.empty() ? "no vertex" : "vertex");
     }
     return !x_.empty();
   }
 
-  // The state of self-stress with nothing on the open ones: balanced_ plus states without pressure, (1 - P) of forces c on the open ones.
+  // The state of self-stress with nothing on the open ones: balanced_ plus states without pressure, (1 - P) of forces c
+  // on the open ones.
   void forces() {
     std::vector<size_t> open;
     for (size_t q = 0; q < u_.size(); ++q)
@@ -131,7 +145,8 @@ class SmallLp {
     for (Eigen::Index q = 0; q < n; ++q) wanted_[u_[open[q]]] = c[q];
     rows_.towards(wanted_, got_);
     for (size_t k = 0; k < y_.size(); ++k) y_[k] = balanced_[k] + wanted_[k] - got_[k];
-    for (const size_t k : u_) y_[k] = std::max(y_[k], 0.0);  // the small LP's own are exact zeros or more, but for rounding
+    for (const size_t k : u_)
+      y_[k] = std::max(y_[k], 0.0);  // the small LP's own are exact zeros or more, but for rounding
   }
 
   // What of it stays: rows at zero, of spheres that they hold.
@@ -165,14 +180,15 @@ class SmallLp {
   const size_t spare_;
   std::vector<double> sigma_;  // mean of the two diameters, in mean diameters
   std::vector<char> undecided_;
-  std::vector<size_t> u_;      // the undecided, in the order of their coming
+  std::vector<size_t> u_;  // the undecided, in the order of their coming
   std::vector<double> gamma_, x_, y_, balanced_, wanted_, got_;
-  Eigen::MatrixXd rest_;       // 1 - G
+  Eigen::MatrixXd rest_;  // 1 - G
 };
 
 }  // namespace
 
-bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor, Vertex &out) {
+bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor,
+                 Vertex &out) {
   const ContactNetwork all = with_near_pairs(p, net, narrow);
   const int64_t spare = excess_contacts(all, p.dim);
   const bool undecided = spare > 0 || (spare == 0 && net.size() < all.size());

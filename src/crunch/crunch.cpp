@@ -13,13 +13,15 @@ double free_spacing(const Packing &p) {
   return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed, -1.0 / p.dim));
 }
 
-CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history, const CrunchSeams *seams) {
+CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
+                    const CrunchSeams *seams) {
   check_options(start, o);
   monitor.wall_time = o.wall_time;
   if (monitor.log_fn && monitor.log_level >= JAM_LOG_INFO) {
     const jam_estimate e = estimate(start, o);
-    monitor.log(JAM_LOG_INFO, "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them", e.bytes / 1e6,
-                static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
+    monitor.log(JAM_LOG_INFO,
+                "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
+                e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
   }
   History own;
   History &steps = history ? *history : own;
@@ -28,8 +30,8 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   if (seams && seams->attempt) seams->attempt(result);
   const bool gave_up = result.status == JAM_NOT_CONVERGED || result.status == JAM_NOT_JAMMED;
   if (!gave_up || o.method != JAM_CRUNCH_RELINEARISE || monitor.interrupted()) return result;
-  // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain takes
-  // another way from the same start; its answer counts if it is a jammed packing.
+  // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain
+  // takes another way from the same start; its answer counts if it is a jammed packing.
   monitor.log(JAM_LOG_WARNING, "the barrier path ended at an undecided contact; the chain of LPs starts again");
   jam_crunch_options chain = o;
   chain.method = JAM_CRUNCH_CHAIN;

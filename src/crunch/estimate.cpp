@@ -18,21 +18,29 @@ constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0,
 // Steps of a path: from a state grown to high pressure, and from a dilute start, whose network buckles again and again.
 constexpr double steps_dense = 60.0, steps_dilute = 300.0;
 
-// The chain's step bound follows its last step: up to this, mean diameters, unless the start is close to its jamming point.
+// The chain's step bound follows its last step: up to this, mean diameters, unless the start is close to its jamming
+// point.
 constexpr double chain_bound = 0.5, close_gap = 3e-5;
 
-// The list that the run begins with, a little denser as the spheres grow before it is shortened, and from a start with few
-// neighbours at least as many of the nearest pairs as a list holds near jamming.
+// The list that the run begins with, a little denser as the spheres grow before it is shortened, and from a start with
+// few neighbours at least as many of the nearest pairs as a list holds near jamming.
 PairList longest_list(const Packing &p, const jam_crunch_options &o) {
-  const double unit = diameter_mean(p), free = free_spacing(p), jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
-  const double chain = 2.2 * (o.step_bound > 0.0 ? o.step_bound : contact_gap(p) > close_gap ? chain_bound : 0.1 + 0.6 * free);
-  double reach = unit * (o.method == JAM_CRUNCH_CHAIN ? chain : o.step_bound > 0.0 ? std::max(chain, 0.15 + 1.5 * free) : 0.15 + 1.5 * free);
+  const double unit = diameter_mean(p), free = free_spacing(p),
+               jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
+  const double chain = 2.2 * (o.step_bound > 0.0           ? o.step_bound
+                              : contact_gap(p) > close_gap ? chain_bound
+                                                           : 0.1 + 0.6 * free);
+  double reach = unit * (o.method == JAM_CRUNCH_CHAIN ? chain
+                         : o.step_bound > 0.0         ? std::max(chain, 0.15 + 1.5 * free)
+                                                      : 0.15 + 1.5 * free);
   if (o.neighbour_radius > 0.0) reach = std::max(0.0, o.neighbour_radius * unit - diameter_max(p));
-  // How far the diameters grow before the list gets shorter: the chain and mixtures keep theirs, the path of equal spheres shortens it early.
+  // How far the diameters grow before the list gets shorter: the chain and mixtures keep theirs, the path of equal
+  // spheres shortens it early.
   const double part = o.method == JAM_CRUNCH_CHAIN || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
   const double grown = std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
   PairList pairs = o.method == JAM_CRUNCH_CHAIN ? find_pairs(p, reach, grown) : caged_pairs(p, reach, grown);
-  const double enough = std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
+  const double enough =
+      std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
   for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < enough; ++k) {
     reach = 1.1 * reach + 0.01 * unit;
     pairs = find_pairs(p, reach, 1.0);
@@ -55,12 +63,13 @@ struct Edges {
 std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
   std::vector<double> gap(pairs.size());
   double r[JAM_MAX_DIM];
-  for (size_t k = 0; k < gap.size(); ++k) gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
+  for (size_t k = 0; k < gap.size(); ++k)
+    gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
   return gap;
 }
 
-// Of the pairs that a path lists those that its matrix couples on most of its way: up to `far_slack` of the gap that the farthest
-// carrying row has. A first LP with a wide bound couples more, for a few of the factorisations.
+// Of the pairs that a path lists those that its matrix couples on most of its way: up to `far_slack` of the gap that
+// the farthest carrying row has. A first LP with a wide bound couples more, for a few of the factorisations.
 Edges coupled_edges(const Packing &p, const PairList &pairs) {
   const std::vector<double> gap = relative_gaps(p, pairs);
   const double slack = far_slack * carrying_slack(gap, p.dim, static_cast<int32_t>(p.n()));
@@ -100,24 +109,29 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   PairList pairs = longest_list(p, o);
   Edges listed;
   for (size_t k = 0; k < pairs.size(); ++k) listed.add(pairs.i[k], pairs.j[k]);
-  const double d = p.dim, n = static_cast<double>(p.n()), rows = static_cast<double>(pairs.size()), edges = static_cast<double>(listed.i.size());
+  const double d = p.dim, n = static_cast<double>(p.n()), rows = static_cast<double>(pairs.size()),
+               edges = static_cast<double>(listed.i.size());
   const BlockCholesky::Sizes most = listed.measure(p, o.threads);
-  const BlockCholesky::Sizes usual = o.method == JAM_CRUNCH_CHAIN ? most : coupled_edges(p, pairs).measure(p, o.threads);
+  const BlockCholesky::Sizes usual =
+      o.method == JAM_CRUNCH_CHAIN ? most : coupled_edges(p, pairs).measure(p, o.threads);
 
   jam_estimate e{};
   e.pairs = static_cast<int64_t>(rows);
   e.flops = usual.flops;
   e.factor_bytes = 8.0 * static_cast<double>(most.factor + most.fronts);
-  // Blocks before elimination; a dozen vectors and the rows themselves for each pair, two dozen for each unknown; three pair
-  // lists; tables of the symbolic part (an index for each block of the factor among them).
+  // Blocks before elimination; a dozen vectors and the rows themselves for each pair, two dozen for each unknown; three
+  // pair lists; tables of the symbolic part (an index for each block of the factor among them).
   const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 27.0);
-  const double lists = 3.0 * rows * (8.0 + 8.0 * d), tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(most.factor) / (d * d);
+  const double lists = 3.0 * rows * (8.0 + 8.0 * d),
+               tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(most.factor) / (d * d);
   e.bytes = e.factor_bytes + blocks + vectors + lists + tables;
   e.factorisations = o.method == JAM_CRUNCH_CHAIN ? 3.0 * steps_dense : steps_dense;
   if (free_spacing(p) > 0.05) e.factorisations = steps_dilute;
-  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few times.
+  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
+  // times.
   const double rate = measured_rate(192);
-  e.step_seconds = usual.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(usual.factor) + 4e-7 * rows;
+  e.step_seconds =
+      usual.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(usual.factor) + 4e-7 * rows;
   e.seconds = e.factorisations * e.step_seconds;
   return e;
 }

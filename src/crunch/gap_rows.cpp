@@ -21,8 +21,16 @@ std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net) {
   return a;
 }
 
-GapRows::GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal, NewtonSystem &system)
-    : system_(system), pairs_(pairs), d_(dim), a_(a), diagonal_(diagonal), ones_(pairs.size(), 1.0), row_(pairs.size()), rhs_(diagonal.size()) {}
+GapRows::GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal,
+                 NewtonSystem &system)
+    : system_(system),
+      pairs_(pairs),
+      d_(dim),
+      a_(a),
+      diagonal_(diagonal),
+      ones_(pairs.size(), 1.0),
+      row_(pairs.size()),
+      rhs_(diagonal.size()) {}
 
 Motion GapRows::towards(const std::vector<double> &wanted, std::vector<double> &rows) {
   Motion sum, step;

@@ -1,5 +1,5 @@
-// Linear algebra on a contact network: which motion changes its gaps in a given way, which forces on it balance. One row a_k a contact;
-// of a motion it gives a_k . (s_i - s_j) - g.
+// Linear algebra on a contact network: which motion changes its gaps in a given way, which forces on it balance. One
+// row a_k a contact; of a motion it gives a_k . (s_i - s_j) - g.
 #pragma once
 #include <vector>
 
@@ -23,12 +23,13 @@ std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net);
 
 class GapRows {
  public:
-  // system: holds the graph of these pairs. diagonal: fixes what no row does (translations, rattlers). pairs, a and diagonal are kept by
-  // reference.
-  GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal, NewtonSystem &system);
+  // system: holds the graph of these pairs. diagonal: fixes what no row does (translations, rattlers). pairs, a and
+  // diagonal are kept by reference.
+  GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal,
+          NewtonSystem &system);
   bool factorise() { return system_.factorise(a_.data(), ones_.data(), diagonal_.data()); }
-  // The motion whose rows come nearest to `wanted`, in least squares; `rows` is what they are. Refined in the rows, where a motion of
-  // 1e-6 shows digits down to 1e-22.
+  // The motion whose rows come nearest to `wanted`, in least squares; `rows` is what they are. Refined in the rows,
+  // where a motion of 1e-6 shows digits down to 1e-22.
   Motion towards(const std::vector<double> &wanted, std::vector<double> &rows);
   // y - A (A^T A)^-1 A^T y, repeated, with sums in extended precision: the nearest forces that balance on every sphere.
   void balance(std::vector<double> &y);

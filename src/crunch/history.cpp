@@ -38,7 +38,8 @@ void History::begin(const Packing &start, bool details) {
   step_ = CrunchStep();
 }
 
-HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations, const double *displacement) {
+HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
+                           const double *displacement) {
   for (size_t k = 0; k < last_.size(); ++k) {
     const double dx = now.position[k] - position_[k];
     last_[k] = displacement ? displacement[k] : dx - now.box * std::nearbyint(dx / now.box);
@@ -71,7 +72,8 @@ void History::take_network(const Packing &p, const PackingLp &lp, const LpSoluti
   double r[JAM_MAX_DIM];
   step_.pair.clear(), step_.vector.clear(), step_.multiplier.clear();
   for (size_t k = 0; k < on.size(); ++k) {
-    if (!on[k] || !(answer.y[k] > 0.0)) continue;  // a contact without force, which Clp's vertices may have, is not in the balance
+    if (!on[k] || !(answer.y[k] > 0.0))
+      continue;  // a contact without force, which Clp's vertices may have, is not in the balance
     const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
     pair_vector(p, pairs, k, r);
     step_.pair.push_back(pairs.i[k]), step_.pair.push_back(pairs.j[k]);

@@ -1,4 +1,5 @@
-// What each step of a crunch did: the rows behind jam_crunch_history, and the details of the last step while a callback looks.
+// What each step of a crunch did: the rows behind jam_crunch_history, and the details of the last step while a callback
+// looks.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,9 +27,11 @@ class History {
  public:
   // From here on displacements count. details: fill step() too.
   void begin(const Packing &start, bool details);
-  // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no sphere moved
-  // by half a box: then nearest images tell it. seconds, factorisations: totals so far. Unknown columns are NaN.
-  HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations, const double *displacement = nullptr);
+  // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no
+  // sphere moved by half a box: then nearest images tell it. seconds, factorisations: totals so far. Unknown columns
+  // are NaN.
+  HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
+                    const double *displacement = nullptr);
   // Did any sphere move, or grow, since the last row?
   bool behind(const Packing &now) const { return now.position != position_ || now.diameter.front() != diameter_; }
   // The linear network of an LP before its step is made.

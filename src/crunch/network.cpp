@@ -10,8 +10,9 @@ namespace jam {
 constexpr double shut = 1e-11;
 
 // At a strictly complementary optimum either the force or the gap is zero; compare them in their own units: y times
-// the number of carrying pairs (about d n) is a force over the mean force, w a relative gap (times two). In a hyperstatic
-// packing the multipliers are not unique and a solver at a vertex leaves some at zero: there a gap of nothing counts.
+// the number of carrying pairs (about d n) is a force over the mean force, w a relative gap (times two). In a
+// hyperstatic packing the multipliers are not unique and a solver at a vertex leaves some at zero: there a gap of
+// nothing counts.
 std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &x) {
   std::vector<char> on(lp.rows());
   const double carrying = static_cast<double>(lp.dim) * static_cast<double>(lp.n);

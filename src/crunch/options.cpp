@@ -22,8 +22,10 @@ jam_crunch_options default_crunch_options() {
 }
 
 void check_options(const Packing &p, const jam_crunch_options &o) {
-  if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP) fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
-  if (o.method != JAM_CRUNCH_RELINEARISE && o.method != JAM_CRUNCH_CHAIN) fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
+  if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP)
+    fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
+  if (o.method != JAM_CRUNCH_RELINEARISE && o.method != JAM_CRUNCH_CHAIN)
+    fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
   if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
   if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
   const auto positive = [](double v, const char *name) {
@@ -38,7 +40,8 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
   if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
   const ClosestPair worst = closest_pair(p);
-  if (worst.gap < -1e-9) fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+  if (worst.gap < -1e-9)
+    fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
 }
 
 }  // namespace jam

@@ -8,10 +8,10 @@
 namespace jam {
 namespace {
 
-// After a step cut short to this part few weights are others. The factor at hand then serves as preconditioner of conjugate gradients,
-// if a factorisation is worth at least so many triangular solves, and finds the direction to this part of its length in the
-// norm of the matrix, so its decrement to the square of that.
-// What is left of it puts forces out of balance, most when mu has just jumped; a step with a factor of its own takes that up.
+// After a step cut short to this part few weights are others. The factor at hand then serves as preconditioner of
+// conjugate gradients, if a factorisation is worth at least so many triangular solves, and finds the direction to this
+// part of its length in the norm of the matrix, so its decrement to the square of that. What is left of it puts forces
+// out of balance, most when mu has just jumped; a step with a factor of its own takes that up.
 constexpr double short_part = 0.3, accuracy = 0.1, balanced = 0.3;
 constexpr int least_worth = 20;
 
@@ -59,7 +59,8 @@ void PathMatrix::weigh(const Packing &p, const Barrier &b, double proximal) {
     double a1 = 0.0;
     for (int c = 0; c < d; ++c) a1 += std::fabs(a[c]);
     for (int c = 0; c < d; ++c)  // at least a a^T by Gershgorin's circles
-      for (const int32_t v : {b.pairs.i[k], b.pairs.j[k]}) diagonal_[static_cast<size_t>(v) * d + c] += weight_[k] * std::fabs(a[c]) * a1;
+      for (const int32_t v : {b.pairs.i[k], b.pairs.j[k]})
+        diagonal_[static_cast<size_t>(v) * d + c] += weight_[k] * std::fabs(a[c]) * a1;
   }
 }
 
@@ -71,7 +72,8 @@ bool PathMatrix::factorise() {
 
 bool PathMatrix::follow(double part, double balance) {
   const int worth = worth_ > 0 ? worth_ : system_.solves_worth();
-  following_ = part < short_part && balance < balanced && worth >= least_worth && system_.has_factor() && price_ <= worth / 6;
+  following_ =
+      part < short_part && balance < balanced && worth >= least_worth && system_.has_factor() && price_ <= worth / 6;
   if (!following_) return false;
   system_.follow(near_a_.data(), near_weight_.data(), diagonal_.data());
   most_ = worth / 4;

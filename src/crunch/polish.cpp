@@ -65,8 +65,9 @@ bool pushes_only(const ContactNetwork &net) {
   return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
 }
 
-// More contacts than one state of self-stress needs: the forces are not unique. Those of least norm at the same mean are the
-// projection of equal forces; false, and nothing changed, if one of them pulls (the LP's forces then have to do).
+// More contacts than one state of self-stress needs: the forces are not unique. Those of least norm at the same mean
+// are the projection of equal forces; false, and nothing changed, if one of them pulls (the LP's forces then have to
+// do).
 bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
   if (excess_contacts(net, p.dim) <= 0) return false;
   ContactNetwork least = net;
@@ -89,18 +90,20 @@ bool drop(ContactNetwork &net, size_t k, int dim) {
   return true;
 }
 
-// What least squares leave of the gaps is orthogonal to every change of the packing: itself a state of self-stress g, without
-// pressure. Of the forces f - t g the first to vanish, as t grows, is of the contact that opens when the others close: a pivot of
-// the dual simplex. False where all are closed, and where that contact's spheres have none to spare.
+// What least squares leave of the gaps is orthogonal to every change of the packing: itself a state of self-stress g,
+// without pressure. Of the forces f - t g the first to vanish, as t grows, is of the contact that opens when the others
+// close: a pivot of the dual simplex. False where all are closed, and where that contact's spheres have none to spare.
 bool drop_open_contact(ContactNetwork &net, int dim) {
   if (excess_contacts(net, dim) <= 0 || !(largest(net.gap) > rounding)) return false;
   size_t first = net.size();
   for (size_t k = 0; k < net.size(); ++k)
-    if (net.gap[k] > 0.0 && (first == net.size() || net.force[k] * net.gap[first] < net.force[first] * net.gap[k])) first = k;
+    if (net.gap[k] > 0.0 && (first == net.size() || net.force[k] * net.gap[first] < net.force[first] * net.gap[k]))
+      first = k;
   return first < net.size() && drop(net, first, dim);
 }
 
-// Closes all contacts as far as they go: on a network with one state of self-stress to rounding, else in least squares. False when interrupted.
+// Closes all contacts as far as they go: on a network with one state of self-stress to rounding, else in least squares.
+// False when interrupted.
 bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
   const std::vector<double> diagonal = small_diagonal(p, net);
@@ -122,7 +125,8 @@ bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int thread
   return !(monitor && monitor->interrupted());
 }
 
-PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor) {
+PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed,
+                            Monitor *monitor) {
   do {
     if (!close_all(p, net, system, threads, monitor)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < closed)) return PolishEnd::open_contact;
@@ -131,26 +135,32 @@ PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &syste
   const std::vector<double> diagonal = small_diagonal(p, net);
   if (!least_forces(p, net, system, diagonal)) balance_forces(p, net, system, diagonal);
   if (monitor && !pushes_only(net))
-    monitor->log(JAM_LOG_DEBUG, "polish: %td of %zu contacts pull, the strongest with %.1e", std::count_if(net.force.begin(), net.force.end(), [](double f) { return !(f > 0.0); }),
-                 net.size(), -*std::min_element(net.force.begin(), net.force.end()));
+    monitor->log(JAM_LOG_DEBUG, "polish: %td of %zu contacts pull, the strongest with %.1e",
+                 std::count_if(net.force.begin(), net.force.end(), [](double f) { return !(f > 0.0); }), net.size(),
+                 -*std::min_element(net.force.begin(), net.force.end()));
   if (!pushes_only(net)) return PolishEnd::negative_force;
   return closest_pair(p).gap < allowed ? PolishEnd::overlap : PolishEnd::done;
 }
 
-// From closed contacts of which some pull, or one is missing, to a vertex. Closing that may make others pull again, where vertices lie so near each
-// other that a step between them changes the weakest forces: what no double can tell apart ends as it is, with its weakest contacts
-// open, if their weighted gap is below rounding.
-PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed, Monitor *monitor, PolishEnd end) {
+// From closed contacts of which some pull, or one is missing, to a vertex. Closing that may make others pull again,
+// where vertices lie so near each other that a step between them changes the weakest forces: what no double can tell
+// apart ends as it is, with its weakest contacts open, if their weighted gap is below rounding.
+PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed,
+                    Monitor *monitor, PolishEnd end) {
   for (int k = 0; k < most_vertices; ++k) {
     Vertex vertex;
-    if (!find_vertex(p, net, system, threads, monitor, vertex)) return monitor && monitor->interrupted() ? PolishEnd::interrupted : end;
+    if (!find_vertex(p, net, system, threads, monitor, vertex))
+      return monitor && monitor->interrupted() ? PolishEnd::interrupted : end;
     Packing moved = p;
     ContactNetwork others = vertex.net;
     move(moved, others.pairs, vertex.step);
     measure_contacts(moved, others);
     end = close_and_balance(moved, others, system, threads, allowed, monitor);
-    const bool exact = end == PolishEnd::done, enough = vertex.open < rounding && pushes_only(vertex.net) && closest_pair(p).gap >= allowed;
-    if (monitor) monitor->log(JAM_LOG_DEBUG, "vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(), vertex.open, largest(vertex.step.s), exact ? "closed" : "open");
+    const bool exact = end == PolishEnd::done,
+               enough = vertex.open < rounding && pushes_only(vertex.net) && closest_pair(p).gap >= allowed;
+    if (monitor)
+      monitor->log(JAM_LOG_DEBUG, "vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(),
+                   vertex.open, largest(vertex.step.s), exact ? "closed" : "open");
     if (end == PolishEnd::interrupted) return end;
     if (!exact && enough) {
       net = std::move(vertex.net);
@@ -185,7 +195,8 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   }
   if (end != PolishEnd::done) return end;
   if (monitor && largest(better.gap) > rounding)
-    monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(), largest(better.gap));
+    monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),
+                 largest(better.gap));
   p = std::move(q);
   net = std::move(better);
   return PolishEnd::done;

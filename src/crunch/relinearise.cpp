@@ -15,32 +15,37 @@
 namespace jam {
 namespace {
 
-// Each mu is followed to its maximum before mu falls (`cooling`), and every step is the best along its line: that keeps the path from
-// wandering along a network that buckles.
+// Each mu is followed to its maximum before mu falls (`cooling`), and every step is the best along its line: that keeps
+// the path from wandering along a network that buckles.
 
 // A product y c may differ from mu by this factor either way before y is pulled back to the central path.
 constexpr double centrality = 100.0;
 constexpr int most_reheats = 16;
 // Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
 constexpr double trust = 0.1;
-// Pairs nearer than this (mean diameters) are listed, and what else a rattler needs to feel its cage (`cages`), else it runs.
+// Pairs nearer than this (mean diameters) are listed, and what else a rattler needs to feel its cage (`cages`), else it
+// runs.
 constexpr double least_reach = 0.15;
-// Correctors of a direction (Gondzio, Comput. Optim. Appl. 6, 137 (1996), with the true gaps in the place of the linear ones): a
-// step is cut short by a few rows that were slack until now, and a triangular solve that pulls their products y c back
-// into this band costs a few percent of a factorisation.
+// Correctors of a direction (Gondzio, Comput. Optim. Appl. 6, 137 (1996), with the true gaps in the place of the linear
+// ones): a step is cut short by a few rows that were slack until now, and a triangular solve that pulls their products
+// y c back into this band costs a few percent of a factorisation.
 constexpr int most_correctors = 5;
 constexpr double band = 10.0, farther = 0.3;
 // A step of so much of Newton's needs no help.
 constexpr double whole = 0.95;
-// A step shorter than this part of Newton's, as the last one was (or there was none), has a few rows in its way (`blocking_rows`): so
-// many more triangular solves push them aside, until so many in a row do not make it better.
+// A step shorter than this part of Newton's, as the last one was (or there was none), has a few rows in its way
+// (`blocking_rows`): so many more triangular solves push them aside, until so many in a row do not make it better.
 constexpr double cut = 0.3;
 constexpr int most_pushes = 12, most_worse = 3;
 
 class Path {
  public:
   Path(Packing &p, const RelineariseControl &control, NewtonSystem &system, Monitor &monitor)
-      : p_(p), control_(control), system_(system), monitor_(monitor), matrix_(system, control.threads, control.solves_worth) {}
+      : p_(p),
+        control_(control),
+        system_(system),
+        monitor_(monitor),
+        matrix_(system, control.threads, control.solves_worth) {}
 
   RelineariseResult run() {
     RelineariseResult out;
@@ -51,9 +56,11 @@ class Path {
       out.factorisations = system_.factorisations - before;
       out.reheats = cooling_.reheats();
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size());
-      monitor_.log(JAM_LOG_DEBUG, "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps %.2f %.2f moved %.1e solves %d",
-                   out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(), matrix_.near(), correctors_, alpha_p_, alpha_d_,
-                   last_step_, matrix_.solves());
+      monitor_.log(JAM_LOG_DEBUG,
+                   "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps "
+                   "%.2f %.2f moved %.1e solves %d",
+                   out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(),
+                   matrix_.near(), correctors_, alpha_p_, alpha_d_, last_step_, matrix_.solves());
       out.reached = balance_ < 1e-2 && gap_ <= control_.target;
       if (out.reached || out.reheats > most_reheats || out.factorisations >= control_.max_factorisations ||
           monitor_.interrupted() || report(out.factorisations) || !newton())
@@ -64,7 +71,8 @@ class Path {
   }
 
  private:
-  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs at least.
+  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs at
+  // least.
   void open() {
     b_.unit = diameter_mean(p_);
     reach_ = b_.unit * (least_reach + 1.5 * free_spacing(p_));
@@ -171,7 +179,8 @@ class Path {
 
   bool newton() {
     const bool last = control_.saddle_ends && gap_ * Cooling::shrink <= control_.target;
-    const double turn = cooling_.before({decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust, last});
+    const double turn = cooling_.before(
+        {decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust, last});
     if (last && turn > 1.0) return false;  // a saddle so near the end: LPs tell which contacts it lacks
     b_.mu *= turn;
     if (!direct()) return false;
@@ -183,7 +192,8 @@ class Path {
   double correct() {
     Barrier::Best best = b_.search(main_, trust);
     for (correctors_ = 0; correctors_ < most_correctors && best.alpha < whole; ++correctors_) {
-      const double aim = std::min(1.0, best.alpha + farther), aim_dual = std::min(1.0, b_.longest_dual(main_) + farther);
+      const double aim = std::min(1.0, best.alpha + farther),
+                   aim_dual = std::min(1.0, b_.longest_dual(main_) + farther);
       for (size_t k = 0; k < b_.y.size(); ++k) {
         const double product = b_.gap_after(main_, k, aim) * (b_.y[k] + aim_dual * main_.y[k]);
         const double inside = std::min(std::max(product, b_.mu / band), band * b_.mu);

@@ -23,8 +23,10 @@ double closest_approach(const LpSolution &x, int dim, double unit) {
     double s2 = 0.0;
     for (int c = 0; c < dim; ++c) s2 += x.s[k + c] * x.s[k + c];
     const double s = std::sqrt(s2) * unit;
-    if (s > first) second = first, first = s;
-    else if (s > second) second = s;
+    if (s > first)
+      second = first, first = s;
+    else if (s > second)
+      second = s;
   }
   return first + second;
 }
@@ -33,10 +35,11 @@ double closest_approach(const LpSolution &x, int dim, double unit) {
 
 // Listed pairs: the linearised rows are tighter than the true ones (|r + s|^2 = |r|^2 + 2 r.s + |s|^2), and the set of
 // (s, g) that obeys them is convex and holds 0, so alpha (s, g) is safe for every alpha in [0, 1].
-// Unlisted pairs: |r| >= reach + sigma_ij. The step brings them nearer by at most the sum of the two longest displacements and
-// widens their contact distance by at most the growth of the largest diameter, so they stay apart if these make no more than
-// reach: |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0. If that does not settle it, every pair and image is looked at
-// and alpha halved until none overlaps: at low density, where reach follows the free spacing, no pair can meet unseen.
+// Unlisted pairs: |r| >= reach + sigma_ij. The step brings them nearer by at most the sum of the two longest
+// displacements and widens their contact distance by at most the growth of the largest diameter, so they stay apart if
+// these make no more than reach: |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0. If that does not settle it,
+// every pair and image is looked at and alpha halved until none overlaps: at low density, where reach follows the free
+// spacing, no pair can meet unseen.
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x, double unit) {
   const double growth = (std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0) * diameter_max(p);
   PairList shifted = pairs;

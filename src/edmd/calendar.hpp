@@ -1,7 +1,7 @@
-// The event calendar: one event per sphere, sorted into buckets of equal time width; only the bucket that is being worked
-// on is a heap. Insert, move and pop cost O(1) as long as the width suits the rate of events (Paul, J. Comput. Phys. 221,
-// 615 (2007)); with a bad width the heap still gives O(log n). Of events at one time the sphere with the lower number comes
-// first, so that the order follows from the times alone and need not be kept in a checkpoint.
+// The event calendar: one event per sphere, sorted into buckets of equal time width; only the bucket that is being
+// worked on is a heap. Insert, move and pop cost O(1) as long as the width suits the rate of events (Paul, J. Comput.
+// Phys. 221, 615 (2007)); with a bad width the heap still gives O(log n). Of events at one time the sphere with the
+// lower number comes first, so that the order follows from the times alone and need not be kept in a checkpoint.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -15,8 +15,8 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 struct Event {
   double time = never;
-  int32_t partner = -1;  // sphere to collide with, or -1: leaves its safe sphere
-  uint32_t partner_count = 0, count = 0;  // collisions of the partner when this was predicted; own collisions
+  int32_t partner = -1;                           // sphere to collide with, or -1: leaves its safe sphere
+  uint32_t partner_count = 0, count = 0;          // collisions of the partner when this was predicted; own collisions
   int32_t next = -1, prev = -1, where = nowhere;  // bucket >= 0, or nowhere, or heap_base - place in the heap
   static constexpr int32_t nowhere = -1, heap_base = -2;
 };
@@ -37,8 +37,8 @@ class Calendar {
     current_ = 0;
     for (int32_t i = 0; i < static_cast<int32_t>(event_.size()); ++i) event_[i].where = Event::nowhere, insert(i);
   }
-  // The event time of a sphere may change while it is out, or before update(). Of two spheres that change together both must be
-  // out first: a heap that is worked on while it holds a time that does not fit its place loses its order.
+  // The event time of a sphere may change while it is out, or before update(). Of two spheres that change together both
+  // must be out first: a heap that is worked on while it holds a time that does not fit its place loses its order.
   void take_out(int32_t i) { remove(i); }
   void put_in(int32_t i) { insert(i); }
   void update(int32_t i) {
@@ -69,11 +69,13 @@ class Calendar {
     a(inverse_);
     a(current_);
     if (!a.reading()) return;
-    Archive::check(event_.size() == n && current_ >= 0 && current_ <= last_bucket() && inverse_ >= 0.0 && inverse_ < never);
+    Archive::check(event_.size() == n && current_ >= 0 && current_ <= last_bucket() && inverse_ >= 0.0 &&
+                   inverse_ < never);
     for (int32_t &h : heads_) h = -1;
     heap_.clear();
     for (int32_t i = 0; i < static_cast<int32_t>(n); ++i) {
-      Archive::check(event_[i].partner >= -1 && event_[i].partner < static_cast<int32_t>(n) && (event_[i].time - start_) * inverse_ > -1e6);
+      Archive::check(event_[i].partner >= -1 && event_[i].partner < static_cast<int32_t>(n) &&
+                     (event_[i].time - start_) * inverse_ > -1e6);
       event_[i].where = Event::nowhere;
       insert(i);
     }
@@ -101,7 +103,10 @@ class Calendar {
   void remove(int32_t i) {
     Event &e = event_[i];
     if (e.where >= 0) {
-      if (e.prev >= 0) event_[e.prev].next = e.next; else heads_[e.where] = e.next;
+      if (e.prev >= 0)
+        event_[e.prev].next = e.next;
+      else
+        heads_[e.where] = e.next;
       if (e.next >= 0) event_[e.next].prev = e.prev;
     } else if (e.where <= Event::heap_base) {
       heap_remove(Event::heap_base - e.where);
@@ -137,8 +142,10 @@ class Calendar {
     const int32_t moved = heap_.back();
     heap_.pop_back();
     if (slot == heap_.size()) return;
-    if (slot > 0 && before(moved, heap_[(slot - 1) / 2])) sift_up(slot, moved);
-    else sift_down(slot, moved);
+    if (slot > 0 && before(moved, heap_[(slot - 1) / 2]))
+      sift_up(slot, moved);
+    else
+      sift_down(slot, moved);
   }
 
   std::vector<Event> event_;

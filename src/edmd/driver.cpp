@@ -14,14 +14,22 @@ std::unique_ptr<EngineBase> make_engine_of(const Packing &p, const EngineOptions
 
 std::unique_ptr<EngineBase> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
   switch (p.dim) {
-    case 2: return make_engine_of<2>(p, o, images, from);
-    case 3: return make_engine_of<3>(p, o, images, from);
-    case 4: return make_engine_of<4>(p, o, images, from);
-    case 5: return make_engine_of<5>(p, o, images, from);
-    case 6: return make_engine_of<6>(p, o, images, from);
-    case 7: return make_engine_of<7>(p, o, images, from);
-    case 8: return make_engine_of<8>(p, o, images, from);
-    default: fail(JAM_E_DIMENSION, "dim is %d", p.dim);
+    case 2:
+      return make_engine_of<2>(p, o, images, from);
+    case 3:
+      return make_engine_of<3>(p, o, images, from);
+    case 4:
+      return make_engine_of<4>(p, o, images, from);
+    case 5:
+      return make_engine_of<5>(p, o, images, from);
+    case 6:
+      return make_engine_of<6>(p, o, images, from);
+    case 7:
+      return make_engine_of<7>(p, o, images, from);
+    case 8:
+      return make_engine_of<8>(p, o, images, from);
+    default:
+      fail(JAM_E_DIMENSION, "dim is %d", p.dim);
   }
 }
 
@@ -83,8 +91,10 @@ void check_compress_options(const jam_compress_options &o) {
   positive(o.time, "time");
   if (!(o.growth_rate_end >= 0.0) || o.growth_rate_end > o.growth_rate)
     fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate", o.growth_rate_end);
-  if (o.growth_rate_end > 0.0 && o.pressure == no_limit) fail(JAM_E_ARGUMENT, "growth_rate_end needs a finite pressure to be reached at");
-  if (o.growth_law != JAM_GROWTH_DIAMETER && o.growth_law != JAM_GROWTH_DENSITY) fail(JAM_E_ARGUMENT, "growth_law is %d, not a jam_growth_law", o.growth_law);
+  if (o.growth_rate_end > 0.0 && o.pressure == no_limit)
+    fail(JAM_E_ARGUMENT, "growth_rate_end needs a finite pressure to be reached at");
+  if (o.growth_law != JAM_GROWTH_DIAMETER && o.growth_law != JAM_GROWTH_DENSITY)
+    fail(JAM_E_ARGUMENT, "growth_law is %d, not a jam_growth_law", o.growth_law);
 }
 
 MdStage stage_of(const jam_run_options &o) {
@@ -103,6 +113,7 @@ MdStage stage_of(const jam_compress_options &o) {
   return s;
 }
 
-const MdStage default_protocol[2] = {{1e-2, 500.0, no_limit, no_limit, no_limit}, {3e-3, 1e7, no_limit, no_limit, no_limit}};
+const MdStage default_protocol[2] = {{1e-2, 500.0, no_limit, no_limit, no_limit},
+                                     {3e-3, 1e7, no_limit, no_limit, no_limit}};
 
 }  // namespace jam

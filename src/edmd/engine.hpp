@@ -1,20 +1,21 @@
 // The event-driven engine: spheres in the unit box (the driver scales), asynchronous, one scheduled event per sphere.
 //
-// Numbers. Coordinates, radii and image shifts are integers with 2^64 (or 2^61, see Shift) to the box, so that differences
-// wrap to the nearest image by themselves and are exact; gaps near contact are taken with 128-bit integers. A gap is thus
-// known to 5e-20 of the box, where doubles in a unit box give 1e-16. Velocities are doubles in the same unit per time.
-// Times are doubles relative to an origin that moves along every few collisions per sphere.
+// Numbers. Coordinates, radii and image shifts are integers with 2^64 (or 2^61, see Shift) to the box, so that
+// differences wrap to the nearest image by themselves and are exact; gaps near contact are taken with 128-bit integers.
+// A gap is thus known to 5e-20 of the box, where doubles in a unit box give 1e-16. Velocities are doubles in the same
+// unit per time. Times are doubles relative to an origin that moves along every few collisions per sphere.
 //
-// Events. Invariant: for each pair in the lists, the earlier of the two scheduled events is not later than the collision of
-// the pair. Predicting sphere i may therefore leave out a partner k whose own event comes before their collision: k will be
-// predicted again by then. An event whose partner has collided since is found stale when it comes up.
+// Events. Invariant: for each pair in the lists, the earlier of the two scheduled events is not later than the
+// collision of the pair. Predicting sphere i may therefore leave out a partner k whose own event comes before their
+// collision: k will be predicted again by then. An event whose partner has collided since is found stale when it comes
+// up.
 //
-// Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes this
-// list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) + shell.
-// In dilute systems there are no lists: spheres meet those of the cells around their own, which they leave by an event.
-// Lists are made through cells too, or in the Mari-Kurchan model, where partners are anywhere, through wider outer lists of the
-// same kind, whose own making looks at all spheres (engine_quenched.hpp).
-// Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
+// Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes
+// this list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) +
+// shell. In dilute systems there are no lists: spheres meet those of the cells around their own, which they leave by an
+// event. Lists are made through cells too, or in the Mari-Kurchan model, where partners are anywhere, through wider
+// outer lists of the same kind, whose own making looks at all spheres (engine_quenched.hpp). Donev, Torquato and
+// Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
 #pragma once
 #include <array>
 #include <cmath>
@@ -60,13 +61,14 @@ class EngineBase {
   // From now on (or, with nullptr, no more) collisions and places of lists are told to it. Not part of the archive.
   virtual void observe(Observer *observer) = 0;
   virtual void displacements(std::vector<double> &out) const = 0;  // user's order, unit box, since observe()
-  virtual void archive(Archive &a) = 0;          // everything: the run goes on to the same bits
+  virtual void archive(Archive &a) = 0;                            // everything: the run goes on to the same bits
   virtual double twice_kinetic() const = 0;
   virtual double packing_fraction() const = 0;
   virtual double mean_diameter() const = 0;
   virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, now
   MdSums sums;
-  double max_overlap = 0.0;  // largest -h of any pair in the lists, whenever a list was made or a sphere of the pair had an event
+  double max_overlap =
+      0.0;  // largest -h of any pair in the lists, whenever a list was made or a sphere of the pair had an event
 };
 
 struct EngineOptions {
@@ -74,7 +76,7 @@ struct EngineOptions {
   double target_fraction = never;  // stop exactly there
   int64_t heap_only = 0;           // 1: one heap of all events instead of the calendar, for comparison
   int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
-  int64_t cells = 0;               // 1: cells alone wherever they hold, -1: lists always, 0: what is faster at this density
+  int64_t cells = 0;  // 1: cells alone wherever they hold, -1: lists always, 0: what is faster at this density
 };
 
 // Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
@@ -127,8 +129,10 @@ class Engine final : public EngineBase {
   }
   int64_t difference(const Body &a, const Body &b, int c, const int64_t *offset) const {
     const auto d = static_cast<int64_t>(a.x[c] - b.x[c]);
-    if constexpr (Shift) return d + offset[c];
-    else return (void)offset, d;
+    if constexpr (Shift)
+      return d + offset[c];
+    else
+      return (void)offset, d;
   }
   double exact_gap(const Body &a, const Body &b, const int64_t *offset) const;
   void note_overlap(const Body &a, const Body &b, const int64_t *offset);
@@ -161,13 +165,17 @@ class Engine final : public EngineBase {
   void build_lists();
   size_t cell_of(const Place &x) const;
   void recentre(int32_t i);
-  template <class F> void candidates(int32_t i, F &&f) const;
-  template <class F> void each_in_cells(int32_t i, F &&f) const;
-  template <class F> void each_neighbour(int32_t i, F &&f) const;
+  template <class F>
+  void candidates(int32_t i, F &&f) const;
+  template <class F>
+  void each_in_cells(int32_t i, F &&f) const;
+  template <class F>
+  void each_neighbour(int32_t i, F &&f) const;
   void link(int32_t i, size_t cell);
   void unlink(int32_t i, size_t cell);
   size_t home(int32_t i) const;
-  template <class F> void each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const;
+  template <class F>
+  void each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const;
   void append(int32_t i, int32_t k, const int64_t *offset);
   void forget(int32_t i, int32_t k);
   void widen_lists();
@@ -183,7 +191,8 @@ class Engine final : public EngineBase {
     int32_t k, attempt;  // of the shift of this pair
   };
   void take_redrawn();
-  template <class F> void each_outer_partner(int32_t i, F &&f) const;
+  template <class F>
+  void each_outer_partner(int32_t i, F &&f) const;
   void build_outer();
   void check_outer();
   void renew_outer(int32_t i);
@@ -191,8 +200,10 @@ class Engine final : public EngineBase {
   std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
 
   const int64_t *offset_of(int32_t i, int32_t entry) const {
-    if constexpr (Shift) return &offset_[(static_cast<size_t>(i) * capacity_ + entry) * D];
-    else return (void)i, (void)entry, nullptr;
+    if constexpr (Shift)
+      return &offset_[(static_cast<size_t>(i) * capacity_ + entry) * D];
+    else
+      return (void)i, (void)entry, nullptr;
   }
 
   std::unique_ptr<MkShifts> quenched_;  // Mari-Kurchan model
@@ -203,9 +214,9 @@ class Engine final : public EngineBase {
   Calendar calendar_;
   std::vector<int32_t> user_;  // number of each sphere for the user; here they are sorted along a curve
 
-  double now_ = 0.0;        // relative to the origin
-  double rate_ = 0.0;       // growth of radii: R(t) = R (1 + rate t)
-  double relative_rate_ = 0.0;  // rate_ at each step of a constant relative rate; 0: the diameters grow linearly
+  double now_ = 0.0;               // relative to the origin
+  double rate_ = 0.0;              // growth of radii: R(t) = R (1 + rate t)
+  double relative_rate_ = 0.0;     // rate_ at each step of a constant relative rate; 0: the diameters grow linearly
   std::vector<double> left_over_;  // of radii, less than one unit
   std::vector<double> mass_;       // empty: all 1
   Observer *observer_ = nullptr;
@@ -218,24 +229,24 @@ class Engine final : public EngineBase {
   // neighbour lists
   double shell_ = 0.1, margin_ = 0.05;  // relative to sigma
   std::vector<Place> centre_;
-  std::vector<double> rho_, safe_;      // list radius, safe radius
+  std::vector<double> rho_, safe_;               // list radius, safe radius
   std::vector<int32_t> neighbour_, neighbours_;  // (n, capacity), counts
-  std::vector<int64_t> offset_;         // Shift: (n, capacity, D)
+  std::vector<int64_t> offset_;                  // Shift: (n, capacity, D)
   size_t capacity_ = 0;
   double rho_max_ = 0.0;
-  int64_t cells_ = 0;                   // per side; 0: brute force
+  int64_t cells_ = 0;  // per side; 0: brute force
   int cell_range_ = 1;
   std::vector<int32_t> cell_first_, cell_next_;
   std::vector<std::array<int32_t, D>> cell_;  // of each sphere
-  int64_t cells_alone_ = 0;             // 1: no lists; a sphere looks at the cells around its own, leaving which is an event
+  int64_t cells_alone_ = 0;  // 1: no lists; a sphere looks at the cells around its own, leaving which is an event
 
   // outer lists of the Mari-Kurchan model
   std::vector<std::vector<Outer>> outer_;
   std::vector<Place> outer_centre_;
-  std::vector<double> outer_reach_;     // rho up to which they hold
+  std::vector<double> outer_reach_;  // rho up to which they hold
   double outer_safe_ = 0.0;
-  std::vector<int32_t> internal_;       // inverse of user_
-  std::vector<Outer> redrawn_;          // partners (user's numbers) of each sphere with a shift drawn again
+  std::vector<int32_t> internal_;  // inverse of user_
+  std::vector<Outer> redrawn_;     // partners (user's numbers) of each sphere with a shift drawn again
   std::vector<size_t> redrawn_first_;
 
 #ifdef JAM_CHECK_PAIRS
@@ -245,7 +256,8 @@ class Engine final : public EngineBase {
 
   // shell and bucket tuning
   int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0, rebase_at_ = 0;
-  double search_cost_ = 0.0, widest_shell_ = 1.5, tuned_time_ = 0.0, time_before_ = 0.0, bucket_width_ = 0.0, collision_time_ = 0.0;
+  double search_cost_ = 0.0, widest_shell_ = 1.5, tuned_time_ = 0.0, time_before_ = 0.0, bucket_width_ = 0.0,
+         collision_time_ = 0.0;
 };
 
 }  // namespace jam

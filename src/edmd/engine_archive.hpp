@@ -1,5 +1,5 @@
-// The engine to bytes and back: all that the coming events depend on, in one list. What follows from the packing (user_, the
-// shifts of the Mari-Kurchan model) is made anew by the constructor.
+// The engine to bytes and back: all that the coming events depend on, in one list. What follows from the packing
+// (user_, the shifts of the Mari-Kurchan model) is made anew by the constructor.
 #pragma once
 #include <algorithm>
 
@@ -43,7 +43,8 @@ void Engine<D, Shift>::archive(Archive &a) {
   a(cells_alone_);
   a(cell_);
   for (int64_t *k : {&exits_, &exits_before_, &collisions_before_, &events_before_, &rebase_at_}) a(*k);
-  for (double *x : {&search_cost_, &widest_shell_, &tuned_time_, &time_before_, &bucket_width_, &collision_time_}) a(*x);
+  for (double *x : {&search_cost_, &widest_shell_, &tuned_time_, &time_before_, &bucket_width_, &collision_time_})
+    a(*x);
   if (quenched_) {
     a(outer_centre_);
     a(outer_reach_);
@@ -62,7 +63,8 @@ template <int D, bool Shift>
 void Engine<D, Shift>::check_archive() const {
   const size_t n = static_cast<size_t>(n_);
   const auto sphere = [n](int32_t k) { return k >= 0 && static_cast<size_t>(k) < n; };
-  Archive::check(user_.size() == n && body_.size() == n && left_over_.size() == n && (mass_.empty() || mass_.size() == n));
+  Archive::check(user_.size() == n && body_.size() == n && left_over_.size() == n &&
+                 (mass_.empty() || mass_.size() == n));
   Archive::check(centre_.size() == n && rho_.size() == n && safe_.size() == n && neighbours_.size() == n);
   Archive::check(capacity_ > 0 && neighbour_.size() / n == capacity_ && neighbour_.size() % n == 0);
   Archive::check(offset_.size() == (Shift ? neighbour_.size() * D : 0));
@@ -72,7 +74,8 @@ void Engine<D, Shift>::check_archive() const {
     seen[u] = 1;
   }
   for (const Body &b : body_) Archive::check(b.radius > 0);
-  for (const int64_t count : {exits_, exits_before_, collisions_before_, events_before_, rebase_at_, sums.events, sums.collisions})
+  for (const int64_t count :
+       {exits_, exits_before_, collisions_before_, events_before_, rebase_at_, sums.events, sums.collisions})
     Archive::check(count >= 0 && count < int64_t{1} << 60);  // differences are taken of them
   for (size_t i = 0; i < n; ++i) {
     Archive::check(neighbours_[i] >= 0 && static_cast<size_t>(neighbours_[i]) <= capacity_);
@@ -91,15 +94,18 @@ void Engine<D, Shift>::check_archive() const {
     for (const Outer &partner : outer_[i]) {
       Archive::check(sphere(partner.k) && partner.attempt >= 0);
       const std::vector<Outer> &list = outer_[partner.k];
-      Archive::check(std::count_if(list.begin(), list.end(), [i](const Outer &o) { return static_cast<size_t>(o.k) == i; }) == 1);
+      Archive::check(
+          std::count_if(list.begin(), list.end(), [i](const Outer &o) { return static_cast<size_t>(o.k) == i; }) == 1);
     }
 }
 
 template <int D, bool Shift>
 void Engine<D, Shift>::check_cells() const {
-  Archive::check(cells_ > 0 && cells_ < 1 << 20 && cell_range_ >= 1 && cell_range_ <= 3 && cells_ >= 2 * cell_range_ + 1);
+  Archive::check(cells_ > 0 && cells_ < 1 << 20 && cell_range_ >= 1 && cell_range_ <= 3 &&
+                 cells_ >= 2 * cell_range_ + 1);
   if (cells_alone_) {
-    Archive::check(cells_alone_ == 1 && !Shift && cells_ >= 5 && cell_range_ == 1 && cell_.size() == static_cast<size_t>(n_));
+    Archive::check(cells_alone_ == 1 && !Shift && cells_ >= 5 && cell_range_ == 1 &&
+                   cell_.size() == static_cast<size_t>(n_));
     for (const auto &cell : cell_)
       for (int32_t place : cell) Archive::check(place >= 0 && place < cells_);
   }

@@ -1,13 +1,14 @@
-// The engine on cells alone, for dilute systems, where lists are short-lived: a sphere meets those of the cells around its own,
-// and leaving its cell is an event. All the rest is shared with the lists.
+// The engine on cells alone, for dilute systems, where lists are short-lived: a sphere meets those of the cells around
+// its own, and leaving its cell is an event. All the rest is shared with the lists.
 #pragma once
 #include "edmd/engine.hpp"
 
 namespace jam {
 
-// Cells are faster than lists where few spheres share the smallest cell that holds; the limits are where both were equally
-// fast, N = 1k and 16k (from d = 5 on the cells around one are too many). Five a side at least: spheres in cells that touch are
-// then less than half a box apart, and no difference wraps to another image (of four a side they can be at the far edges).
+// Cells are faster than lists where few spheres share the smallest cell that holds; the limits are where both were
+// equally fast, N = 1k and 16k (from d = 5 on the cells around one are too many). Five a side at least: spheres in
+// cells that touch are then less than half a box apart, and no difference wraps to another image (of four a side they
+// can be at the far edges).
 template <int D, bool Shift>
 bool Engine<D, Shift>::choose_cells_alone(double sigma) {
   constexpr double crowded[] = {0.0, 0.0, 0.6, 0.52, 0.48}, fastest = 0.12;  // spheres per cell
@@ -54,7 +55,8 @@ void Engine<D, Shift>::build_cells_alone() {
   cell_next_.resize(n_);
   cell_.resize(n_);
   for (int32_t i = n_ - 1; i >= 0; --i) {
-    for (int c = 0; c < D; ++c) cell_[i][c] = static_cast<int32_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
+    for (int c = 0; c < D; ++c)
+      cell_[i][c] = static_cast<int32_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
     link(i, home(i));
   }
   std::fill(neighbours_.begin(), neighbours_.end(), 0);

@@ -25,7 +25,8 @@ double Engine<D, Shift>::exact_gap(const Body &a, const Body &b, const int64_t *
          2.0 * static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(gap) >> 1));
 }
 
-// Whatever goes wrong, no overlap in the lists passes unseen: a pair is deepest when something turns one of its spheres round.
+// Whatever goes wrong, no overlap in the lists passes unseen: a pair is deepest when something turns one of its spheres
+// round.
 template <int D, bool Shift>
 void Engine<D, Shift>::note_overlap(const Body &a, const Body &b, const int64_t *offset) {
   const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
@@ -54,7 +55,8 @@ double Engine<D, Shift>::exit_time(int32_t i) const {
 
 // When sphere bi, which stands at now_, meets k, if that is before `best` and before the event of k.
 template <int D, bool Shift>
-inline void Engine<D, Shift>::meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best, int32_t &partner) {
+inline void Engine<D, Shift>::meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best,
+                                   int32_t &partner) {
   const Body &bk = body_[k];
   const double dt = now_ - bk.time;
   double rv = 0.0, vv = 0.0, rr = 0.0;
@@ -76,9 +78,12 @@ inline void Engine<D, Shift>::meet(const Body &bi, int32_t k, const int64_t *off
   const double disc = b * b - a * gap;
   double t;
   if (b < 0.0) {
-    if (gap <= 0.0) t = 0.0;  // in contact or overlapping, and approaching
-    else if (disc < 0.0) return;
-    else t = gap / (std::sqrt(disc) - b);
+    if (gap <= 0.0)
+      t = 0.0;  // in contact or overlapping, and approaching
+    else if (disc < 0.0)
+      return;
+    else
+      t = gap / (std::sqrt(disc) - b);
   } else {
     // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
     t = disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
@@ -100,8 +105,9 @@ void Engine<D, Shift>::predict(int32_t i) {
   if (partner >= 0) event.partner_count = calendar_[partner].count;
 }
 
-// r_i - r_k of two spheres that both stand at now_; of several images the nearest that approaches. (In a box of less than two
-// diameters a pair can be in contact through two images at once, and the one that recedes may be nearer by rounding.)
+// r_i - r_k of two spheres that both stand at now_; of several images the nearest that approaches. (In a box of less
+// than two diameters a pair can be in contact through two images at once, and the one that recedes may be nearer by
+// rounding.)
 template <int D, bool Shift>
 void Engine<D, Shift>::separation(int32_t i, int32_t k, double *r) const {
   if constexpr (!Shift) {
@@ -138,9 +144,9 @@ void Engine<D, Shift>::collide(int32_t i, int32_t k) {
   const double inverse = 1.0 / std::sqrt(r2), vn = rv * inverse;
   const double growth = static_cast<double>(a.radius + b.radius) * rate_;
   double push = growth - vn;
-  if (push <= 0.0) return;  // a grazing pair that rounding has let go
+  if (push <= 0.0) return;               // a grazing pair that rounding has let go
   push = std::max(push, 1e-14 * scale);  // never so little that the sum is lost: the pair would collide for ever
-  double twice_reduced = 1.0;  // mass of the pair
+  double twice_reduced = 1.0;            // mass of the pair
   if (mass_.empty()) {
     for (int c = 0; c < D; ++c) {
       const double dv = push * r[c] * inverse;
@@ -177,7 +183,8 @@ void Engine<D, Shift>::next_event(int32_t i) {
   Event &event = calendar_[i];
 #ifdef JAM_CHECK_PAIRS
   if (event.time < now_ - 1e-6 * bucket_width_)
-    fail(JAM_E_INTERNAL, "the event of sphere %d is %g buckets late after %lld collisions", user_[i], (now_ - event.time) / bucket_width_, static_cast<long long>(sums.collisions));
+    fail(JAM_E_INTERNAL, "the event of sphere %d is %g buckets late after %lld collisions", user_[i],
+         (now_ - event.time) / bucket_width_, static_cast<long long>(sums.collisions));
 #endif
   now_ = std::max(now_, event.time);
   move(body_[i]);
@@ -220,13 +227,16 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
     if ((sums.events & 1023) == 0) {
       if (monitor.cancelled()) return Halt::cancelled;
       if (now_seconds() > wall_end) return Halt::wall_time;
-      if (sums.collisions != last_collisions) last_collisions = sums.collisions, last_progress = sums.events;
-      else if (sums.events - last_progress > patience) return Halt::stalled;
+      if (sums.collisions != last_collisions)
+        last_collisions = sums.collisions, last_progress = sums.events;
+      else if (sums.events - last_progress > patience)
+        return Halt::stalled;
     }
     ++sums.events;
     const int32_t i = calendar_.top();
     const double t = i < 0 ? never : calendar_[i].time;
-    const double special = std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
+    const double special =
+        std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
     // Also after many events: when they come faster and faster, times must stay small to be sharp.
     if ((i < 0 && !(special < calendar_.horizon())) || sums.events > rebase_at_) {
       // Without a horizon nothing will ever happen, or all of it at this very moment.
@@ -247,8 +257,10 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
     now_ = std::max(now_, special);
     if (special == fraction_time_) return Halt::packing_fraction;
     if (special == full_time_) return Halt::box_full;
-    if (special == step_end_) set_growth(relative_rate_ * 2.0 * mean_radius() * unit * (1.0 + rate_ * now_));
-    else refresh(1.0, true);
+    if (special == step_end_)
+      set_growth(relative_rate_ * 2.0 * mean_radius() * unit * (1.0 + rate_ * now_));
+    else
+      refresh(1.0, true);
     if (wants_images_) return Halt::needs_images;
   }
   return Halt::window;

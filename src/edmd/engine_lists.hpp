@@ -20,7 +20,8 @@ void Engine<D, Shift>::choose_cells() {
   const double reach = 2.0 * rho_max_ * unit;
   double best = 0.5 * n_;  // in units of tune_shell
   for (int range = 1; range <= 3; ++range) {
-    const auto side = static_cast<int64_t>(std::min(std::floor(range / reach), std::floor(std::pow(4.0 * n_ + 64.0, 1.0 / D))));
+    const auto side =
+        static_cast<int64_t>(std::min(std::floor(range / reach), std::floor(std::pow(4.0 * n_ + 64.0, 1.0 / D))));
     if (side < 2 * range + 1) continue;
     const double looked_cells = std::pow(2.0 * range + 1.0, D);
     const double cost = looked_cells * 0.5 * (1.0 + n_ / std::pow(static_cast<double>(side), D));
@@ -34,7 +35,8 @@ template <int D, bool Shift>
 size_t Engine<D, Shift>::cell_of(const Place &x) const {
   size_t cell = 0;
   for (int c = D - 1; c >= 0; --c)
-    cell = cell * static_cast<size_t>(cells_) + static_cast<size_t>(((x[c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
+    cell =
+        cell * static_cast<size_t>(cells_) + static_cast<size_t>(((x[c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
   return cell;
 }
 
@@ -53,8 +55,9 @@ void Engine<D, Shift>::build_lists() {
     const double wanted = collision_time_ > 0.0 ? 20.0 * rate_ * collision_time_ : 0.3 * shell_;
     margin_ = std::min(std::max(wanted, smallest_margin), std::max(smallest_margin, 0.5 * shell_));
   }
-  // Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay below half the box, or it wraps to
-  // another image than that of the list: both spheres may stand at the far ends of their safe spheres, two shells further.
+  // Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay below half the box, or it
+  // wraps to another image than that of the list: both spheres may stand at the far ends of their safe spheres, two
+  // shells further.
   const double space = (Shift ? 1.4 : 0.4999) / sigma - 1.0, shells = Shift ? 2.0 : 4.0;
   margin_ = std::min(margin_, space - shells * smallest_shell);
   if (rate_ > 0.0) lists_end_ = margin_ * 0.999 / rate_;
@@ -95,9 +98,10 @@ void Engine<D, Shift>::build_lists() {
   check_pairs();
 }
 
-// A wide shell costs long lists, a narrow one remakes them often. In units of one neighbour looked at (13 ns) a collision costs
-// 2 (14 + L), each of the x exits that come with it 30 + 4 L + K, K for the search; with x ~ s^-1.6 and L, and K through cells,
-// as (1 + 2 s)^D this leads to within 6 % of the best rate at a row of fixed shells, packing fractions 0.27 to 0.6. True when changed.
+// A wide shell costs long lists, a narrow one remakes them often. In units of one neighbour looked at (13 ns) a
+// collision costs 2 (14 + L), each of the x exits that come with it 30 + 4 L + K, K for the search; with x ~ s^-1.6 and
+// L, and K through cells, as (1 + 2 s)^D this leads to within 6 % of the best rate at a row of fixed shells, packing
+// fractions 0.27 to 0.6. True when changed.
 template <int D, bool Shift>
 bool Engine<D, Shift>::tune_shell() {
   const int64_t made = sums.collisions - collisions_before_, left = exits_ - exits_before_;
@@ -113,12 +117,14 @@ bool Engine<D, Shift>::tune_shell() {
   length /= n_;
   const auto cost = [&, now = shell_](double shell) {
     const double more = std::pow((1.0 + 2.0 * shell) / (1.0 + 2.0 * now), D);
-    return 2.0 * (14.0 + more * length) + x * std::pow(now / shell, 1.6) * (30.0 + 4.0 * more * length + (Shift ? 1.0 : more) * search_cost_);
+    return 2.0 * (14.0 + more * length) +
+           x * std::pow(now / shell, 1.6) * (30.0 + 4.0 * more * length + (Shift ? 1.0 : more) * search_cost_);
   };
   // Not for a gain that making all lists anew eats up.
   double best = 0.97 * cost(shell_);
   const double before = shell_;
-  for (double shell = std::max(smallest_shell, before / 1.5); shell <= std::min(widest_shell_, before * 1.5); shell *= 1.1)
+  for (double shell = std::max(smallest_shell, before / 1.5); shell <= std::min(widest_shell_, before * 1.5);
+       shell *= 1.1)
     if (cost(shell) < best) best = cost(shell), shell_ = shell;
   return shell_ != before;
 }
@@ -130,7 +136,9 @@ void Engine<D, Shift>::each_in_cells(int32_t i, F &&f) const {
   std::array<std::array<size_t, 7>, D> at;
   size_t stride = 1;
   for (int c = 0; c < D; ++c) {
-    const auto home = cells_alone_ ? static_cast<int64_t>(cell_[i][c]) : static_cast<int64_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
+    const auto home = cells_alone_
+                          ? static_cast<int64_t>(cell_[i][c])
+                          : static_cast<int64_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
     for (int s = 0; s < width; ++s) at[c][s] = static_cast<size_t>((home + s - cell_range_ + cells_) % cells_) * stride;
     stride *= static_cast<size_t>(cells_);
   }
@@ -175,8 +183,10 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::arra
     r2[c + 1] = r2[c] + r * r;
     if (r2[c + 1] >= cutoff * cutoff) continue;
     offset[c] = shift[c] + step[c] * box;
-    if (c == D - 1) f(offset.data());
-    else step[++c] = -2;
+    if (c == D - 1)
+      f(offset.data());
+    else
+      step[++c] = -2;
   }
 }
 
@@ -187,7 +197,8 @@ void Engine<D, Shift>::candidates(int32_t i, F &&f) const {
   if constexpr (Shift)
     if (quenched_) {
       for (const Outer &partner : outer_[i])
-        each_image(i, partner.k, rho_[i] + rho_[partner.k], shift_of(i, partner), [&](const int64_t *offset) { f(partner.k, offset); });
+        each_image(i, partner.k, rho_[i] + rho_[partner.k], shift_of(i, partner),
+                   [&](const int64_t *offset) { f(partner.k, offset); });
       return;
     }
   const auto check = [&](int32_t k) {
@@ -204,8 +215,10 @@ void Engine<D, Shift>::candidates(int32_t i, F &&f) const {
       if (r2 < cutoff * cutoff) f(k, nullptr);
     }
   };
-  if (cells_ > 0) each_in_cells(i, check);
-  else for (int32_t k = 0; k < n_; ++k) check(k);
+  if (cells_ > 0)
+    each_in_cells(i, check);
+  else
+    for (int32_t k = 0; k < n_; ++k) check(k);
 }
 
 // f(k, offset) for every sphere that i can meet before its exit.
@@ -224,7 +237,8 @@ void Engine<D, Shift>::each_neighbour(int32_t i, F &&f) const {
 template <int D, bool Shift>
 void Engine<D, Shift>::append(int32_t i, int32_t k, const int64_t *offset) {
   if (static_cast<size_t>(std::max(neighbours_[i], neighbours_[k])) >= capacity_) widen_lists();
-  const size_t at_i = static_cast<size_t>(i) * capacity_ + neighbours_[i]++, at_k = static_cast<size_t>(k) * capacity_ + neighbours_[k]++;
+  const size_t at_i = static_cast<size_t>(i) * capacity_ + neighbours_[i]++,
+               at_k = static_cast<size_t>(k) * capacity_ + neighbours_[k]++;
   neighbour_[at_i] = k;
   neighbour_[at_k] = i;
   if constexpr (Shift) {
@@ -255,7 +269,8 @@ void Engine<D, Shift>::widen_lists() {
   std::vector<int64_t> offset(Shift ? wider * static_cast<size_t>(n_) * D : 0);
   for (size_t i = 0; i < static_cast<size_t>(n_) && capacity_ > 0; ++i) {
     std::copy_n(&neighbour_[i * capacity_], neighbours_[i], &list[i * wider]);
-    if constexpr (Shift) std::copy_n(&offset_[i * capacity_ * D], static_cast<size_t>(neighbours_[i]) * D, &offset[i * wider * D]);
+    if constexpr (Shift)
+      std::copy_n(&offset_[i * capacity_ * D], static_cast<size_t>(neighbours_[i]) * D, &offset[i * wider * D]);
   }
   neighbour_.swap(list);
   offset_.swap(offset);

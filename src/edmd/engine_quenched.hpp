@@ -1,6 +1,7 @@
-// The engine in the Mari-Kurchan model: partners lie anywhere in the box, so cells do not help. Each sphere has an outer list
-// of all that its neighbour list can need while both stay within outer_safe_ of the places where the outer lists were made.
-// Only making those looks at all spheres; no shift is stored, but which attempt each pair of a list has.
+// The engine in the Mari-Kurchan model: partners lie anywhere in the box, so cells do not help. Each sphere has an
+// outer list of all that its neighbour list can need while both stay within outer_safe_ of the places where the outer
+// lists were made. Only making those looks at all spheres; no shift is stored, but which attempt each pair of a list
+// has.
 #pragma once
 #include <algorithm>
 
@@ -8,7 +9,8 @@
 
 namespace jam {
 
-// Partners with shifts drawn again, sphere by sphere and both ways round, so that a walk over all partners meets them in order.
+// Partners with shifts drawn again, sphere by sphere and both ways round, so that a walk over all partners meets them
+// in order.
 template <int D, bool Shift>
 void Engine<D, Shift>::take_redrawn() {
   const size_t n = static_cast<size_t>(n_);
@@ -50,7 +52,8 @@ void Engine<D, Shift>::each_outer_partner(int32_t i, F &&f) const {
     const double sign = a < b ? scale : -scale;
     double r2 = 0.0;
     for (int c = 0; c < D && r2 < cutoff2; ++c) {
-      int64_t x = static_cast<int64_t>(outer_centre_[i][c] - outer_centre_[partner.k][c]) + std::llrint(sign * quenched_->component(pair, partner.attempt, c));
+      int64_t x = static_cast<int64_t>(outer_centre_[i][c] - outer_centre_[partner.k][c]) +
+                  std::llrint(sign * quenched_->component(pair, partner.attempt, c));
       x = (x + box / 2) & (box - 1);  // nearest image, from -box/2
       const double r = static_cast<double>(x - box / 2);
       r2 += r * r;
@@ -63,7 +66,8 @@ template <int D, bool Shift>
 void Engine<D, Shift>::build_outer() {
   double largest = 0.0;
   for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
-  // Wide enough that a caged sphere never leaves it; the allowance for growth and for wider shells is a few per cent of sigma.
+  // Wide enough that a caged sphere never leaves it; the allowance for growth and for wider shells is a few per cent of
+  // sigma.
   outer_safe_ = 0.5 * largest;
   outer_.resize(body_.size());
   outer_centre_.resize(body_.size());

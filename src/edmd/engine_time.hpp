@@ -14,8 +14,18 @@ std::vector<int32_t> curve_order(const Packing &p);
 
 template <int D, bool Shift>
 Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from)
-    : n_(static_cast<int32_t>(p.n())), options_(o), box_(p.box), body_(p.n()), calendar_(p.n()), user_(curve_order(p)),
-      left_over_(p.n(), 0.0), mass_(sphere_masses(p)), centre_(p.n()), rho_(p.n()), safe_(p.n()), neighbours_(p.n(), 0) {
+    : n_(static_cast<int32_t>(p.n())),
+      options_(o),
+      box_(p.box),
+      body_(p.n()),
+      calendar_(p.n()),
+      user_(curve_order(p)),
+      left_over_(p.n(), 0.0),
+      mass_(sphere_masses(p)),
+      centre_(p.n()),
+      rho_(p.n()),
+      safe_(p.n()),
+      neighbours_(p.n(), 0) {
   const bool mk = Shift && p.model == JAM_MODEL_MK;
 #ifdef JAM_CHECK_PAIRS
   start_ = p;
@@ -133,8 +143,10 @@ template <int D, bool Shift>
 void Engine<D, Shift>::rebase() {
   shift_origin();
   check_pairs();
-  if (tune_shell()) refresh(1.0, true);
-  else sort_calendar();
+  if (tune_shell())
+    refresh(1.0, true);
+  else
+    sort_calendar();
 }
 
 template <int D, bool Shift>
@@ -201,7 +213,8 @@ double Engine<D, Shift>::worst_overlap() const {
       const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
       double r2 = 0.0;
       for (int c = 0; c < D; ++c) {
-        const double r = static_cast<double>(difference(a, b, c, offset)) + a.v[c] * (now_ - a.time) - b.v[c] * (now_ - b.time);
+        const double r =
+            static_cast<double>(difference(a, b, c, offset)) + a.v[c] * (now_ - a.time) - b.v[c] * (now_ - b.time);
         r2 += r * r;
       }
       if (r2 > sigma * sigma * (1.0 + 1e-6)) return;
@@ -228,8 +241,8 @@ void Engine<D, Shift>::write_state(Packing &p) const {
   }
 }
 
-// In a build that asks for it: no pair at all overlaps, in the lists or not. The search is that of core/pairs, which knows
-// nothing of the lists here; positions as doubles are good to 1e-15 of a diameter or better.
+// In a build that asks for it: no pair at all overlaps, in the lists or not. The search is that of core/pairs, which
+// knows nothing of the lists here; positions as doubles are good to 1e-15 of a diameter or better.
 template <int D, bool Shift>
 void Engine<D, Shift>::check_pairs() const {
 #ifdef JAM_CHECK_PAIRS
@@ -239,7 +252,8 @@ void Engine<D, Shift>::check_pairs() const {
   write_state(p);
   const ClosestPair worst = closest_pair(p);
   if (worst.gap < -1e-11)
-    fail(JAM_E_INTERNAL, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap, static_cast<long long>(sums.collisions));
+    fail(JAM_E_INTERNAL, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap,
+         static_cast<long long>(sums.collisions));
 #endif
 }
 
@@ -248,7 +262,8 @@ template <int D, bool Shift>
 void Engine<D, Shift>::note_path(int32_t i) const {
   double *travel = observer_->travel(user_[i]);
   const Body &b = body_[i];
-  for (int c = 0; c < D; ++c) travel[c] += (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+  for (int c = 0; c < D; ++c)
+    travel[c] += (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
 }
 
 template <int D, bool Shift>
@@ -260,7 +275,9 @@ void Engine<D, Shift>::observe(Observer *observer) {
   for (int32_t i = 0; i < n_; ++i) {
     double *travel = observer->travel(user_[i]);
     const Body &b = body_[i];
-    for (int c = 0; c < D; ++c) travel[c] -= (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+    for (int c = 0; c < D; ++c)
+      travel[c] -=
+          (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
   }
 }
 
@@ -270,7 +287,9 @@ void Engine<D, Shift>::displacements(std::vector<double> &out) const {
     const size_t u = static_cast<size_t>(user_[i]);
     const Body &b = body_[i];
     for (int c = 0; c < D; ++c)
-      out[u * D + c] = observer_->travel(user_[i])[c] + (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+      out[u * D + c] =
+          observer_->travel(user_[i])[c] +
+          (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
   }
 }
 

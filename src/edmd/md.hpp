@@ -47,8 +47,9 @@ MdStage stage_of(const jam_run_options &o);
 MdStage stage_of(const jam_compress_options &o);
 
 StagePtr begin_stage(Packing p, const MdStage &stage);
-// Takes limits (collisions, time, wall time) from `limits`, all else is as the stage began. Adds to the report, so that stages
-// run one after the other give one. On return packing_of(stage) is of one moment, also when the status says stopped early.
+// Takes limits (collisions, time, wall time) from `limits`, all else is as the stage began. Adds to the report, so that
+// stages run one after the other give one. On return packing_of(stage) is of one moment, also when the status says
+// stopped early.
 jam_status run(Stage &stage, const MdStage &limits, const MdListeners &listeners, jam_md_report &report);
 const Packing &packing_of(const Stage &stage);
 bool growing(const Stage &stage);

@@ -73,12 +73,14 @@ jam_observe_options default_observe_options() {
 
 void check_observe_options(const jam_observe_options &o) {
   if (o.collisions != 0 && o.collisions != 1) fail(JAM_E_ARGUMENT, "collisions is %d, it must be 0 or 1", o.collisions);
-  if (o.gap_bins < 0 || o.gap_bins == 1 || o.gap_bins > 1000000) fail(JAM_E_ARGUMENT, "gap_bins is %d, it must be 0 or in 2..1000000", o.gap_bins);
+  if (o.gap_bins < 0 || o.gap_bins == 1 || o.gap_bins > 1000000)
+    fail(JAM_E_ARGUMENT, "gap_bins is %d, it must be 0 or in 2..1000000", o.gap_bins);
   if (o.r_bins < 0 || o.r_bins > 1000000) fail(JAM_E_ARGUMENT, "r_bins is %d, it must be in 0..1000000", o.r_bins);
   if (!(o.sample_every > 0.0)) fail(JAM_E_ARGUMENT, "sample_every is %g, it must be positive", o.sample_every);
   if (!(o.gap_min > 0.0) || !(o.gap_max > o.gap_min) || !(o.gap_max <= 10.0))
     fail(JAM_E_ARGUMENT, "gap_min is %g and gap_max %g: they need 0 < gap_min < gap_max <= 10", o.gap_min, o.gap_max);
-  if (!(o.r_max > 0.0) || !std::isfinite(o.r_max)) fail(JAM_E_ARGUMENT, "r_max is %g, it must be positive and finite", o.r_max);
+  if (!(o.r_max > 0.0) || !std::isfinite(o.r_max))
+    fail(JAM_E_ARGUMENT, "r_max is %g, it must be positive and finite", o.r_max);
   if (!(o.snapshot_every >= 0.0)) fail(JAM_E_ARGUMENT, "snapshot_every is %g, it must be >= 0", o.snapshot_every);
   if (!(o.snapshot_factor >= 1.0) || !std::isfinite(o.snapshot_factor))
     fail(JAM_E_ARGUMENT, "snapshot_factor is %g, it must be >= 1 and finite", o.snapshot_factor);
@@ -155,8 +157,9 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   if (correlation_.bins() > 0) sample_correlation(now);
 }
 
-// Pairs per gap, over those that the same number of points anywhere would have: g at contact of equal spheres. In a mixture
-// the ideal gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh; the mean of sigma_ij^d follows from powers of sigma.
+// Pairs per gap, over those that the same number of points anywhere would have: g at contact of equal spheres. In a
+// mixture the ideal gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh; the mean of sigma_ij^d follows from powers
+// of sigma.
 void Observer::sample_gaps(const Packing &p) {
   std::vector<double> density(gaps_.bins(), 0.0);
   const PairList pairs = find_pairs(p, 0.0, 1.0 + options_.gap_max);
@@ -176,7 +179,9 @@ void Observer::sample_gaps(const Packing &p) {
     mean += choose * moment[m] * moment[dim_ - m] * std::pow(0.5, static_cast<double>(dim_));
     choose *= static_cast<double>(dim_ - m) / static_cast<double>(m + 1);
   }
-  const double ideal = 0.5 * n_ * (n_ - 1.0) * mean * unit_sphere_volume(p.dim) * std::pow(2.0, static_cast<double>(dim_)), d = static_cast<double>(dim_);
+  const double ideal =
+                   0.5 * n_ * (n_ - 1.0) * mean * unit_sphere_volume(p.dim) * std::pow(2.0, static_cast<double>(dim_)),
+               d = static_cast<double>(dim_);
   for (size_t k = 0; k < density.size(); ++k)
     density[k] /= ideal * (std::expm1(d * std::log1p(gaps_.edge[k + 1])) - std::expm1(d * std::log1p(gaps_.edge[k])));
   gaps_.add(density);
@@ -194,7 +199,8 @@ void Observer::sample_correlation(const Packing &p) {
   }
   const double d = static_cast<double>(dim_);
   const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * std::pow(2.0 * sigma / p.box, d);
-  for (size_t k = 0; k < density.size(); ++k) density[k] /= ideal * (std::pow(correlation_.edge[k + 1], d) - std::pow(correlation_.edge[k], d));
+  for (size_t k = 0; k < density.size(); ++k)
+    density[k] /= ideal * (std::pow(correlation_.edge[k + 1], d) - std::pow(correlation_.edge[k], d));
   correlation_.add(density);
 }
 

@@ -1,5 +1,5 @@
-// What jam_observe asks to be recorded. The engine tells collisions and ways, the stage tells when to take a sample; nothing
-// here changes the dynamics. Lengths in units of the box until they are handed out.
+// What jam_observe asks to be recorded. The engine tells collisions and ways, the stage tells when to take a sample;
+// nothing here changes the dynamics. Lengths in units of the box until they are handed out.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -39,7 +39,9 @@ struct Histogram {
   size_t bins() const { return sum.size(); }
   void start(std::vector<double> edges);
   void add(const std::vector<double> &density);
-  double mean(size_t bin) const { return samples > 0 ? sum[bin] / static_cast<double>(samples) : std::numeric_limits<double>::quiet_NaN(); }
+  double mean(size_t bin) const {
+    return samples > 0 ? sum[bin] / static_cast<double>(samples) : std::numeric_limits<double>::quiet_NaN();
+  }
   double error(size_t bin) const;
 };
 
@@ -60,8 +62,8 @@ class Observer {
   double *travel(int32_t i) { return &travel_[static_cast<size_t>(i) * dim_]; }
 
   // Of the stage. Collisions are counted over all calls since jam_observe.
-  int64_t seen = 0;       // collisions, now
-  double time = 0.0;      // simulated, now
+  int64_t seen = 0;   // collisions, now
+  double time = 0.0;  // simulated, now
   int64_t next_stop() const { return std::min(next_block_, next_snapshot_); }
   bool block_due() const { return seen >= next_block_; }
   bool snapshot_due() const { return seen >= next_snapshot_; }

@@ -12,7 +12,8 @@ double twice_kinetic(const Packing &p) {
   const std::vector<double> mass = sphere_masses(p);
   const size_t d = static_cast<size_t>(p.dim);
   double sum = 0.0;
-  for (size_t k = 0; k < p.velocity.size(); ++k) sum += (mass.empty() ? 1.0 : mass[k / d]) * p.velocity[k] * p.velocity[k];
+  for (size_t k = 0; k < p.velocity.size(); ++k)
+    sum += (mass.empty() ? 1.0 : mass[k / d]) * p.velocity[k] * p.velocity[k];
   return sum;
 }
 
@@ -43,11 +44,16 @@ void draw_velocities(Packing &p) {
 
 int32_t reason_of(Halt halt) {
   switch (halt) {
-    case Halt::packing_fraction: return JAM_STOP_PACKING_FRACTION;
-    case Halt::cancelled: return JAM_STOP_CANCELLED;
-    case Halt::wall_time: return JAM_STOP_WALL_TIME;
-    case Halt::time: return JAM_STOP_TIME;
-    default: return JAM_STOP_STALLED;
+    case Halt::packing_fraction:
+      return JAM_STOP_PACKING_FRACTION;
+    case Halt::cancelled:
+      return JAM_STOP_CANCELLED;
+    case Halt::wall_time:
+      return JAM_STOP_WALL_TIME;
+    case Halt::time:
+      return JAM_STOP_TIME;
+    default:
+      return JAM_STOP_STALLED;
   }
 }
 
@@ -74,10 +80,12 @@ Stage::Stage(Packing p, Archive &from) : p_(std::move(p)), n_(static_cast<double
 
 void Stage::archive(Archive &a) {
   a(stage_);
-  for (double *x : {&goal_, &kinetic_, &pressure_, &part_virial_, &part_action_, &window_virial_, &window_action_, &old_virial_, &old_action_,
-                    &old_time_, &worst_, &cooled_, &first_pressure_, &growth_})
+  for (double *x : {&goal_, &kinetic_, &pressure_, &part_virial_, &part_action_, &window_virial_, &window_action_,
+                    &old_virial_, &old_action_, &old_time_, &worst_, &cooled_, &first_pressure_, &growth_})
     a(*x);
-  for (int64_t *k : {&window_, &part_, &part_goal_, &steady_, &old_collisions_, &old_events_, &cooled_collisions_, &frozen_}) a(*k);
+  for (int64_t *k :
+       {&window_, &part_, &part_goal_, &steady_, &old_collisions_, &old_events_, &cooled_collisions_, &frozen_})
+    a(*k);
   a(windows_);
   if (a.reading()) {
     Archive::check(stage_.growth >= 0.0 && window_ > 0 && part_ >= 0 && windows_.size() < 1u << 20);
@@ -107,7 +115,8 @@ EngineOptions Stage::options() const {
 
 // A window is so long that its noise is small and so short that p changes little in it: d ln p = G / 1.63 a collision.
 void Stage::plan_window() {
-  const double most = growing() ? std::min(2.0, std::max(0.25, 0.03 / growth_)) * n_ : std::min(goal_ / 20.0, 20.0 * n_);
+  const double most =
+      growing() ? std::min(2.0, std::max(0.25, 0.03 / growth_)) * n_ : std::min(goal_ / 20.0, 20.0 * n_);
   window_ = static_cast<int64_t>(std::max(growing() ? 32.0 : 4.0, most));
 }
 
@@ -141,9 +150,12 @@ int32_t Stage::advance_part(const MdListeners &listeners, double wall_end) {
     if (observer && observer->next_stop() < std::numeric_limits<int64_t>::max())
       stop = std::min(stop, std::max(collisions() + 1, observer->next_stop() - observer->seen + seen_collisions_));
     const Halt halt = engine_->advance(stop - collisions(), *listeners.monitor, wall_end);
-    if (halt == Halt::needs_images) change_engine(observer);
-    else if (halt != Halt::window) return reason_of(halt);
-    else if (observer && observe(listeners)) return JAM_STOP_CANCELLED;
+    if (halt == Halt::needs_images)
+      change_engine(observer);
+    else if (halt != Halt::window)
+      return reason_of(halt);
+    else if (observer && observe(listeners))
+      return JAM_STOP_CANCELLED;
   }
   return JAM_STOP_NONE;
 }
@@ -152,7 +164,8 @@ int32_t Stage::go_on(const MdListeners &listeners, double wall_end) {
   for (;;) {
     const int32_t reason = advance_part(listeners, wall_end);
     if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
-      const double v = window_virial_ + part_virial_ + engine_->sums.virial, a = window_action_ + part_action_ + engine_->sums.action;
+      const double v = window_virial_ + part_virial_ + engine_->sums.virial,
+                   a = window_action_ + part_action_ + engine_->sums.action;
       if (a > 0.0) pressure_ = 1.0 + v / a;
     }
     if (reason != JAM_STOP_NONE) return reason;
@@ -175,7 +188,8 @@ int32_t Stage::go_on(const MdListeners &listeners, double wall_end) {
   }
 }
 
-// At the end of a window: is this the end of the stage? Limits are for advance_part, which leaves a stage that can go on.
+// At the end of a window: is this the end of the stage? Limits are for advance_part, which leaves a stage that can go
+// on.
 int32_t Stage::judge() {
   if (window_action_ <= 0.0 && window_virial_ > 0.0) return ++frozen_ > 20 ? JAM_STOP_STALLED : JAM_STOP_NONE;
   if (growing() && steady_ && pressure_ >= stage_.pressure) return JAM_STOP_PRESSURE;
@@ -189,18 +203,21 @@ int32_t Stage::judge() {
 void Stage::thermostat() {
   if (!growing() || std::fabs(engine_->twice_kinetic() / (n_ * p_.dim) - 1.0) < 0.05) return;
   if (growth_ > 0.5 && (time() - cooled_) * growth_ < 0.01 * engine_->mean_diameter() &&
-      collisions() - cooled_collisions_ < static_cast<int64_t>(50.0 * n_)) return;
+      collisions() - cooled_collisions_ < static_cast<int64_t>(50.0 * n_))
+    return;
   cooled_ = time();
   cooled_collisions_ = collisions();
   engine_->thermalise();
 }
 
-// The quasi-static mode: G = growth (p / p_0)^-a from the first window on, with a such that G = growth_end at the target.
+// The quasi-static mode: G = growth (p / p_0)^-a from the first window on, with a such that G = growth_end at the
+// target.
 void Stage::slow_down() {
   if (!(stage_.growth_end > 0.0) || !(pressure_ > 1.0)) return;
   if (first_pressure_ == 0.0) first_pressure_ = pressure_;
   if (stage_.pressure <= first_pressure_) return;
-  const double part = std::min(1.0, std::max(0.0, std::log(pressure_ / first_pressure_) / std::log(stage_.pressure / first_pressure_)));
+  const double part =
+      std::min(1.0, std::max(0.0, std::log(pressure_ / first_pressure_) / std::log(stage_.pressure / first_pressure_)));
   double wanted = stage_.growth * std::pow(stage_.growth_end / stage_.growth, part);
   if (stage_.relative) wanted *= engine_->mean_diameter() * std::pow(n_, 1.0 / p_.dim);
   if (std::fabs(wanted / engine_->growth() - 1.0) < 0.02) return;  // not for every window's noise

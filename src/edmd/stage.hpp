@@ -1,5 +1,5 @@
-// One stage as it runs: windows of pressure, thermostat, limits, report. It can stop between any two events and go on, in this
-// process or another, to the same bits: whatever decides something is a member and in archive().
+// One stage as it runs: windows of pressure, thermostat, limits, report. It can stop between any two events and go on,
+// in this process or another, to the same bits: whatever decides something is a member and in archive().
 #pragma once
 #include "edmd/engine.hpp"
 #include "edmd/md.hpp"
@@ -59,7 +59,7 @@ class Stage {
   // the window at hand: parts of it, each with its own pressure
   int64_t part_ = 0, part_goal_ = 0;
   double part_virial_ = 0.0, part_action_ = 0.0, window_virial_ = 0.0, window_action_ = 0.0;
-  int64_t steady_ = 1;  // no part of the window is far below the target: a stop is not made of noise
+  int64_t steady_ = 1;           // no part of the window is far below the target: a stop is not made of noise
   std::vector<double> windows_;  // pressures of parts
 
   // before this part, and (part_...) of this part before the engine was changed for one with images

@@ -91,13 +91,19 @@ double Stage::standard_error() const {
 jam_status Stage::status_of(int32_t reason) const {
   switch (reason) {
     case JAM_STOP_PRESSURE:
-    case JAM_STOP_PACKING_FRACTION: return JAM_OK;
+    case JAM_STOP_PACKING_FRACTION:
+      return JAM_OK;
     case JAM_STOP_TIME:
-    case JAM_STOP_COLLISIONS: return growing() ? JAM_LIMIT : JAM_OK;
-    case JAM_STOP_WALL_TIME: return JAM_LIMIT;
-    case JAM_STOP_CANCELLED: return JAM_CANCELLED;
-    case JAM_STOP_PRECISION: return JAM_PRECISION;
-    default: return JAM_NOT_CONVERGED;
+    case JAM_STOP_COLLISIONS:
+      return growing() ? JAM_LIMIT : JAM_OK;
+    case JAM_STOP_WALL_TIME:
+      return JAM_LIMIT;
+    case JAM_STOP_CANCELLED:
+      return JAM_CANCELLED;
+    case JAM_STOP_PRECISION:
+      return JAM_PRECISION;
+    default:
+      return JAM_NOT_CONVERGED;
   }
 }
 

@@ -85,16 +85,21 @@ void write_checkpoint(const Packing &p, const std::string &stage, const char *pa
 Packing read_checkpoint(const char *path, std::string &stage) {
   const std::string all = slurp(path);
   Header h{};
-  if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0) fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
+  if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0)
+    fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
   std::memcpy(&h, all.data(), sizeof h);
   uint64_t sum = 0;
   std::memcpy(&sum, all.data() + all.size() - 8, 8);
   if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);
   const size_t room = all.size() - sizeof h - 8;
-  if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 || static_cast<size_t>(h.redrawn) > room || h.stage < 0 ||
-      static_cast<size_t>(h.stage) > room || static_cast<size_t>(h.n) > room ||
-      room - static_cast<size_t>(h.stage) != static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) + static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
-    fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(), static_cast<long long>(h.n));
+  if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 ||
+      static_cast<size_t>(h.redrawn) > room || h.stage < 0 || static_cast<size_t>(h.stage) > room ||
+      static_cast<size_t>(h.n) > room ||
+      room - static_cast<size_t>(h.stage) !=
+          static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) +
+              static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
+    fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(),
+         static_cast<long long>(h.n));
   Packing p;
   p.dim = h.dim;
   p.box = h.box;
@@ -118,7 +123,8 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   for (double v : p.velocity) good = good && std::isfinite(v);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {
-    good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 && (!last || last->i < r.i || (last->i == r.i && last->j < r.j));
+    good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 &&
+           (!last || last->i < r.i || (last->i == r.i && last->j < r.j));
     last = &r;
   }
   if (!good) fail(JAM_E_FORMAT, "%s holds values that no packing has", path);

@@ -31,14 +31,15 @@ double positive(const LineReader &in, std::string_view word, const char *what) {
 }
 
 [[noreturn]] void ends_early(const LineReader &in, int64_t found, int64_t n) {
-  in.fail(JAM_E_FORMAT, "the file ends after %lld of %lld spheres", static_cast<long long>(found), static_cast<long long>(n));
+  in.fail(JAM_E_FORMAT, "the file ends after %lld of %lld spheres", static_cast<long long>(found),
+          static_cast<long long>(n));
 }
 
 void check_end(LineReader &in, int64_t n) {
   std::string_view line;
   if (in.next_filled(line))
-    in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'", static_cast<long long>(n),
-            shown(line).c_str());
+    in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'",
+            static_cast<long long>(n), shown(line).c_str());
 }
 
 // The third line: `<diameter>` or `diameters`, then perhaps `box <L>`. Returns whether each sphere has its own.
@@ -48,7 +49,8 @@ bool read_diameter_line(LineReader &in, FileContent &content) {
   if (!in.next_filled(line)) in.fail(JAM_E_FORMAT, "the file ends before the diameter");
   split(line, words);
   if (words.size() != 1 && !(words.size() == 3 && words[1] == "box"))
-    in.fail(JAM_E_FORMAT, "'%s' is neither '<diameter>' nor 'diameters', with 'box <side>' or without", shown(line).c_str());
+    in.fail(JAM_E_FORMAT, "'%s' is neither '<diameter>' nor 'diameters', with 'box <side>' or without",
+            shown(line).c_str());
   const bool each = words[0] == "diameters";
   if (!each) content.diameter.push_back(positive(in, words[0], "diameter"));
   if (words.size() == 3) content.box = positive(in, words[2], "box side");
@@ -193,8 +195,8 @@ FileContent read_file(const char *path) {
   const std::string second(line);  // the number of spheres in a plain file, key=value pairs in XYZ
   if (second.find('=') != std::string::npos) return read_xyz(in, first, second);
   if (first < 2 || first > JAM_MAX_DIM)
-    fail(JAM_E_DIMENSION, "%s line %lld: the dimension is %lld, supported are 2..%d", path, static_cast<long long>(first_line),
-         static_cast<long long>(first), JAM_MAX_DIM);
+    fail(JAM_E_DIMENSION, "%s line %lld: the dimension is %lld, supported are 2..%d", path,
+         static_cast<long long>(first_line), static_cast<long long>(first), JAM_MAX_DIM);
   return read_plain(in, static_cast<int>(first), second);
 }
 

@@ -47,7 +47,8 @@ bool LineReader::next(std::string_view &line) {
     const char *start = buffer_.data() + begin_;
     const char *stop = static_cast<const char *>(std::memchr(start, '\n', end_ - begin_));
     const size_t length = stop ? static_cast<size_t>(stop - start) : end_ - begin_;
-    if (line_.size() + length > longest_line) fail(JAM_E_FORMAT, "longer than %zu characters, no packing file", longest_line);
+    if (line_.size() + length > longest_line)
+      fail(JAM_E_FORMAT, "longer than %zu characters, no packing file", longest_line);
     line_.append(start, length);
     begin_ += length + (stop ? 1 : 0);
     if (stop) break;
@@ -84,10 +85,12 @@ std::string shown(std::string_view word) {
 
 double parse_number(const LineReader &in, std::string_view word) {
   std::string_view digits = word;
-  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);  // from_chars knows no plus sign
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
+    digits.remove_prefix(1);  // from_chars knows no plus sign
   double x = 0.0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-  if (code == std::errc::result_out_of_range) in.fail(JAM_E_FORMAT, "'%s' is outside the range of a double", shown(word).c_str());
+  if (code == std::errc::result_out_of_range)
+    in.fail(JAM_E_FORMAT, "'%s' is outside the range of a double", shown(word).c_str());
   if (code != std::errc() || end != digits.data() + digits.size())
     in.fail(JAM_E_FORMAT, "'%s' is not a number", shown(word).c_str());
   if (!std::isfinite(x)) in.fail(JAM_E_NONFINITE, "'%s' is not finite", shown(word).c_str());
@@ -97,7 +100,8 @@ double parse_number(const LineReader &in, std::string_view word) {
 int64_t parse_count(const LineReader &in, std::string_view word, const char *what) {
   int64_t x = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), x);
-  if (code != std::errc() || end != word.data() + word.size()) in.fail(JAM_E_FORMAT, "'%s' is not %s", shown(word).c_str(), what);
+  if (code != std::errc() || end != word.data() + word.size())
+    in.fail(JAM_E_FORMAT, "'%s' is not %s", shown(word).c_str(), what);
   return x;
 }
 

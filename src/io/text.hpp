@@ -39,7 +39,8 @@ class LineReader {
 
 // Splits at blanks and tabs.
 void split(std::string_view line, std::vector<std::string_view> &words);
-// The whole word as a number. Errors name the file, the line and the word: JAM_E_FORMAT, JAM_E_NONFINITE for nan and inf.
+// The whole word as a number. Errors name the file, the line and the word: JAM_E_FORMAT, JAM_E_NONFINITE for nan and
+// inf.
 double parse_number(const LineReader &in, std::string_view word);
 int64_t parse_count(const LineReader &in, std::string_view word, const char *what);
 // A word of a file, cut and cleaned for an error text.

@@ -79,8 +79,8 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
 void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format) {
   if (format != JAM_FORMAT_AUTO && format != JAM_FORMAT_PLAIN && format != JAM_FORMAT_XYZ)
     fail(JAM_E_ARGUMENT, "format is %d, not a jam_format", format);
-  const bool xyz =
-      format == JAM_FORMAT_XYZ || (format == JAM_FORMAT_AUTO && (ends_with(path, ".xyz") || ends_with(path, ".extxyz")));
+  const bool xyz = format == JAM_FORMAT_XYZ ||
+                   (format == JAM_FORMAT_AUTO && (ends_with(path, ".xyz") || ends_with(path, ".extxyz")));
   OutputFile file(path);
   if (xyz)
     write_xyz(p, coordination, file);

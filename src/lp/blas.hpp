@@ -4,20 +4,22 @@
 namespace jam {
 
 extern "C" {
-void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n, const double *alpha,
-            const double *a, const int *lda, double *b, const int *ldb);
-void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a, const int *lda,
-            const double *beta, double *c, const int *ldc);
-void dgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const double *alpha, const double *a,
-            const int *lda, const double *b, const int *ldb, const double *beta, double *c, const int *ldc);
-void dgemv_(const char *trans, const int *m, const int *n, const double *alpha, const double *a, const int *lda, const double *x,
-            const int *incx, const double *beta, double *y, const int *incy);
-void dtrsv_(const char *uplo, const char *trans, const char *diag, const int *n, const double *a, const int *lda, double *x, const int *incx);
+void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
+            const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
+void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha, const double *a,
+            const int *lda, const double *beta, double *c, const int *ldc);
+void dgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const double *alpha,
+            const double *a, const int *lda, const double *b, const int *ldb, const double *beta, double *c,
+            const int *ldc);
+void dgemv_(const char *trans, const int *m, const int *n, const double *alpha, const double *a, const int *lda,
+            const double *x, const int *incx, const double *beta, double *y, const int *incy);
+void dtrsv_(const char *uplo, const char *trans, const char *diag, const int *n, const double *a, const int *lda,
+            double *x, const int *incx);
 }
 
-// While at least one lives, OpenBLAS runs single-threaded whatever the host set: blocks are small, libjam brings its own
-// threads, and the bits must not depend on the host. OpenBLAS keeps that number per process, so this is the one place
-// where libjam touches process-wide state; the last one out puts the host's number back.
+// While at least one lives, OpenBLAS runs single-threaded whatever the host set: blocks are small, libjam brings its
+// own threads, and the bits must not depend on the host. OpenBLAS keeps that number per process, so this is the one
+// place where libjam touches process-wide state; the last one out puts the host's number back.
 class BlasSingleThread {
  public:
   BlasSingleThread();

@@ -26,7 +26,8 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
   for (size_t k = s.entry_start; k < s.entry_start + s.entry_count; ++k) {
     const Entry &e = entries_[k];
     double *to = &values_[e.target];
-    const double *from = e.edge >= 0 ? off + static_cast<size_t>(e.edge) * block : diag + static_cast<size_t>(-1 - e.edge) * block;
+    const double *from =
+        e.edge >= 0 ? off + static_cast<size_t>(e.edge) * block : diag + static_cast<size_t>(-1 - e.edge) * block;
     // from is row-major: element (row p, column q) at p * dim + q; the panel is column-major.
     for (int q = 0; q < dim_; ++q)
       for (int p = 0; p < dim_; ++p) to[q * front + p] = e.transposed ? from[q * dim_ + p] : from[p * dim_ + q];
@@ -38,8 +39,8 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
     }
 }
 
-// Adds every `stride`-th block column of a child's Schur complement to the parent: to its panel when `update` is NULL (before the
-// panel is factored), else to its Schur complement (after that was written, so that it needs no clearing).
+// Adds every `stride`-th block column of a child's Schur complement to the parent: to its panel when `update` is NULL
+// (before the panel is factored), else to its Schur complement (after that was written, so that it needs no clearing).
 template <int D>
 void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t start, size_t stride) {
   const Supernode &c = supernodes_[child], &p = supernodes_[c.parent];
@@ -65,15 +66,24 @@ void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
   const size_t mc = below(supernodes_[child]);
   const auto add = [&](size_t start, size_t stride) {
     switch (dim_) {
-      case 1: return extend_add_columns<1>(child, update, start, stride);
-      case 2: return extend_add_columns<2>(child, update, start, stride);
-      case 3: return extend_add_columns<3>(child, update, start, stride);
-      case 4: return extend_add_columns<4>(child, update, start, stride);
-      case 5: return extend_add_columns<5>(child, update, start, stride);
-      case 6: return extend_add_columns<6>(child, update, start, stride);
-      case 7: return extend_add_columns<7>(child, update, start, stride);
-      case 8: return extend_add_columns<8>(child, update, start, stride);
-      default: return;  // analyse() has refused it
+      case 1:
+        return extend_add_columns<1>(child, update, start, stride);
+      case 2:
+        return extend_add_columns<2>(child, update, start, stride);
+      case 3:
+        return extend_add_columns<3>(child, update, start, stride);
+      case 4:
+        return extend_add_columns<4>(child, update, start, stride);
+      case 5:
+        return extend_add_columns<5>(child, update, start, stride);
+      case 6:
+        return extend_add_columns<6>(child, update, start, stride);
+      case 7:
+        return extend_add_columns<7>(child, update, start, stride);
+      case 8:
+        return extend_add_columns<8>(child, update, start, stride);
+      default:
+        return;  // analyse() has refused it
     }
   };
   if (threads < 2 || mc * mc < worth_a_thread) return add(0, 1);
@@ -82,14 +92,16 @@ void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
 
 // A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of
 // theirs when it is done: nothing is ever moved.
-void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, int threads, int &replaced) {
+void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, int threads,
+                              int &replaced) {
   const Supernode &s = supernodes_[index];
   const size_t m = below(s);
   const int front = static_cast<int>(columns(s) + m), width = static_cast<int>(columns(s)), rows = static_cast<int>(m);
   double *panel = &values_[s.value_start];
   assemble(s, diag, off);
   for (const int32_t c : s.children) extend_add(c, nullptr, threads);
-  replaced += factor_panel(panel, front, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_], {relative_, floor_}, threads);
+  replaced += factor_panel(panel, front, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_],
+                           {relative_, floor_}, threads);
   const int side = s.side;
   const bool stacked = kept_at_[index] == on_stack;
   double *update = stacked ? stack.memory[side].data() + stack.top[side] : kept_.data() + kept_at_[index];
@@ -102,7 +114,8 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   update_[index] = update;
 }
 
-void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads, int &replaced) {
+void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack,
+                             int threads, int &replaced) {
   stack.top[0] = stack.top[1] = 0;
   for (const int32_t s : list) eliminate(s, diag, off, stack, threads, replaced);
 }
@@ -124,30 +137,37 @@ int BlockCholesky::factorise(const double *diag, const double *off) {
   return replaced[0] + replaced[1] + replaced[2];
 }
 
-// Supernode by supernode for all right-hand sides at once, so that a panel is read once. below: room for the rows of one supernode.
-void BlockCholesky::forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const {
+// Supernode by supernode for all right-hand sides at once, so that a panel is read once. below: room for the rows of
+// one supernode.
+void BlockCholesky::forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs,
+                            int threads) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
   for (const int32_t index : list) {
     const Supernode &s = supernodes_[index];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    panel_forward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d, static_cast<int>(unknowns), below_rows,
-                  static_cast<int>(largest_below_), nrhs, threads);
+    panel_forward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d,
+                  static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
     for (int r = 0; r < nrhs; ++r)
       for (size_t k = 0; k < s.row_count; ++k)
-        for (size_t c = 0; c < d; ++c) y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c] -= below_rows[r * largest_below_ + k * d + c];
+        for (size_t c = 0; c < d; ++c)
+          y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c] -=
+              below_rows[r * largest_below_ + k * d + c];
   }
 }
 
-void BlockCholesky::backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const {
+void BlockCholesky::backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs,
+                             int threads) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
   for (size_t at = list.size(); at-- > 0;) {
     const Supernode &s = supernodes_[list[at]];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
     for (int r = 0; r < nrhs; ++r)
       for (size_t k = 0; k < s.row_count; ++k)
-        for (size_t c = 0; c < d; ++c) below_rows[r * largest_below_ + k * d + c] = y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
-    panel_backward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d, static_cast<int>(unknowns), below_rows,
-                   static_cast<int>(largest_below_), nrhs, threads);
+        for (size_t c = 0; c < d; ++c)
+          below_rows[r * largest_below_ + k * d + c] =
+              y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
+    panel_backward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d,
+                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
   }
 }
 

@@ -1,4 +1,5 @@
-// Plan of the numeric part: which thread eliminates what, and where Schur complements lie until their parents have taken them.
+// Plan of the numeric part: which thread eliminates what, and where Schur complements lie until their parents have
+// taken them.
 #include <algorithm>
 
 #include "lp/block_cholesky.hpp"
@@ -23,11 +24,13 @@ void BlockCholesky::plan() {
   update_.assign(count, nullptr);
   stack_count_ = 0;
   keep(share_out(work));
-  for (size_t k = count; k-- > 0;) supernodes_[k].side = supernodes_[k].parent < 0 ? 0 : 1 - supernodes_[supernodes_[k].parent].side;
+  for (size_t k = count; k-- > 0;)
+    supernodes_[k].side = supernodes_[k].parent < 0 ? 0 : 1 - supernodes_[supernodes_[k].parent].side;
   for (int list = 0; list < 3; ++list) lay_stacks(list);
 }
 
-// With two threads: whole subtrees, split from the heaviest root down until the two lists are even. Returns their roots.
+// With two threads: whole subtrees, split from the heaviest root down until the two lists are even. Returns their
+// roots.
 std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
   const size_t count = supernodes_.size();
   for (auto &l : lists_) l.clear();
@@ -51,12 +54,14 @@ std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
     thread_of[r] = t;
   }
   for (size_t k = count; k-- > 0;)
-    if (thread_of[k] == 2 && supernodes_[k].parent >= 0 && thread_of[supernodes_[k].parent] != 2) thread_of[k] = thread_of[supernodes_[k].parent];
+    if (thread_of[k] == 2 && supernodes_[k].parent >= 0 && thread_of[supernodes_[k].parent] != 2)
+      thread_of[k] = thread_of[supernodes_[k].parent];
   for (size_t k = 0; k < count; ++k) lists_[thread_of[k]].push_back(static_cast<int32_t>(k));
   return roots;
 }
 
-// One block of memory for all, used again by the next graph: blocks of their own broke up the heap, to twice what was needed.
+// One block of memory for all, used again by the next graph: blocks of their own broke up the heap, to twice what was
+// needed.
 void BlockCholesky::keep(const std::vector<int32_t> &roots) {
   kept_at_.assign(supernodes_.size(), on_stack);
   for (const int32_t r : roots) {

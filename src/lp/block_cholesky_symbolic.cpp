@@ -11,7 +11,8 @@ namespace jam {
 namespace {
 
 // Liu's algorithm with path compression, on the graph relabelled by place[].
-std::vector<int32_t> elimination_tree(const Graph &g, const std::vector<int32_t> &order, const std::vector<int32_t> &place) {
+std::vector<int32_t> elimination_tree(const Graph &g, const std::vector<int32_t> &order,
+                                      const std::vector<int32_t> &place) {
   const int32_t n = g.size();
   std::vector<int32_t> parent(n, -1), ancestor(n, -1);
   for (int32_t k = 0; k < n; ++k) {
@@ -37,7 +38,8 @@ std::vector<int32_t> postorder(const std::vector<int32_t> &parent) {
     if (parent[k] >= 0) weight[parent[k]] += weight[k];
   std::vector<std::vector<int32_t>> children(n + 1);
   for (int32_t k = 0; k < n; ++k) children[parent[k] < 0 ? n : parent[k]].push_back(k);
-  for (auto &c : children) std::stable_sort(c.begin(), c.end(), [&](int32_t a, int32_t b) { return weight[a] < weight[b]; });
+  for (auto &c : children)
+    std::stable_sort(c.begin(), c.end(), [&](int32_t a, int32_t b) { return weight[a] < weight[b]; });
   out.reserve(n);
   std::vector<std::pair<int32_t, size_t>> stack{{n, 0}};
   while (!stack.empty()) {
@@ -54,7 +56,8 @@ std::vector<int32_t> postorder(const std::vector<int32_t> &parent) {
 }
 
 // Rows of each column of L below the diagonal, sorted.
-std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::vector<int32_t> &order, const std::vector<int32_t> &place,
+std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::vector<int32_t> &order,
+                                                   const std::vector<int32_t> &place,
                                                    const std::vector<int32_t> &parent) {
   const int32_t n = g.size();
   std::vector<std::vector<int32_t>> rows(n);
@@ -102,7 +105,8 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     Draft now{k, end, std::move(structure[end - 1]), 0.0};
     while (!drafts.empty() && !drafts.back().rows.empty() && drafts.back().rows.front() < now.last) {
       const Draft &child = drafts.back();
-      const double nc = child.last - child.first, np = now.last - now.first, below = static_cast<double>(now.rows.size());
+      const double nc = child.last - child.first, np = now.last - now.first,
+                   below = static_cast<double>(now.rows.size());
       const double zeros = child.zeros + now.zeros + nc * (np + below - static_cast<double>(child.rows.size()));
       const double total = (nc + np) * (0.5 * (nc + np) + below);
       if (!worth_merging(static_cast<size_t>(nc + np) * dim_, zeros, total)) break;
@@ -193,9 +197,11 @@ void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t
   analyse_keep_order(dim, n, ei, ej, edges, threads);
 }
 
-void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads) {
+void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges,
+                                       int threads) {
   if (order_.size() != static_cast<size_t>(n)) return analyse(dim, n, ei, ej, edges, threads);
-  if (dim < 1 || dim > 8) fail(JAM_E_INTERNAL, "blocks of %d x %d in BlockCholesky", dim, dim);  // extend_add has a kernel for each
+  if (dim < 1 || dim > 8)
+    fail(JAM_E_INTERNAL, "blocks of %d x %d in BlockCholesky", dim, dim);  // extend_add has a kernel for each
   dim_ = dim, n_ = n, threads_ = threads;
   const Graph graph = make_graph(n, ei, ej, edges);
   std::vector<int32_t> order = order_, place(n);
@@ -217,7 +223,8 @@ void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, co
   original_diagonal_.assign(static_cast<size_t>(n) * dim, 0.0);
 }
 
-BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads) {
+BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges,
+                                            int threads) {
   BlockCholesky trial;
   trial.dry_ = true;
   trial.analyse(dim, n, ei, ej, edges, threads);
@@ -228,7 +235,8 @@ size_t BlockCholesky::bytes() const {
   size_t sum = values_.capacity() + original_diagonal_.capacity() + kept_.capacity();
   for (const Stack &stack : stacks_)
     for (const auto &memory : stack.memory) sum += memory.capacity();
-  return sum * sizeof(double) + entries_.capacity() * sizeof(Entry) + rows_.capacity() * sizeof(int32_t) + supernodes_.capacity() * sizeof(Supernode);
+  return sum * sizeof(double) + entries_.capacity() * sizeof(Entry) + rows_.capacity() * sizeof(int32_t) +
+         supernodes_.capacity() * sizeof(Supernode);
 }
 
 }  // namespace jam

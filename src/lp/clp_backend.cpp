@@ -1,4 +1,5 @@
-// LPs by Clp's dual simplex: the packing LP as the independent check, and small dense ones. The only file that includes Clp.
+// LPs by Clp's dual simplex: the packing LP as the independent check, and small dense ones. The only file that includes
+// Clp.
 #include <ClpEventHandler.hpp>
 #include <ClpSimplex.hpp>
 #include <CoinMessageHandler.hpp>
@@ -26,7 +27,8 @@ class StopWhenInterrupted : public ClpEventHandler {
 }  // namespace
 
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
-// follow the size of the step. Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so the objective is -g.
+// follow the size of the step. Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so
+// the objective is -g.
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor) {
   const double scale = std::isfinite(lp.bound) ? lp.bound : 1.0;
   const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
@@ -44,7 +46,8 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *mo
   }
   // Triples with the same row and column (images of one pair never share a row) do not occur.
   CoinPackedMatrix matrix(true, row_of.data(), column_of.data(), value.data(), static_cast<CoinBigIndex>(value.size()));
-  std::vector<double> low(columns, -1.0), high(columns, 1.0), cost(columns, 0.0), row_low(rows), row_high(rows, COIN_DBL_MAX);
+  std::vector<double> low(columns, -1.0), high(columns, 1.0), cost(columns, 0.0), row_low(rows),
+      row_high(rows, COIN_DBL_MAX);
   if (!std::isfinite(lp.bound)) {
     std::fill(low.begin(), low.end(), -COIN_DBL_MAX);
     std::fill(high.begin(), high.end(), COIN_DBL_MAX);
@@ -85,13 +88,15 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *mo
   return out;
 }
 
-std::vector<double> solve_small_lp(const std::vector<double> &cost, const std::vector<double> &rows, const std::vector<double> &rhs) {
+std::vector<double> solve_small_lp(const std::vector<double> &cost, const std::vector<double> &rows,
+                                   const std::vector<double> &rhs) {
   const int columns = static_cast<int>(cost.size()), count = static_cast<int>(rhs.size());
   std::vector<int> start(columns + 1), length(columns, count), index(rows.size());
   std::vector<double> value(rows.size());
   for (int k = 0; k < columns; ++k) {
     start[k] = k * count;
-    for (int r = 0; r < count; ++r) index[k * count + r] = r, value[k * count + r] = rows[static_cast<size_t>(r) * columns + k];
+    for (int r = 0; r < count; ++r)
+      index[k * count + r] = r, value[k * count + r] = rows[static_cast<size_t>(r) * columns + k];
   }
   start[columns] = columns * count;
   const std::vector<double> low(columns, 0.0), high(columns, COIN_DBL_MAX);
@@ -100,7 +105,8 @@ std::vector<double> solve_small_lp(const std::vector<double> &cost, const std::v
   silent.setLogLevel(0);
   model.passInMessageHandler(&silent);
   model.setLogLevel(0);
-  model.loadProblem(columns, count, start.data(), index.data(), value.data(), low.data(), high.data(), cost.data(), rhs.data(), rhs.data());
+  model.loadProblem(columns, count, start.data(), index.data(), value.data(), low.data(), high.data(), cost.data(),
+                    rhs.data(), rhs.data());
   model.setPrimalTolerance(1e-10);
   model.setDualTolerance(1e-10);
   model.dual();

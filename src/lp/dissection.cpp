@@ -1,7 +1,7 @@
 // Multilevel nested dissection with separators of nodes: shrink the graph by heavy-edge matching, grow a part on the
 // smallest graph, refine the separator at every level (Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998) 359; the moves
-// after Ashcraft and Liu, SIAM J. Matrix Anal. Appl. 19 (1998) 325). Leaves: minimum degree. Everything is a function of
-// the graph alone.
+// after Ashcraft and Liu, SIAM J. Matrix Anal. Appl. 19 (1998) 325). Leaves: minimum degree. Everything is a function
+// of the graph alone.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -12,10 +12,10 @@
 namespace jam {
 namespace {
 
-constexpr int32_t kLeaf = 60;        // nodes ordered by minimum degree
-constexpr int32_t kCoarsest = 120;   // no further shrinking
-constexpr int kTrials = 8;           // starts on the smallest graph
-constexpr double kBalance = 0.56;    // largest part of the weight a side may hold
+constexpr int32_t kLeaf = 60;       // nodes ordered by minimum degree
+constexpr int32_t kCoarsest = 120;  // no further shrinking
+constexpr int kTrials = 8;          // starts on the smallest graph
+constexpr double kBalance = 0.56;   // largest part of the weight a side may hold
 enum : char { kLeft = 0, kRight = 1, kSeparator = 2 };
 
 struct Level {
@@ -73,7 +73,8 @@ struct Split {
   int64_t weight[3] = {0, 0, 0};
   // Separator first; a side that is too heavy costs more than any separator.
   double cost() const {
-    const double all = static_cast<double>(weight[0] + weight[1] + weight[2]), most = static_cast<double>(std::max(weight[0], weight[1]));
+    const double all = static_cast<double>(weight[0] + weight[1] + weight[2]),
+                 most = static_cast<double>(std::max(weight[0], weight[1]));
     const double over = std::max(0.0, most - kBalance * all);
     return static_cast<double>(weight[2]) * (1.0 + 0.3 * (most / all - 0.5)) + 10.0 * over;
   }
@@ -120,7 +121,9 @@ void refine(const Level &level, Split &s, int passes) {
       int to = s.weight[0] <= s.weight[1] ? 0 : 1;
       const double all = static_cast<double>(s.weight[0] + s.weight[1] + s.weight[2]);
       if (queue[to].empty()) break;
-      if (queue[1 - to].begin()->first < queue[to].begin()->first && static_cast<double>(s.weight[1 - to]) < kBalance * all) to = 1 - to;
+      if (queue[1 - to].begin()->first < queue[to].begin()->first &&
+          static_cast<double>(s.weight[1 - to]) < kBalance * all)
+        to = 1 - to;
       const int32_t v = queue[to].begin()->second;
       const auto set_side = [&](int32_t u, char side) {
         moved.push_back({u, s.side[u]});

@@ -6,11 +6,12 @@
 
 namespace jam {
 
-// Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly. Cold, y is on the central path of that
-// point; warm, sum y c with the multipliers of the LP before bounds the gain, and that is how near the end of the path the start
-// is. Returns the mean product.
+// Nothing moved yet: s = 0 and g below the smallest gap, so that the rows hold strictly. Cold, y is on the central path
+// of that point; warm, sum y c with the multipliers of the LP before bounds the gain, and that is how near the end of
+// the path the start is. Returns the mean product.
 double InteriorPoint::first_point() {
-  constexpr double ahead = 3.0, blurred = 1e-12;  // closer to the end than that rounding of the rows upsets the force balance
+  constexpr double ahead = 3.0,
+                   blurred = 1e-12;  // closer to the end than that rounding of the rows upsets the force balance
   const PackingLp &lp = *lp_;
   const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
   std::vector<double> sorted = lp.c;
@@ -54,7 +55,8 @@ void InteriorPoint::measure_far() {
   const int d = whole_->dim;
   far_w_.resize(split_.far.size());
   for (size_t q = 0; q < far_w_.size(); ++q) {
-    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
+    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d,
+                 j = static_cast<size_t>(whole_->pairs->j[k]) * d;
     far_w_[q] = whole_->c[k] - g_;
     for (int c = 0; c < d; ++c) far_w_[q] += whole_->a[k * d + c] * (s_[i + c] - s_[j + c]);
   }
@@ -65,7 +67,8 @@ double InteriorPoint::longest_far(const Direction &x, double wanted) {
   double step = wanted;
   crossed_.clear();
   for (size_t q = 0; q < far_w_.size(); ++q) {
-    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
+    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d,
+                 j = static_cast<size_t>(whole_->pairs->j[k]) * d;
     double dw = -x.g;
     for (int c = 0; c < d; ++c) dw += whole_->a[k * d + c] * (x.s[i + c] - x.s[j + c]);
     if (!(wanted * dw < -0.9 * far_w_[q])) continue;
@@ -76,8 +79,8 @@ double InteriorPoint::longest_far(const Direction &x, double wanted) {
   return step;
 }
 
-// A far row that lost two thirds of the threshold joins on the central path, and with it all that lost half; and all that the step
-// would have crossed if they cut more than half of it.
+// A far row that lost two thirds of the threshold joins on the central path, and with it all that lost half; and all
+// that the step would have crossed if they cut more than half of it.
 bool InteriorPoint::admit_far() {
   measure_far();
   const bool close = !far_w_.empty() && *std::min_element(far_w_.begin(), far_w_.end()) <= 0.3 * split_.threshold;
@@ -164,8 +167,11 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   for (;; ++out.iterations) {
     residuals();
     const double gap = complementarity();
-    if (monitor) monitor->log(JAM_LOG_DEBUG, "ipm %2d gap %.2e balance %.1e sum_y %.1e g %.15f", out.iterations, gap, dual_norm_, rg_, g_);
-    const bool ask = control.leave && !asked && g_ > 0 && gap <= control.rough * g_ && dual_norm_ <= 1e-3 && std::fabs(rg_) <= 1e-9;
+    if (monitor)
+      monitor->log(JAM_LOG_DEBUG, "ipm %2d gap %.2e balance %.1e sum_y %.1e g %.15f", out.iterations, gap, dual_norm_,
+                   rg_, g_);
+    const bool ask =
+        control.leave && !asked && g_ > 0 && gap <= control.rough * g_ && dual_norm_ <= 1e-3 && std::fabs(rg_) <= 1e-9;
     asked = asked || ask;
     if (converged() || (ask && control.leave(answer()))) {
       out.solved = true;

@@ -15,21 +15,23 @@ namespace jam {
 struct IpmControl {
   double tolerance = 1e-15;   // on sum of complementarity products, which is the duality gap in units of Gamma
   double early_fraction = 0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a chain)
-  double balance = 1e-5;      // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
+  double balance =
+      1e-5;  // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
   int max_iterations = 80;
   int correctors = 3;
   int threads = 1;
   // Asked once, when the sum is below `rough` of the gain: true ends the LP there, with slack left in its rows.
   std::function<bool(const LpSolution &)> leave;
   double rough = 0.3;
-  const std::vector<double> *multipliers = nullptr;  // one a row, of an LP with the same carrying rows: a warm start (0: not known)
+  const std::vector<double> *multipliers =
+      nullptr;  // one a row, of an LP with the same carrying rows: a warm start (0: not known)
 };
 
 class InteriorPoint {
  public:
   explicit InteriorPoint(NewtonSystem &system) : system_(system) {}
-  // Gives system the graph of the rows that it needs. The answer carries `solved` when the tolerances were met or when no
-  // further digit could be won but the gap is within 1e3 of the tolerance. monitor may be NULL.
+  // Gives system the graph of the rows that it needs. The answer carries `solved` when the tolerances were met or when
+  // no further digit could be won but the gap is within 1e3 of the tolerance. monitor may be NULL.
   LpSolution solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor = nullptr);
 
  private:
@@ -51,14 +53,15 @@ class InteriorPoint {
   void weights();
   // Solves for targets rc (rows) and rcu, rcv (bounds); `full`: with the primal and dual residuals; only the
   // direction that is followed in the end is worth a step of refinement.
-  void direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv, bool full, int refine,
-                 Direction &out);
+  void direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv,
+                 bool full, int refine, Direction &out);
   Steps longest(const Direction &d) const;
   double mu_after(const Direction &d, const Steps &a) const;
   void predictor_corrector(Direction &d);
   void centrality_correctors(Direction &d, double mu_target);
   void move(const Direction &d, const Steps &a);
-  // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near joins.
+  // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near
+  // joins.
   void measure_far();
   double longest_far(const Direction &d, double wanted);
   bool admit_far();

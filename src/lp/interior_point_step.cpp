@@ -23,13 +23,14 @@ void InteriorPoint::weights() {
     weight_[k] = y_[k] / w_[k];
     mean += weight_[k];
   }
-  // Without bounds translations (and spheres that no row holds) need a proximal diagonal: it leaves the fixed point alone.
+  // Without bounds translations (and spheres that no row holds) need a proximal diagonal: it leaves the fixed point
+  // alone.
   const double ridge = 1e-12 * mean / static_cast<double>(unknowns_);
   for (size_t k = 0; k < unknowns_; ++k) diagonal_[k] = ridge + (box_ ? zu_[k] / u_[k] + zv_[k] / v_[k] : 0.0);
 }
 
-void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv,
-                              bool full, int refine, Direction &out) {
+void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<double> &rcu,
+                              const std::vector<double> &rcv, bool full, int refine, Direction &out) {
   double h = full ? rg_ : 0.0;
   for (size_t k = 0; k < rows_; ++k) {
     row_[k] = rc[k] / w_[k] - (full ? weight_[k] * rp_[k] : 0.0);
@@ -77,7 +78,8 @@ double InteriorPoint::mu_after(const Direction &d, const Steps &a) const {
   for (size_t k = 0; k < rows_; ++k) sum += (w_[k] + a.primal * d.w[k]) * (y_[k] + a.dual * d.y[k]);
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k)
-      sum += (u_[k] - a.primal * d.s[k]) * (zu_[k] + a.dual * d.zu[k]) + (v_[k] + a.primal * d.s[k]) * (zv_[k] + a.dual * d.zv[k]);
+      sum += (u_[k] - a.primal * d.s[k]) * (zu_[k] + a.dual * d.zu[k]) +
+             (v_[k] + a.primal * d.s[k]) * (zv_[k] + a.dual * d.zv[k]);
   return sum / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
 }
 
@@ -89,7 +91,8 @@ void InteriorPoint::predictor_corrector(Direction &d) {
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
   // Below a tenth of the tolerance only rounding is left to win.
-  const double target = std::max(std::max(ratio * ratio * ratio, 1e-8) * mu, 0.1 * control_.tolerance / static_cast<double>(rows_));
+  const double target =
+      std::max(std::max(ratio * ratio * ratio, 1e-8) * mu, 0.1 * control_.tolerance / static_cast<double>(rows_));
   for (size_t k = 0; k < rows_; ++k) targets_[k] = target - y_[k] * w_[k] - d.w[k] * d.y[k];
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k) {

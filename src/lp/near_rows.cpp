@@ -42,7 +42,8 @@ void NearRows::choose(const PackingLp &lp) {
   if (std::isfinite(slack)) {
     const double smallest = *std::min_element(lp.c.begin(), lp.c.end());
     threshold = far_slack * (slack - smallest);
-    if (std::isfinite(lp.bound)) threshold = std::max(threshold, 0.1 * lp.bound);  // what a step may well close, however even the slacks
+    if (std::isfinite(lp.bound))
+      threshold = std::max(threshold, 0.1 * lp.bound);  // what a step may well close, however even the slacks
     for (size_t k = 0; k < rows; ++k) is_near[k] = lp.c[k] - smallest <= threshold;
     hold_loose_spheres(lp, is_near);
     // To leave out a few saves nothing.

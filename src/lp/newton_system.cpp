@@ -39,8 +39,10 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
     edge_of_pair_[k] = static_cast<int32_t>(ei.size()) - 1;
   }
   edges_ = ei.size();
-  if (keep_order) cholesky_.analyse_keep_order(dim, n, ei.data(), ej.data(), edges_, threads);
-  else cholesky_.analyse(dim, n, ei.data(), ej.data(), edges_, threads);
+  if (keep_order)
+    cholesky_.analyse_keep_order(dim, n, ei.data(), ej.data(), edges_, threads);
+  else
+    cholesky_.analyse(dim, n, ei.data(), ej.data(), edges_, threads);
   const size_t block = static_cast<size_t>(dim) * dim, unknowns = static_cast<size_t>(n) * dim;
   diag_.resize(block * n);
   off_.resize(block * edges_);
@@ -80,14 +82,29 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   weight_ = weight;
   std::copy(box, box + box_.size(), box_.begin());
   switch (dim_) {
-    case 2: assemble<2>(a, weight); break;
-    case 3: assemble<3>(a, weight); break;
-    case 4: assemble<4>(a, weight); break;
-    case 5: assemble<5>(a, weight); break;
-    case 6: assemble<6>(a, weight); break;
-    case 7: assemble<7>(a, weight); break;
-    case 8: assemble<8>(a, weight); break;
-    default: fail(JAM_E_INTERNAL, "dimension %d in NewtonSystem", dim_);
+    case 2:
+      assemble<2>(a, weight);
+      break;
+    case 3:
+      assemble<3>(a, weight);
+      break;
+    case 4:
+      assemble<4>(a, weight);
+      break;
+    case 5:
+      assemble<5>(a, weight);
+      break;
+    case 6:
+      assemble<6>(a, weight);
+      break;
+    case 7:
+      assemble<7>(a, weight);
+      break;
+    case 8:
+      assemble<8>(a, weight);
+      break;
+    default:
+      fail(JAM_E_INTERNAL, "dimension %d in NewtonSystem", dim_);
   }
   const double t1 = now_seconds();
   seconds_assemble += t1 - t0;
@@ -167,9 +184,10 @@ void NewtonSystem::times(const double *s, double *out) {
   for (size_t k = 0; k < box_.size(); ++k) out[k] += box_[k] * s[k];
 }
 
-// The energy of the error after a step is what later steps gain (Strakos and Tichy, Electron. Trans. Numer. Anal. 13, 56 (2002)): below
-// the bound when the last three gained no more. The preconditioned residual alone would not do, nor as a measure of the first solution: a
-// rattler that met its cage since the factorisation makes it a million times too large. It must be small, though: then nothing is unseen.
+// The energy of the error after a step is what later steps gain (Strakos and Tichy, Electron. Trans. Numer. Anal. 13,
+// 56 (2002)): below the bound when the last three gained no more. The preconditioned residual alone would not do, nor
+// as a measure of the first solution: a rattler that met its cage since the factorisation makes it a million times too
+// large. It must be small, though: then nothing is unseen.
 bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
   constexpr int last = 3;
   const double t0 = now_seconds();
@@ -183,7 +201,8 @@ bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *d
     ++near_solves;
     const double before = product, whole = std::max(energy, energy_);
     product = dot(residual_, correction_.data());
-    done = product <= accuracy * (step < last ? accuracy : 1.0) * whole && std::accumulate(gained, gained + last, 0.0) <= accuracy * accuracy * whole;
+    done = product <= accuracy * (step < last ? accuracy : 1.0) * whole &&
+           std::accumulate(gained, gained + last, 0.0) <= accuracy * accuracy * whole;
     if (done || !std::isfinite(product)) break;
     for (size_t k = 0; k < unknowns; ++k) way_[k] = correction_[k] + (step > 0 ? product / before * way_[k] : 0.0);
     times(way_.data(), image_.data());
@@ -198,7 +217,9 @@ bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *d
   return done;
 }
 
-void NewtonSystem::rows_times(const double *a, const double *s, double *out) const { jam::rows_times(dim_, pair_i_, pair_j_, a, s, out); }
+void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {
+  jam::rows_times(dim_, pair_i_, pair_j_, a, s, out);
+}
 
 void NewtonSystem::transpose_times(const double *a, const double *y, double *out) const {
   jam::transpose_times(dim_, n_, pair_i_, pair_j_, a, y, out);

@@ -14,23 +14,25 @@ namespace jam {
 
 class NewtonSystem {
  public:
-  // Symbolic part; reused by every factorise() until the pairs change (nothing is done for the same pairs). Images of one pair share a
-  // block. keep_order: the elimination order stays, for a graph that got a few pairs more.
+  // Symbolic part; reused by every factorise() until the pairs change (nothing is done for the same pairs). Images of
+  // one pair share a block. keep_order: the elimination order stays, for a graph that got a few pairs more.
   void set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order = false);
   // a: (pairs, dim) rows; weight: D of each pair; box: n * dim values added to the diagonal. Keeps the pointers
   // a and weight and a copy of box until the next call. False when the numbers are no longer finite.
   bool factorise(const double *a, const double *weight, const double *box);
-  // Solves with up to `refine` steps of iterative refinement against the unassembled operator, as long as the residual is
-  // above 1e-9 of the right-hand side.
+  // Solves with up to `refine` steps of iterative refinement against the unassembled operator, as long as the residual
+  // is above 1e-9 of the right-hand side.
   void solve(const double *rhs, double h, double *ds, double *dg, int refine = 1);
 
-  // The same system with other numbers, without a factorisation: solve_near() goes by conjugate gradients with the factor at hand as
-  // preconditioner. Where steps are short few weights change much. The pairs must be those of the last factorise(). Keeps a and weight.
+  // The same system with other numbers, without a factorisation: solve_near() goes by conjugate gradients with the
+  // factor at hand as preconditioner. Where steps are short few weights change much. The pairs must be those of the
+  // last factorise(). Keeps a and weight.
   void follow(const double *a, const double *weight, const double *box);
-  // Solves from the guess in ds until the energy of the error is some `accuracy` squared of that of the first solution since follow().
-  // False after `most` triangular solves since follow(); ds, dg are then the best so far.
+  // Solves from the guess in ds until the energy of the error is some `accuracy` squared of that of the first solution
+  // since follow(). False after `most` triangular solves since follow(); ds, dg are then the best so far.
   bool solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most);
-  // How many triangular solves cost as much as a factorisation, from the numbers of both alone: 5 at N = 4096, 70 at 65536.
+  // How many triangular solves cost as much as a factorisation, from the numbers of both alone: 5 at N = 4096, 70 at
+  // 65536.
   int solves_worth() const;
   bool has_factor() const { return has_factor_; }  // of these pairs
 
@@ -55,10 +57,11 @@ class NewtonSystem {
   std::vector<int32_t> pair_i_, pair_j_, edge_of_pair_;  // edge -1: an image of one sphere with itself
   size_t edges_ = 0;
   BlockCholesky cholesky_;
-  std::vector<double> diag_, off_, box_;      // blocks
+  std::vector<double> diag_, off_, box_;        // blocks
   std::vector<double> column_, column_solved_;  // q = A^T D 1 and K^-1 q
-  double delta_ = 0.0, schur_ = 0.0;           // 1^T D 1, and minus q . K^-1 q
-  std::vector<double> now_column_, way_, image_;  // of follow(): q of the present numbers; a direction and what the matrix makes of it
+  double delta_ = 0.0, schur_ = 0.0;            // 1^T D 1, and minus q . K^-1 q
+  std::vector<double> now_column_, way_,
+      image_;  // of follow(): q of the present numbers; a direction and what the matrix makes of it
   double now_delta_ = 0.0, energy_ = 0.0;
   const double *a_ = nullptr, *weight_ = nullptr;
   std::vector<double> row_work_, work_, residual_, correction_;

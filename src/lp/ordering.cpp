@@ -30,7 +30,8 @@ std::vector<int32_t> nested_dissection(const Graph &graph) {
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   if (n < 3 || graph.adjacency.empty()) return order;
-  std::vector<idx_t> start(graph.start.begin(), graph.start.end()), adjacency(graph.adjacency.begin(), graph.adjacency.end());
+  std::vector<idx_t> start(graph.start.begin(), graph.start.end()),
+      adjacency(graph.adjacency.begin(), graph.adjacency.end());
   std::vector<idx_t> inverse(n);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);

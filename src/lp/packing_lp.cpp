@@ -26,7 +26,8 @@ PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit) {
 }
 
 double centre_multipliers(std::vector<double> &y, const std::vector<double> &w, double carrying) {
-  constexpr double factor = 10.0;  // wider, and weak contacts cut the first steps short; narrower, and the forces are lost
+  constexpr double factor =
+      10.0;  // wider, and weak contacts cut the first steps short; narrower, and the forces are lost
   double sum = 0.0, products = 0.0, inverse = 0.0;
   for (size_t k = 0; k < y.size(); ++k) sum += y[k], products += y[k] * w[k], inverse += 1.0 / w[k];
   const double mu = sum > 0.0 ? products / (sum * carrying) : 1.0 / inverse;

@@ -20,8 +20,8 @@ struct PackingLp {
   int dim = 3;
   int32_t n = 0;
   const PairList *pairs = nullptr;
-  std::vector<double> a;  // (pairs, dim)
-  std::vector<double> c;  // pairs
+  std::vector<double> a;                                   // (pairs, dim)
+  std::vector<double> c;                                   // pairs
   double bound = std::numeric_limits<double>::infinity();  // on each |s_ik|, mean diameters
   size_t rows() const { return c.size(); }
 };
@@ -40,9 +40,9 @@ struct Multipliers {
   std::vector<double> y;
 };
 
-// Puts multipliers near the central path of slacks w: those known (y > 0) are scaled to sum 1, their mean product with w over about
-// `carrying` rows is mu, and each is pulled to within a factor of mu / w; the rest gets mu / w. None known: all on the path, sum 1.
-// Returns mu.
+// Puts multipliers near the central path of slacks w: those known (y > 0) are scaled to sum 1, their mean product with
+// w over about `carrying` rows is mu, and each is pulled to within a factor of mu / w; the rest gets mu / w. None
+// known: all on the path, sum 1. Returns mu.
 double centre_multipliers(std::vector<double> &y, const std::vector<double> &w, double carrying);
 
 // Residuals of an answer, computed here from the LP alone and not by a solver.
@@ -57,13 +57,15 @@ struct LpCheck {
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit);
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
-inline void rows_times(const PackingLp &lp, const double *s, double *out) { rows_times(lp.dim, lp.pairs->i, lp.pairs->j, lp.a.data(), s, out); }
+inline void rows_times(const PackingLp &lp, const double *s, double *out) {
+  rows_times(lp.dim, lp.pairs->i, lp.pairs->j, lp.a.data(), s, out);
+}
 inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
   transpose_times(lp.dim, lp.n, lp.pairs->i, lp.pairs->j, lp.a.data(), y, out);
 }
 
-// Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL, can
-// interrupt it between two pivots.
+// Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
+// can interrupt it between two pivots.
 LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor = nullptr);
 
 }  // namespace jam

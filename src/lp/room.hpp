@@ -5,8 +5,8 @@
 
 namespace jam {
 
-// Room for at least `size` numbers: never the old and the new block at a time, and a little more than asked, so that lists that
-// change by a few pairs do not break up the heap. Pages beyond size stay untouched.
+// Room for at least `size` numbers: never the old and the new block at a time, and a little more than asked, so that
+// lists that change by a few pairs do not break up the heap. Pages beyond size stay untouched.
 inline void make_room(std::vector<double> &v, size_t size) {
   if (size <= v.capacity()) return;
   std::vector<double>().swap(v);

@@ -8,9 +8,11 @@
 namespace jam {
 
 // out[k] = a_k . (s_i - s_j); a (rows, dim), s (n, dim), out (rows)
-inline void rows_times(int dim, const std::vector<int32_t> &i, const std::vector<int32_t> &j, const double *a, const double *s, double *out) {
+inline void rows_times(int dim, const std::vector<int32_t> &i, const std::vector<int32_t> &j, const double *a,
+                       const double *s, double *out) {
   for (size_t k = 0; k < i.size(); ++k) {
-    const double *si = s + static_cast<size_t>(i[k]) * dim, *sj = s + static_cast<size_t>(j[k]) * dim, *row = a + k * dim;
+    const double *si = s + static_cast<size_t>(i[k]) * dim, *sj = s + static_cast<size_t>(j[k]) * dim,
+                 *row = a + k * dim;
     double sum = 0.0;
     for (int c = 0; c < dim; ++c) sum += row[c] * (si[c] - sj[c]);
     out[k] = sum;
@@ -18,7 +20,8 @@ inline void rows_times(int dim, const std::vector<int32_t> &i, const std::vector
 }
 
 // out = sum_k y_k a_k on i, minus on j; y (rows), out (n, dim)
-inline void transpose_times(int dim, int32_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j, const double *a, const double *y, double *out) {
+inline void transpose_times(int dim, int32_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
+                            const double *a, const double *y, double *out) {
   std::fill(out, out + static_cast<size_t>(n) * dim, 0.0);
   for (size_t k = 0; k < i.size(); ++k) {
     double *oi = out + static_cast<size_t>(i[k]) * dim, *oj = out + static_cast<size_t>(j[k]) * dim;

@@ -5,8 +5,8 @@
 
 namespace jam {
 
-// work(0) and work(1), which must not throw and must not write to the same places. Where the system has no second thread to give,
-// one after the other: the parts are the same, so are the bits.
+// work(0) and work(1), which must not throw and must not write to the same places. Where the system has no second
+// thread to give, one after the other: the parts are the same, so are the bits.
 template <class Work>
 void on_two_threads(const Work &work) {
   std::thread other;

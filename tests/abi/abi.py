@@ -102,8 +102,19 @@ def update():
     CONSTANTS.write_text(constants_text())
     library = build / "tests/abi/libjam_abi.so"
     if library.exists():
-        run("abidw", "--exported-interfaces-only", "--no-corpus-path", "--no-comp-dir-path", "--no-show-locs", "--drop-private-types", "--headers-dir",
-            root / "include", "--out-file", DUMP, library)
+        run(
+            "abidw",
+            "--exported-interfaces-only",
+            "--no-corpus-path",
+            "--no-comp-dir-path",
+            "--no-show-locs",
+            "--drop-private-types",
+            "--headers-dir",
+            root / "include",
+            "--out-file",
+            DUMP,
+            library,
+        )
         DUMP.write_text(DUMP.read_text().replace(f"{root}/", ""))  # where the tree lies is no part of the interface
 
 

@@ -1,6 +1,6 @@
-// Times and errors of the analysis. usage: analysis [PACKING]   (a packing to crunch; default: the shared N = 1024 file)
-// JSON on stdout. Wall times are medians of `runs`; cpu is the process time of the same run, which other work on the machine
-// does not stretch.
+// Times and errors of the analysis. usage: analysis [PACKING]   (a packing to crunch; default: the shared N = 1024
+// file) JSON on stdout. Wall times are medians of `runs`; cpu is the process time of the same run, which other work on
+// the machine does not stretch.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -40,7 +40,9 @@ Time timed(int runs, const std::function<void()> &f) {
   std::sort(t.begin(), t.end());
   return {t[t.size() / 2].first, t[t.size() / 2].second};
 }
-void show(const char *name, Time t, const char *tail = ",") { std::printf("  \"%s\": {\"wall\": %.4g, \"cpu\": %.4g}%s\n", name, t.wall, t.cpu, tail); }
+void show(const char *name, Time t, const char *tail = ",") {
+  std::printf("  \"%s\": {\"wall\": %.4g, \"cpu\": %.4g}%s\n", name, t.wall, t.cpu, tail);
+}
 double peak_mb() {
   rusage u{};
   getrusage(RUSAGE_SELF, &u);
@@ -58,8 +60,8 @@ Modes modes_of(const StableGraph &g, int32_t which, int64_t count, double tolera
   return out;
 }
 
-// 2 x ... x 2 x 4 copies side by side: a larger network with the same contacts. Its box is no cube, so it is good for what
-// runs on contacts alone.
+// 2 x ... x 2 x 4 copies side by side: a larger network with the same contacts. Its box is no cube, so it is good for
+// what runs on contacts alone.
 void tile(const Packing &p, const ContactNetwork &net, Packing &q, ContactNetwork &out) {
   const int d = p.dim;
   q = p;
@@ -96,7 +98,9 @@ double cumulative_error(const std::vector<double> &lambda, size_t translations, 
   for (size_t k = 0; k < dos.omega.size(); ++k) {
     const double edge = dos.omega[k] + 0.5 * dos.step;
     const auto below = std::upper_bound(lambda.begin(), lambda.end(), edge * edge) - lambda.begin();
-    worst = std::max(worst, std::fabs(dos.cumulative[k] - (static_cast<double>(below) - static_cast<double>(translations)) / static_cast<double>(lambda.size() - translations)));
+    worst =
+        std::max(worst, std::fabs(dos.cumulative[k] - (static_cast<double>(below) - static_cast<double>(translations)) /
+                                                          static_cast<double>(lambda.size() - translations)));
   }
   return worst;
 }
@@ -126,8 +130,8 @@ RawCrunch crunch_without_polish(const char *file) {
   return out;
 }
 
-// Fields of 256 contacts in blocks of 64 and one by one, and the largest change of a contact length that should not be, over the
-// largest displacement: S dr = e_l + gamma sigma.
+// Fields of 256 contacts in blocks of 64 and one by one, and the largest change of a contact length that should not be,
+// over the largest displacement: S dr = e_l + gamma sigma.
 void floppy_blocks(const Packing &p, const ContactNetwork &net, const StableGraph &g) {
   const FloppySolver solver(p, net, g);
   const size_t m = std::min<size_t>(256, g.contacts()), n = g.unknowns();
@@ -144,10 +148,13 @@ void floppy_blocks(const Packing &p, const ContactNetwork &net, const StableGrap
     stretch(g, dr.data(), s.data());
     double size = 0.0;
     for (size_t q = 0; q < n; ++q) size = std::max(size, std::fabs(dr[q]));
-    for (size_t k = 0; k < s.size(); ++k) worst = std::max(worst, std::fabs(s[k] - solver.inflation(l) * g.sigma[k] - (k == l)) / size);
+    for (size_t k = 0; k < s.size(); ++k)
+      worst = std::max(worst, std::fabs(s[k] - solver.inflation(l) * g.sigma[k] - (k == l)) / size);
   }
-  std::printf("  \"floppy_blocks\": {\"fields\": %zu, \"cpu\": %.4g, \"one_by_one\": %.4g, \"ratio\": %.3g, \"residual\": %.3g},\n", m, block.cpu, one.cpu,
-              one.cpu / block.cpu, worst);
+  std::printf(
+      "  \"floppy_blocks\": {\"fields\": %zu, \"cpu\": %.4g, \"one_by_one\": %.4g, \"ratio\": %.3g, \"residual\": "
+      "%.3g},\n",
+      m, block.cpu, one.cpu, one.cpu / block.cpu, worst);
 }
 
 }  // namespace
@@ -166,12 +173,15 @@ int main(int argc, char **argv) {
   const Packing &p = sys->packing;
   const ContactNetwork &net = sys->contacts;
   const StableGraph g = make_graph(p, net);
-  std::printf("{\n  \"n\": %zu, \"dim\": %d, \"contacts\": %zu, \"excess\": %lld,\n", p.n(), p.dim, net.size(), static_cast<long long>(report.excess_contacts));
+  std::printf("{\n  \"n\": %zu, \"dim\": %d, \"contacts\": %zu, \"excess\": %lld,\n", p.n(), p.dim, net.size(),
+              static_cast<long long>(report.excess_contacts));
   show("crunch", crunch);
   auto geometry = [&] { contacts_from_geometry(p, default_geometry_options()); };
   auto gaps = [&] { find_gaps(p, &net, 1.0, true); };
   auto classes = [&] { classify_contacts(p, net); };
-  auto structure = [&] { sphere_structure(p, net, false), sphere_structure(p, net, true), contact_dots(p, net, false); };
+  auto structure = [&] {
+    sphere_structure(p, net, false), sphere_structure(p, net, true), contact_dots(p, net, false);
+  };
   show("contacts_and_forces", timed(7, geometry));
   show("gaps", timed(7, gaps));
   show("classes", timed(7, classes));
@@ -190,17 +200,22 @@ int main(int argc, char **argv) {
   const Modes exact = modes_of(g, JAM_MODES_LOWEST, 137, 1e-14);
   auto relative = [&](const std::vector<double> &l, size_t from) {
     double worst = 0.0;
-    for (size_t k = 0; k < low && k + from < l.size(); ++k) worst = std::max(worst, std::fabs(l[k + from] / exact.lambda[k] - 1.0));
+    for (size_t k = 0; k < low && k + from < l.size(); ++k)
+      worst = std::max(worst, std::fabs(l[k + from] / exact.lambda[k] - 1.0));
     return worst;
   };
-  std::printf("  \"spectrum\": [\n    {\"method\": \"dense\", \"seconds\": %.4g, \"error\": %.3g}", dense.cpu, relative(all.lambda, t));
-  for (int count : {20, 50, 100, 200, 400}) {  // a looser tolerance saves nothing: the first restart converges to rounding
+  std::printf("  \"spectrum\": [\n    {\"method\": \"dense\", \"seconds\": %.4g, \"error\": %.3g}", dense.cpu,
+              relative(all.lambda, t));
+  for (int count :
+       {20, 50, 100, 200, 400}) {  // a looser tolerance saves nothing: the first restart converges to rounding
     Modes m;
     const Time s = timed(3, [&] { m = modes_of(g, JAM_MODES_LOWEST, count, 1e-10); });
-    std::printf(",\n    {\"method\": \"lanczos\", \"count\": %d, \"seconds\": %.4g, \"error\": %.3g}", count, s.cpu, relative(m.lambda, 0));
+    std::printf(",\n    {\"method\": \"lanczos\", \"count\": %d, \"seconds\": %.4g, \"error\": %.3g}", count, s.cpu,
+                relative(m.lambda, 0));
   }
   const ContactWeights weights = contact_weights(g, 1.0, default_hessian_options());
-  const std::pair<int, int> kernels[] = {{64, 4}, {64, 16}, {64, 64}, {256, 4}, {256, 16}, {256, 64}, {1024, 4}, {1024, 16}, {1024, 64}};
+  const std::pair<int, int> kernels[] = {{64, 4},   {64, 16},  {64, 64},   {256, 4},  {256, 16},
+                                         {256, 64}, {1024, 4}, {1024, 16}, {1024, 64}};
   for (const auto &[moments, vectors] : kernels) {
     jam_dos_options o = default_dos_options();
     o.moments = moments;
@@ -208,7 +223,10 @@ int main(int argc, char **argv) {
     o.points = 1024;
     DensityOfStates dos;
     const Time s = timed(1, [&] { dos = density_of_states(g, weights, o); });
-    std::printf(",\n    {\"method\": \"kernel polynomial\", \"moments\": %d, \"vectors\": %d, \"seconds\": %.4g, \"cumulative_error\": %.3g}", moments, vectors, s.cpu, cumulative_error(all.lambda, t, dos));
+    std::printf(
+        ",\n    {\"method\": \"kernel polynomial\", \"moments\": %d, \"vectors\": %d, \"seconds\": %.4g, "
+        "\"cumulative_error\": %.3g}",
+        moments, vectors, s.cpu, cumulative_error(all.lambda, t, dos));
   }
 
   // ---- forces: error against time, relative to the mean force
@@ -219,12 +237,15 @@ int main(int argc, char **argv) {
   double mean = 0.0;
   for (double v : reference) mean += v / static_cast<double>(reference.size());
   for (double &v : reference) v /= mean;
-  std::printf("\n  ],\n  \"forces\": [\n    {\"method\": \"multipliers\", \"seconds\": %.4g, \"error\": %.3g, \"residual\": %.3g}", crunch.cpu,
-              force_error(net.force, reference), balance_residual(g, net.force.data()));
+  std::printf(
+      "\n  ],\n  \"forces\": [\n    {\"method\": \"multipliers\", \"seconds\": %.4g, \"error\": %.3g, \"residual\": "
+      "%.3g}",
+      crunch.cpu, force_error(net.force, reference), balance_residual(g, net.force.data()));
   const RawCrunch raw = crunch_without_polish(file);
   if (raw.force.size() == reference.size())
-    std::printf(",\n    {\"method\": \"multipliers, no polish\", \"seconds\": %.4g, \"error\": %.3g, \"residual\": %.3g}", raw.seconds,
-                force_error(raw.force, reference), balance_residual(g, raw.force.data()));
+    std::printf(
+        ",\n    {\"method\": \"multipliers, no polish\", \"seconds\": %.4g, \"error\": %.3g, \"residual\": %.3g}",
+        raw.seconds, force_error(raw.force, reference), balance_residual(g, raw.force.data()));
   for (int refinements : {0, 1, 2}) {
     std::vector<double> f;
     const Time s = timed(3, [&] {
@@ -232,19 +253,26 @@ int main(int argc, char **argv) {
       f.assign(net.size(), 1.0);
       again.project(f, refinements);
     });
-    std::printf(",\n    {\"method\": \"null vector\", \"refinements\": %d, \"seconds\": %.4g, \"error\": %.3g, \"residual\": %.3g}", refinements, s.cpu,
-                force_error(f, reference), balance_residual(g, f.data()));
+    std::printf(
+        ",\n    {\"method\": \"null vector\", \"refinements\": %d, \"seconds\": %.4g, \"error\": %.3g, \"residual\": "
+        "%.3g}",
+        refinements, s.cpu, force_error(f, reference), balance_residual(g, f.data()));
   }
   std::printf("\n  ],\n");
 
-  // ---- a larger network: copies of this one (its spectrum is the folded one; cost and memory are those of any network)
+  // ---- a larger network: copies of this one (its spectrum is the folded one; cost and memory are those of any
+  // network)
   Packing big;
   ContactNetwork many;
   tile(p, net, big, many);
   const StableGraph wide = make_graph(big, many);
   std::printf("  \"tiled_n\": %zu,\n", big.n());
   show("tiled_lowest_100", timed(1, [&] { modes_of(wide, JAM_MODES_LOWEST, 100, 1e-10); }));
-  show("tiled_forces", timed(1, [&] { const NullSpace s(wide); std::vector<double> f(wide.contacts(), 1.0); s.project(f); }));
+  show("tiled_forces", timed(1, [&] {
+         const NullSpace s(wide);
+         std::vector<double> f(wide.contacts(), 1.0);
+         s.project(f);
+       }));
   std::printf("  \"peak_mb\": %.0f\n}\n", peak_mb());
   return 0;
 }

@@ -1,5 +1,6 @@
 // The block Cholesky on neighbour graphs of sphere packings, N = 256 .. 16384, beside sequential MUMPS (when found at
-// configure time) and the dense matrix product of this machine; share_of_dgemm compares the least times. JSON to stdout.
+// configure time) and the dense matrix product of this machine; share_of_dgemm compares the least times. JSON to
+// stdout.
 //   cholesky [largest N = 16384] [seconds per measurement = 1] [all | default (METIS, one thread)] [smallest N = 256]
 #include <algorithm>
 #include <chrono>
@@ -62,7 +63,8 @@ Pairs pairs_within(const Points &p, double radius) {
     return (static_cast<size_t>(wrap(a)) * cells + wrap(b)) * cells + wrap(c);
   };
   const auto of = [&](double v) { return std::min(cells - 1, static_cast<int>(v / p.box * cells)); };
-  for (size_t k = 0; k < p.size(); ++k) cell[index(of(p.x[3 * k]), of(p.x[3 * k + 1]), of(p.x[3 * k + 2]))].push_back(static_cast<int32_t>(k));
+  for (size_t k = 0; k < p.size(); ++k)
+    cell[index(of(p.x[3 * k]), of(p.x[3 * k + 1]), of(p.x[3 * k + 2]))].push_back(static_cast<int32_t>(k));
   Pairs out;
   for (int32_t k = 0; k < static_cast<int32_t>(p.size()); ++k) {
     std::vector<int32_t> found;
@@ -106,7 +108,8 @@ Points relaxed_points(size_t n) {
         r2 += t[q] * t[q];
       }
       const double strength = 0.3 * (1.1 * sigma / std::sqrt(r2) - 1.0);
-      for (int q = 0; q < 3; ++q) push[3 * near.i[k] + q] += strength * t[q], push[3 * near.j[k] + q] -= strength * t[q];
+      for (int q = 0; q < 3; ++q)
+        push[3 * near.i[k] + q] += strength * t[q], push[3 * near.j[k] + q] -= strength * t[q];
     }
     for (size_t k = 0; k < p.x.size(); ++k) {
       p.x[k] += std::max(-0.2 * sigma, std::min(0.2 * sigma, push[k]));
@@ -158,12 +161,13 @@ void make_values(const Points &p, const Pairs &e, std::vector<double> &diag, std
   }
 }
 
-double relative_residual(const Points &p, const Pairs &e, const std::vector<double> &diag, const std::vector<double> &off,
-                         const std::vector<double> &x, const std::vector<double> &b) {
+double relative_residual(const Points &p, const Pairs &e, const std::vector<double> &diag,
+                         const std::vector<double> &off, const std::vector<double> &x, const std::vector<double> &b) {
   std::vector<double> r(b);
   double norm_a = 0.0, norm_x = 0.0, norm_r = 0.0;
   for (size_t i = 0; i < p.size(); ++i)
-    for (int a = 0; a < 9; ++a) r[3 * i + a / 3] -= diag[9 * i + a] * x[3 * i + a % 3], norm_a = std::max(norm_a, std::fabs(diag[9 * i + a]));
+    for (int a = 0; a < 9; ++a)
+      r[3 * i + a / 3] -= diag[9 * i + a] * x[3 * i + a % 3], norm_a = std::max(norm_a, std::fabs(diag[9 * i + a]));
   for (size_t k = 0; k < e.i.size(); ++k)
     for (int a = 0; a < 9; ++a) {
       r[3 * e.i[k] + a / 3] -= off[9 * k + a] * x[3 * e.j[k] + a % 3];
@@ -179,7 +183,8 @@ double dgemm_rate() {
   const double one = 1.0, zero = 0.0;
   std::vector<double> a(n * n, 1.0), b(n * n, 1.0), c(n * n, 0.0);
   const BlasSingleThread single;
-  return 2e-9 * n * n * n / timed(1.0, [&] { dgemm_("N", "T", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n); }).least;
+  return 2e-9 * n * n * n /
+         timed(1.0, [&] { dgemm_("N", "T", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n); }).least;
 }
 
 #ifdef JAM_BENCH_MUMPS
@@ -188,7 +193,8 @@ struct MumpsTimes {
   Times factorise{}, solve{};
 };
 
-MumpsTimes time_mumps(const Points &p, const Pairs &e, const std::vector<double> &diag, const std::vector<double> &off, double budget) {
+MumpsTimes time_mumps(const Points &p, const Pairs &e, const std::vector<double> &diag, const std::vector<double> &off,
+                      double budget) {
   std::vector<int> row, column;
   std::vector<double> value;
   const auto add = [&](int r, int c, double v) { row.push_back(r + 1), column.push_back(c + 1), value.push_back(v); };
@@ -203,8 +209,10 @@ MumpsTimes time_mumps(const Points &p, const Pairs &e, const std::vector<double>
   m.par = 1, m.sym = 1, m.comm_fortran = -987654, m.job = -1;
   dmumps_c(&m);
   m.icntl[0] = m.icntl[1] = m.icntl[2] = -1, m.icntl[3] = 0;
-  // The METIS order of the particle graph, given by hand: not every MUMPS is built with METIS. Half as much memory again.
-  const auto order = order_nodes(make_graph(static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size()), Ordering::metis);
+  // The METIS order of the particle graph, given by hand: not every MUMPS is built with METIS. Half as much memory
+  // again.
+  const auto order =
+      order_nodes(make_graph(static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size()), Ordering::metis);
   std::vector<int> place(3 * order.size());
   for (size_t k = 0; k < place.size(); ++k) place[3 * order[k / 3] + k % 3] = static_cast<int>(k) + 1;
   m.icntl[6] = 1, m.perm_in = place.data(), m.icntl[13] = 50;
@@ -235,30 +243,36 @@ void report(const char *graph, const Points &p, double degree, double budget, bo
   make_values(p, e, diag, off);
   std::printf("%s\n  {\"graph\": \"%s\", \"n\": %zu, \"pairs_per_particle\": %.2f", first ? "" : ",", graph, p.size(),
               static_cast<double>(e.i.size()) / static_cast<double>(p.size()));
-  const std::vector<std::pair<const char *, Ordering>> orderings = {{"own", Ordering::dissection}, {"metis", Ordering::metis}};
+  const std::vector<std::pair<const char *, Ordering>> orderings = {{"own", Ordering::dissection},
+                                                                    {"metis", Ordering::metis}};
   for (const auto &o : orderings) {
     if (!all && o.second != Ordering::metis) continue;
     for (int threads = 1; threads <= (all ? 2 : 1); ++threads) {
       BlockCholesky f;
-      const auto analyse = [&] { f.analyse(3, static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size(), threads, o.second); };
+      const auto analyse = [&] {
+        f.analyse(3, static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size(), threads, o.second);
+      };
       const double t_analyse = timed(0.3 * budget, analyse).median;
       int replaced = 0;
       const Times t = timed(budget, [&] { replaced = f.factorise(diag.data(), off.data()); });
       std::vector<double> b(3 * p.size(), 1.0), x;
       const double t_solve = timed(0.2 * budget, [&] { x = b, f.solve(x.data()); }).median;
-      std::printf(",\n   \"%s_%d\": {\"analyse_s\": %.3g, \"factorise_s\": %.4g, \"factorise_least_s\": %.4g, \"solve_s\": %.3g, \"flops\": %.4g, \"gflops\": %.3g, "
-                  "\"share_of_dgemm\": %.3g, \"nonzeros\": %zu, \"bytes\": %zu, \"supernodes\": %zu, \"replaced\": %d, "
-                  "\"residual\": %.2g, \"solve_gb_per_s\": %.3g}",
-                  o.first, threads, t_analyse, t.median, t.least, t_solve, f.flops(), 1e-9 * f.flops() / t.median, 1e-9 * f.flops() / t.least / rate, f.factor_nonzeros(),
-                  f.bytes(), f.supernodes(), replaced, relative_residual(p, e, diag, off, x, b),
-                  16e-9 * static_cast<double>(f.factor_nonzeros()) / t_solve);
+      std::printf(
+          ",\n   \"%s_%d\": {\"analyse_s\": %.3g, \"factorise_s\": %.4g, \"factorise_least_s\": %.4g, \"solve_s\": "
+          "%.3g, \"flops\": %.4g, \"gflops\": %.3g, "
+          "\"share_of_dgemm\": %.3g, \"nonzeros\": %zu, \"bytes\": %zu, \"supernodes\": %zu, \"replaced\": %d, "
+          "\"residual\": %.2g, \"solve_gb_per_s\": %.3g}",
+          o.first, threads, t_analyse, t.median, t.least, t_solve, f.flops(), 1e-9 * f.flops() / t.median,
+          1e-9 * f.flops() / t.least / rate, f.factor_nonzeros(), f.bytes(), f.supernodes(), replaced,
+          relative_residual(p, e, diag, off, x, b), 16e-9 * static_cast<double>(f.factor_nonzeros()) / t_solve);
     }
   }
 #ifdef JAM_BENCH_MUMPS
   const MumpsTimes m = time_mumps(p, e, diag, off, budget);
-  std::printf(",\n   \"mumps\": {\"analyse_s\": %.3g, \"factorise_s\": %.4g, \"factorise_least_s\": %.4g, \"solve_s\": %.3g, \"flops\": %.4g}", m.analyse,
-              m.factorise.median, m.factorise.least, m.solve.median,
-              m.flops);
+  std::printf(
+      ",\n   \"mumps\": {\"analyse_s\": %.3g, \"factorise_s\": %.4g, \"factorise_least_s\": %.4g, \"solve_s\": %.3g, "
+      "\"flops\": %.4g}",
+      m.analyse, m.factorise.median, m.factorise.least, m.solve.median, m.flops);
 #endif
   std::printf("}");
   std::fflush(stdout);

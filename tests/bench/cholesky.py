@@ -12,7 +12,12 @@ with open(sys.argv[1]) as source:
     result = json.load(source)
 runs = [run for run in result["runs"] if run["graph"] == "relaxed"]
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4))
-for key, label in (("metis_1", "libjam, METIS"), ("own_1", "libjam, own order"), ("metis_2", "libjam, METIS, 2 threads"), ("mumps", "MUMPS, METIS")):
+for key, label in (
+    ("metis_1", "libjam, METIS"),
+    ("own_1", "libjam, own order"),
+    ("metis_2", "libjam, METIS, 2 threads"),
+    ("mumps", "MUMPS, METIS"),
+):
     rows = [(run["n"], run[key]) for run in runs if key in run]
     if not rows:
         continue

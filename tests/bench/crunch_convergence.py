@@ -14,29 +14,49 @@ import numpy as np
 
 from grown import grown
 
-STATES = {"N = 1024, G = 1e-2 to p = 500": (1024, [(1e-2, 500.0)]), "N = 4096, then G = 3e-4 to p = 1e7": (4096, [(1e-2, 500.0), (3e-4, 1e7)])}
+STATES = {
+    "N = 1024, G = 1e-2 to p = 500": (1024, [(1e-2, 500.0)]),
+    "N = 4096, then G = 3e-4 to p = 1e7": (4096, [(1e-2, 500.0), (3e-4, 1e7)]),
+}
 
 
 def run(start, name, method):
     s = start.copy()
     r = s.crunch(method=method)
     h = s.history
-    return dict(state=name, method=method, seconds=np.cumsum(h["seconds"]).tolist(), factorisations=np.cumsum(h["factorisations"]).tolist(),
-                error=np.maximum(r.packing_fraction - h["phi"], 0.0).tolist(), phi=r.packing_fraction, jammed=r.jammed, excess=r.excess_contacts,
-                force_residual=r.force_residual, total_seconds=r.seconds, total_factorisations=r.factorisations)
+    return dict(
+        state=name,
+        method=method,
+        seconds=np.cumsum(h["seconds"]).tolist(),
+        factorisations=np.cumsum(h["factorisations"]).tolist(),
+        error=np.maximum(r.packing_fraction - h["phi"], 0.0).tolist(),
+        phi=r.packing_fraction,
+        jammed=r.jammed,
+        excess=r.excess_contacts,
+        force_residual=r.force_residual,
+        total_seconds=r.seconds,
+        total_factorisations=r.factorisations,
+    )
 
 
 def draw(rows, picture):
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     figure, axes = plt.subplots(1, 2, figsize=(11, 4), sharey=True)
     for axis, name in zip(axes, STATES):
         for colour, method in (("C0", "relinearise"), ("C1", "chain")):
             for r in rows:
                 if r["state"] == name and r["method"] == method:
-                    axis.loglog(r["seconds"], np.maximum(r["error"], 1e-16), ".-", color=colour,
-                                label=f"{method}: {r['total_factorisations']} factorisations, force residual {r['force_residual']:.0e}")
+                    axis.loglog(
+                        r["seconds"],
+                        np.maximum(r["error"], 1e-16),
+                        ".-",
+                        color=colour,
+                        label=f"{method}: {r['total_factorisations']} factorisations, force residual {r['force_residual']:.0e}",
+                    )
         axis.set(xlabel="seconds since the start", title=name)
         axis.grid(alpha=0.3, which="both")
         axis.legend(fontsize=8)
@@ -58,7 +78,9 @@ def main():
         rows += [run(start, name, method) for method in ("relinearise", "chain")]
     json.dump(rows, open(args.out, "w"), indent=0)
     for r in rows:
-        print(f"{r['state']}, {r['method']}: phi {r['phi']:.12f}, {r['total_factorisations']} factorisations, {r['total_seconds']:.2f} s, excess {r['excess']}")
+        print(
+            f"{r['state']}, {r['method']}: phi {r['phi']:.12f}, {r['total_factorisations']} factorisations, {r['total_seconds']:.2f} s, excess {r['excess']}"
+        )
     if args.picture:
         draw(rows, args.picture)
 

@@ -1,5 +1,6 @@
 // Crunch of one packing by every method and solver at several tolerances: time against accuracy. JSON to stdout.
-//   crunch_race FILE [runs] [clp]       FILE in any format jam_read takes; `clp` adds the first LP by Clp's dual simplex
+//   crunch_race FILE [runs] [clp]       FILE in any format jam_read takes; `clp` adds the first LP by Clp's dual
+//   simplex
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -58,12 +59,15 @@ void row(const char *method, const Packing &p, jam_crunch_options o, int runs, d
     r = once(p, o);
     seconds.push_back(r.report.seconds);
   }
-  std::printf("%s\n    {\"method\": \"%s\", \"gain_tolerance\": %g, \"polish\": %d, \"seconds\": %.6g, \"seconds_factor\": %.6g, \"phi\": %.15f, "
-              "\"phi_error\": %.3g, \"force_residual\": %.3g, \"max_overlap\": %.3g, \"excess\": %lld, \"lps\": %lld, \"factorisations\": %lld, \"jammed\": %d}",
-              first ? "" : ",", method, o.gain_tolerance, o.polish, median(seconds), r.report.seconds_factor, r.report.packing_fraction,
-              std::fabs(r.report.packing_fraction - reference), r.report.force_residual, r.report.max_overlap,
-              static_cast<long long>(r.report.excess_contacts), static_cast<long long>(r.report.lp_solves),
-              static_cast<long long>(r.report.factorisations), r.report.jammed);
+  std::printf(
+      "%s\n    {\"method\": \"%s\", \"gain_tolerance\": %g, \"polish\": %d, \"seconds\": %.6g, \"seconds_factor\": "
+      "%.6g, \"phi\": %.15f, "
+      "\"phi_error\": %.3g, \"force_residual\": %.3g, \"max_overlap\": %.3g, \"excess\": %lld, \"lps\": %lld, "
+      "\"factorisations\": %lld, \"jammed\": %d}",
+      first ? "" : ",", method, o.gain_tolerance, o.polish, median(seconds), r.report.seconds_factor,
+      r.report.packing_fraction, std::fabs(r.report.packing_fraction - reference), r.report.force_residual,
+      r.report.max_overlap, static_cast<long long>(r.report.excess_contacts),
+      static_cast<long long>(r.report.lp_solves), static_cast<long long>(r.report.factorisations), r.report.jammed);
   std::fflush(stdout);
   first = false;
 }
@@ -89,9 +93,12 @@ void first_lp(const Packing &p, int runs, const char *name, double reach, double
   const LpSolution b = solve_lp_clp(lp, 1e-9, &patient);
   const double clp = now_seconds() - t1;
   const LpCheck ca = check_lp(lp, a), cb = check_lp(lp, b);
-  std::printf(",\n  \"first_lp_%s\": {\"rows\": %zu, \"ipm_seconds\": %.6g, \"clp_seconds\": %.6g, \"ratio\": %.4g, \"ipm_iterations\": %d, \"g_difference\": %.3g, "
-              "\"ipm_gap\": %.3g, \"clp_gap\": %.3g, \"ipm_balance\": %.3g, \"clp_balance\": %.3g}",
-              name, lp.rows(), median(ours), clp, clp / median(ours), a.iterations, std::fabs(a.g - b.g), ca.gap, cb.gap, ca.balance, cb.balance);
+  std::printf(
+      ",\n  \"first_lp_%s\": {\"rows\": %zu, \"ipm_seconds\": %.6g, \"clp_seconds\": %.6g, \"ratio\": %.4g, "
+      "\"ipm_iterations\": %d, \"g_difference\": %.3g, "
+      "\"ipm_gap\": %.3g, \"clp_gap\": %.3g, \"ipm_balance\": %.3g, \"clp_balance\": %.3g}",
+      name, lp.rows(), median(ours), clp, clp / median(ours), a.iterations, std::fabs(a.g - b.g), ca.gap, cb.gap,
+      ca.balance, cb.balance);
 }
 
 }  // namespace

@@ -12,14 +12,26 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 data = json.load(open(sys.argv[1]))
-style = {("relinearise", 0): ("o", "C0", "barrier path, last LPs by interior point"), ("relinearise", 1): ("*", "C0", "the same, polished"),
-         ("chain", 0): ("s", "C1", "chain of LPs, interior point"), ("chain", 1): ("P", "C1", "the same, polished"),
-         ("relinearise, last LPs by Clp", 0): ("D", "C3", "barrier path, last LPs by Clp")}
+style = {
+    ("relinearise", 0): ("o", "C0", "barrier path, last LPs by interior point"),
+    ("relinearise", 1): ("*", "C0", "the same, polished"),
+    ("chain", 0): ("s", "C1", "chain of LPs, interior point"),
+    ("chain", 1): ("P", "C1", "the same, polished"),
+    ("relinearise, last LPs by Clp", 0): ("D", "C3", "barrier path, last LPs by Clp"),
+}
 figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
 for key, (marker, colour, label) in style.items():
     rows = [r for r in data["rows"] if (r["method"], r["polish"]) == key]
     for axis, field in ((axes[0], "force_residual"), (axes[1], "phi_error")):
-        axis.loglog([max(r[field], 3e-16) for r in rows], [r["seconds"] for r in rows], marker, color=colour, label=label, ms=9, alpha=0.7)
+        axis.loglog(
+            [max(r[field], 3e-16) for r in rows],
+            [r["seconds"] for r in rows],
+            marker,
+            color=colour,
+            label=label,
+            ms=9,
+            alpha=0.7,
+        )
 axes[0].set_xlabel("force residual / mean force")
 axes[1].set_xlabel(r"$|\varphi_J - \varphi_{ref}|$ (at least 3e-16 drawn)")
 axes[0].set_ylabel("seconds, one core")

@@ -14,7 +14,13 @@ import time
 
 import numpy as np
 
-KINDS = {"jammed 1SS": "#4c9f70", "jammed hyperstatic": "#a6d8a8", "stopped": "#f2c14e", "refused": "#c9c9c9", "wrong": "#d1495b"}
+KINDS = {
+    "jammed 1SS": "#4c9f70",
+    "jammed hyperstatic": "#a6d8a8",
+    "stopped": "#f2c14e",
+    "refused": "#c9c9c9",
+    "wrong": "#d1495b",
+}
 JAMMED = {2: 0.84, 3: 0.64, 4: 0.46, 5: 0.31}
 
 
@@ -74,6 +80,7 @@ def sizes_of(kind, n, seed):
 def run(dim, n, sizes, start, method, seed, limit):
     """start: ("phi", fraction of the jammed density), past 0.4 grown at G = 0.1, or ("p", pressure of a state grown at G = 0.1, then 0.03)."""
     import jam
+
     began, row = time.process_time(), {}
     try:
         phi = JAMMED[dim] * min(start[1] if start[0] == "phi" else 0.3, 0.4)
@@ -84,8 +91,15 @@ def run(dim, n, sizes, start, method, seed, limit):
             s.compress([(0.1, min(start[1], 1e2))] + ([(0.03, start[1])] if start[1] > 1e2 else []), wall_time=limit)
         report = s.crunch(method=method, wall_time=limit)
         row["kind"], row["reason"] = verdict(s, report)
-        row.update(phi=report.packing_fraction, excess=report.excess_contacts, lps=report.lp_solves, factorisations=report.factorisations,
-                   used=report.method.name.lower(), force_residual=report.force_residual, max_overlap=report.max_overlap)
+        row.update(
+            phi=report.packing_fraction,
+            excess=report.excess_contacts,
+            lps=report.lp_solves,
+            factorisations=report.factorisations,
+            used=report.method.name.lower(),
+            force_residual=report.force_residual,
+            max_overlap=report.max_overlap,
+        )
     except jam.JamError as error:
         refused = isinstance(error, (jam.errors.UnplaceableError, jam.errors.ArgumentError, jam.errors.TooFewError))
         row.update(kind="refused" if refused else "stopped", reason=str(error)[:80])
@@ -97,52 +111,97 @@ def study(args):
     rows = []
     starts = [("phi", f) for f in (0.05, 0.2, 0.4, 0.6, 0.8, 0.95)] + [("p", p) for p in (1e1, 1e3, 1e6, 1e9, 1e12)]
     sizes = {2: (128, 1.4), 3: (128, 1.0), 4: (96, 1.0), 5: (64, 1.0)}
-    for dim, method, start, seed in itertools.product(sizes, ("relinearise", "chain"), starts, range(1, args.seeds + 1)):
+    for dim, method, start, seed in itertools.product(
+        sizes, ("relinearise", "chain"), starts, range(1, args.seeds + 1)
+    ):
         n, ratio = int(sizes[dim][0] * args.scale), sizes[dim][1]
         row = run(dim, n, sizes_of(ratio, n, seed), start, method, seed, args.limit)
-        rows.append(dict(map="density", dim=dim, n=n, method=method, start=f"{start[0]} {start[1]:g}", seed=seed, **row))
+        rows.append(
+            dict(map="density", dim=dim, n=n, method=method, start=f"{start[0]} {start[1]:g}", seed=seed, **row)
+        )
         print(rows[-1], file=sys.stderr, flush=True)
     kinds = (1.0, 1.4, 2.0, 4.0, 10.0, "log-normal 0.2", "log-normal 0.5")
     for kind, n, dim, seed in itertools.product(kinds, (4, 8, 32, 128, 512), (2, 3), range(1, args.seeds + 1)):
         if n > 128 * args.scale:
             continue
         row = run(dim, n, sizes_of(kind, n, seed), ("phi", 0.3), "relinearise", seed, args.limit)
-        rows.append(dict(map="sizes", dim=dim, n=n, sizes=kind if isinstance(kind, str) else f"1:{kind:g}", seed=seed, **row))
+        rows.append(
+            dict(map="sizes", dim=dim, n=n, sizes=kind if isinstance(kind, str) else f"1:{kind:g}", seed=seed, **row)
+        )
         print(rows[-1], file=sys.stderr, flush=True)
     return {"seeds": args.seeds, "limit": args.limit, "rows": rows}
 
 
 def draw(data, picture):
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     figure, axes = plt.subplots(2, 1, figsize=(10.5, 9), height_ratios=(8, 7))
-    maps = (("density", lambda r: (f"d = {r['dim']}, {r['method']}", r["start"]), "start at this part of the jammed density (random to 0.4, then grown fast), or grown to pressure p; in each cell: median factorisations"),
-            ("sizes", lambda r: (r["sizes"], f"d = {r['dim']}, N = {r['n']}"), "diameters half and half or log-normal (deviation over mean), random start at 0.3 of the jammed density; +k: contacts beyond one state of self-stress"))
+    maps = (
+        (
+            "density",
+            lambda r: (f"d = {r['dim']}, {r['method']}", r["start"]),
+            "start at this part of the jammed density (random to 0.4, then grown fast), or grown to pressure p; in each cell: median factorisations",
+        ),
+        (
+            "sizes",
+            lambda r: (r["sizes"], f"d = {r['dim']}, N = {r['n']}"),
+            "diameters half and half or log-normal (deviation over mean), random start at 0.3 of the jammed density; +k: contacts beyond one state of self-stress",
+        ),
+    )
     order = list(KINDS)
     for axis, (name, key, title) in zip(axes, maps):
         rows = [r for r in data["rows"] if r["map"] == name]
         lines = list(dict.fromkeys(key(r)[0] for r in rows))
-        columns = list(dict.fromkeys(key(r)[1] for r in rows)) if name == "density" else sorted(
-            {key(r)[1] for r in rows}, key=lambda c: (c[:5], int(c.split("N = ")[1])))
+        columns = (
+            list(dict.fromkeys(key(r)[1] for r in rows))
+            if name == "density"
+            else sorted({key(r)[1] for r in rows}, key=lambda c: (c[:5], int(c.split("N = ")[1])))
+        )
         for a, line in enumerate(lines):
             for b, column in enumerate(columns):
                 cell = [r for r in rows if key(r) == (line, column)]
                 if not cell:
                     continue
                 for part, r in enumerate(sorted(cell, key=lambda r: order.index(r["kind"]))):
-                    axis.add_patch(plt.Rectangle((b + part / len(cell), a), 1 / len(cell), 1, color=KINDS[r["kind"]], lw=0))
-                notes = [" ".join(sorted({r["reason"].replace("_", " ")[:14] for r in cell if r["kind"] in ("jammed hyperstatic", "stopped", "wrong")}))]
+                    axis.add_patch(
+                        plt.Rectangle((b + part / len(cell), a), 1 / len(cell), 1, color=KINDS[r["kind"]], lw=0)
+                    )
+                notes = [
+                    " ".join(
+                        sorted(
+                            {
+                                r["reason"].replace("_", " ")[:14]
+                                for r in cell
+                                if r["kind"] in ("jammed hyperstatic", "stopped", "wrong")
+                            }
+                        )
+                    )
+                ]
                 if name == "density" and any(r.get("used", r["method"]) != r["method"] for r in cell):
                     notes.append("LPs alone" if all(r.get("used") == "chain" for r in cell) else "some by LPs")
                 work = [r["factorisations"] for r in cell if "factorisations" in r]
                 notes += [f"{np.median(work):.0f}"] if work else []
                 axis.text(b + 0.5, a + 0.5, "\n".join(n for n in notes if n), ha="center", va="center", fontsize=6)
-        axis.set(xlim=(0, len(columns)), ylim=(len(lines), 0), xticks=np.arange(len(columns)) + 0.5, yticks=np.arange(len(lines)) + 0.5)
-        axis.set_xticklabels([c.replace("phi ", r"$\varphi_0/\varphi_J$ = ").replace("p 1", "p = 1") for c in columns], fontsize=7, rotation=12)
+        axis.set(
+            xlim=(0, len(columns)),
+            ylim=(len(lines), 0),
+            xticks=np.arange(len(columns)) + 0.5,
+            yticks=np.arange(len(lines)) + 0.5,
+        )
+        axis.set_xticklabels(
+            [c.replace("phi ", r"$\varphi_0/\varphi_J$ = ").replace("p 1", "p = 1") for c in columns],
+            fontsize=7,
+            rotation=12,
+        )
         axis.set_yticklabels(lines, fontsize=8)
         sizes = {r["dim"]: r["n"] for r in rows}
-        axis.set_title((", ".join(f"N = {n} (d = {d})" for d, n in sizes.items()) + ":\n" if name == "density" else "") + title, fontsize=8)
+        axis.set_title(
+            (", ".join(f"N = {n} (d = {d})" for d, n in sizes.items()) + ":\n" if name == "density" else "") + title,
+            fontsize=8,
+        )
         for k in range(len(columns) + 1):
             axis.axvline(k, color="white", lw=2)
         for k in range(len(lines) + 1):
@@ -151,8 +210,15 @@ def draw(data, picture):
         for spine in axis.spines.values():
             spine.set_visible(False)
     found = {r["kind"] for r in data["rows"]}
-    figure.legend(handles=[plt.Rectangle((0, 0), 1, 1, color=c, label=k + ("" if k in found else " (none)")) for k, c in KINDS.items()], loc="lower center",
-                  ncol=5, fontsize=8, frameon=False)
+    figure.legend(
+        handles=[
+            plt.Rectangle((0, 0), 1, 1, color=c, label=k + ("" if k in found else " (none)")) for k, c in KINDS.items()
+        ],
+        loc="lower center",
+        ncol=5,
+        fontsize=8,
+        frameon=False,
+    )
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     figure.savefig(picture, dpi=100)
 

@@ -6,6 +6,7 @@ import time
 def grown(n, seed, stages, folder=None):
     """n spheres in d = 3 after stages of (growth rate, pressure), and the seconds that took; NaN seconds for a state found in the folder."""
     import jam
+
     name = "-".join([f"n{n}", f"seed{seed}"] + [f"{growth:g}-{pressure:g}" for growth, pressure in stages]) + ".dat"
     kept = os.path.join(folder, name) if folder else ""
     if os.path.exists(kept):

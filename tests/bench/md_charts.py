@@ -50,19 +50,44 @@ def speed(source, target):
 
 
 class CreateOptions(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("dim", ctypes.c_int32), ("n", ctypes.c_int64), ("seed", ctypes.c_int64), ("box", ctypes.c_double),
-                ("packing_fraction", ctypes.c_double), ("overlap", ctypes.c_int32), ("model", ctypes.c_int32), ("mk_zeta", ctypes.c_double)]
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("dim", ctypes.c_int32),
+        ("n", ctypes.c_int64),
+        ("seed", ctypes.c_int64),
+        ("box", ctypes.c_double),
+        ("packing_fraction", ctypes.c_double),
+        ("overlap", ctypes.c_int32),
+        ("model", ctypes.c_int32),
+        ("mk_zeta", ctypes.c_double),
+    ]
 
 
 class CompressOptions(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_int32), ("growth_rate", ctypes.c_double), ("pressure", ctypes.c_double),
-                ("packing_fraction", ctypes.c_double), ("collisions_per_particle", ctypes.c_double), ("wall_time", ctypes.c_double)]
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("reserved", ctypes.c_int32),
+        ("growth_rate", ctypes.c_double),
+        ("pressure", ctypes.c_double),
+        ("packing_fraction", ctypes.c_double),
+        ("collisions_per_particle", ctypes.c_double),
+        ("wall_time", ctypes.c_double),
+    ]
 
 
 class Info(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("dim", ctypes.c_int32), ("n", ctypes.c_int64), ("seed", ctypes.c_int64), ("box", ctypes.c_double),
-                ("packing_fraction", ctypes.c_double), ("diameter_mean", ctypes.c_double), ("pressure", ctypes.c_double),
-                ("model", ctypes.c_int32), ("monodisperse", ctypes.c_int32)]
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("dim", ctypes.c_int32),
+        ("n", ctypes.c_int64),
+        ("seed", ctypes.c_int64),
+        ("box", ctypes.c_double),
+        ("packing_fraction", ctypes.c_double),
+        ("diameter_mean", ctypes.c_double),
+        ("pressure", ctypes.c_double),
+        ("model", ctypes.c_int32),
+        ("monodisperse", ctypes.c_int32),
+    ]
 
 
 def accuracy(source, target, budget=60.0):
@@ -103,8 +128,16 @@ def measure_accuracy(library, budget):
             info.struct_size = ctypes.sizeof(info)
             jam.jam_info_get(copy, ctypes.byref(info))
             jam.jam_destroy(copy)
-            rows.append({"growth_rate": growth, "pressure": pressure, "seconds_md": round(spent, 3), "seconds_crunch": round(crunch, 3),
-                         "status": status, "packing_fraction": info.packing_fraction})
+            rows.append(
+                {
+                    "growth_rate": growth,
+                    "pressure": pressure,
+                    "seconds_md": round(spent, 3),
+                    "seconds_crunch": round(crunch, 3),
+                    "status": status,
+                    "packing_fraction": info.packing_fraction,
+                }
+            )
         jam.jam_destroy(system)
     return rows
 
@@ -119,7 +152,9 @@ def draw_accuracy(rows, target):
         other = [(t, abs(r["packing_fraction"] - slowest) + 1e-16) for t, r in zip(seconds, line) if r is not rows[-1]]
         bottom.plot([t for t, _ in other], [x for _, x in other], "o-")
     best, route = np.inf, []
-    for t, x in sorted((r["seconds_md"] + r["seconds_crunch"], abs(r["packing_fraction"] - slowest) + 1e-16) for r in rows[:-1]):
+    for t, x in sorted(
+        (r["seconds_md"] + r["seconds_crunch"], abs(r["packing_fraction"] - slowest) + 1e-16) for r in rows[:-1]
+    ):
         if x < best:
             best = x
             route.append((t, x))
@@ -137,8 +172,11 @@ def draw_accuracy(rows, target):
 
 def precision(target):
     import jam
+
     ratios = (1.0, 1.4, 3.0, 10.0)
-    print("| d | ratio | p where it ends | why | deviation of p (1 - phi/phi_J) / d from 1 at p = 1e12 | largest overlap | s |")
+    print(
+        "| d | ratio | p where it ends | why | deviation of p (1 - phi/phi_J) / d from 1 at p = 1e12 | largest overlap | s |"
+    )
     print("|---|---|---|---|---|---|---|")
     for d in range(2, 7):
         ends = []
@@ -152,8 +190,11 @@ def precision(target):
                 # phi_J from the end, where 1 - phi / phi_J is beyond notice; rattlers do not share the pressure
                 free = (1 - middle.packing_fraction / last.packing_fraction) * middle.pressure / d
             ends.append(last.pressure)
-            print(f"| {d} | {ratio:g} | {last.pressure:.2e} | {jam.raw.jam_stop_string(last.stop_reason)} | {free - 1:+.3f} | {last.max_overlap:.1e} | "
-                  f"{time.process_time() - begin:.1f} |", flush=True)
+            print(
+                f"| {d} | {ratio:g} | {last.pressure:.2e} | {jam.raw.jam_stop_string(last.stop_reason)} | {free - 1:+.3f} | {last.max_overlap:.1e} | "
+                f"{time.process_time() - begin:.1f} |",
+                flush=True,
+            )
         plt.semilogy(ratios, ends, "o-", label=f"d = {d}")
     plt.xscale("log")
     plt.xlabel("ratio of diameters")
@@ -164,7 +205,11 @@ def precision(target):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3 or sys.argv[1] not in ("speed", "accuracy", "precision") or (sys.argv[1] != "precision" and len(sys.argv) < 4):
+    if (
+        len(sys.argv) < 3
+        or sys.argv[1] not in ("speed", "accuracy", "precision")
+        or (sys.argv[1] != "precision" and len(sys.argv) < 4)
+    ):
         sys.exit(__doc__)
     if sys.argv[1] == "precision":
         precision(sys.argv[2])

@@ -1,7 +1,8 @@
-// Collisions a second of NVE dynamics against the number of spheres and the packing fraction, and the cost of a compression.
-// Then lists against cells alone by packing fraction, the calendar against one heap, and a run that is observed against one that is not, interleaved, as ratios of rates.
-// md_speed [SECONDS [N...]]: JSON to stdout. Seconds are of processor time, so that a busy machine disturbs less. The ratio
-// is to the smallest system of the same packing fraction in the same run.
+// Collisions a second of NVE dynamics against the number of spheres and the packing fraction, and the cost of a
+// compression. Then lists against cells alone by packing fraction, the calendar against one heap, and a run that is
+// observed against one that is not, interleaved, as ratios of rates. md_speed [SECONDS [N...]]: JSON to stdout. Seconds
+// are of processor time, so that a busy machine disturbs less. The ratio is to the smallest system of the same packing
+// fraction in the same run.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -48,7 +49,9 @@ static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &mo
   }
   std::sort(ratios.begin(), ratios.end());
   for (auto &r : rates) std::sort(r.begin(), r.end());
-  const auto pressure = [&](int k) { return 1.0 + (engine[k]->sums.virial - before[k].virial) / (engine[k]->sums.action - before[k].action); };
+  const auto pressure = [&](int k) {
+    return 1.0 + (engine[k]->sums.virial - before[k].virial) / (engine[k]->sums.action - before[k].action);
+  };
   return {ratios[3], pressure(0), pressure(1), rates[0][3], rates[1][3]};
 }
 
@@ -64,9 +67,11 @@ static void engines(const std::vector<int64_t> &sizes, double seconds, Monitor &
       auto a = make_engine(p, lists), b = make_engine(p, cells);
       for (EngineBase *e : {a.get(), b.get()}) e->advance(10 * n, monitor, 1e300);
       const Race found = race(*a, *b, seconds, monitor);
-      std::printf("%s\n  {\"n\": %lld, \"packing_fraction\": %g, \"lists\": %.0f, \"cells\": %.0f, \"ratio\": %.3f, \"choice\": \"%s\", \"pressures\": [%.4f, %.4f]}",
-                  comma, static_cast<long long>(n), fraction, found.rate_a, found.rate_b, found.ratio, make_engine(p, EngineOptions{})->cells_alone() ? "cells" : "lists",
-                  found.pressure_a, found.pressure_b);
+      std::printf(
+          "%s\n  {\"n\": %lld, \"packing_fraction\": %g, \"lists\": %.0f, \"cells\": %.0f, \"ratio\": %.3f, "
+          "\"choice\": \"%s\", \"pressures\": [%.4f, %.4f]}",
+          comma, static_cast<long long>(n), fraction, found.rate_a, found.rate_b, found.ratio,
+          make_engine(p, EngineOptions{})->cells_alone() ? "cells" : "lists", found.pressure_a, found.pressure_b);
       comma = ",";
       std::fflush(stdout);
     }
@@ -81,18 +86,22 @@ static void races(const std::vector<int64_t> &sizes, double seconds, Monitor &mo
     Observer series(p, default_observe_options()), pairs(p, all);
     EngineOptions with_heap;
     with_heap.heap_only = 1;
-    auto plain = make_engine(p, EngineOptions{}), heap = make_engine(p, with_heap), seen = make_engine(p, EngineOptions{}), counted = make_engine(p, EngineOptions{});
+    auto plain = make_engine(p, EngineOptions{}), heap = make_engine(p, with_heap),
+         seen = make_engine(p, EngineOptions{}), counted = make_engine(p, EngineOptions{});
     seen->observe(&series);
     counted->observe(&pairs);
     for (EngineBase *e : {plain.get(), heap.get(), seen.get(), counted.get()}) e->advance(3 * n, monitor, 1e300);
     struct {
       const char *name;
       EngineBase *engine;
-    } const rivals[] = {{"one heap", heap.get()}, {"observed: series", seen.get()}, {"observed: collisions of pairs", counted.get()}};
+    } const rivals[] = {
+        {"one heap", heap.get()}, {"observed: series", seen.get()}, {"observed: collisions of pairs", counted.get()}};
     for (const auto &r : rivals) {
       const Race found = race(*plain, *r.engine, seconds, monitor);
-      std::printf("%s\n  {\"n\": %lld, \"packing_fraction\": 0.5, \"rival\": \"%s\", \"rate_ratio\": %.3f, \"pressures\": [%.3f, %.3f]}", comma,
-                  static_cast<long long>(n), r.name, found.ratio, found.pressure_a, found.pressure_b);
+      std::printf(
+          "%s\n  {\"n\": %lld, \"packing_fraction\": 0.5, \"rival\": \"%s\", \"rate_ratio\": %.3f, \"pressures\": "
+          "[%.3f, %.3f]}",
+          comma, static_cast<long long>(n), r.name, found.ratio, found.pressure_a, found.pressure_b);
       comma = ",";
       std::fflush(stdout);
     }
@@ -127,11 +136,13 @@ int main(int argc, char **argv) {
       std::sort(rates.begin(), rates.end());
       if (base == 0.0) base = rates[2];
       const MdSums &now = engine->sums;
-      std::printf("%s\n  {\"n\": %lld, \"packing_fraction\": %g, \"collisions_per_second\": %.0f, \"spread\": [%.0f, %.0f], \"ratio\": %.3f, "
-                  "\"events_per_collision\": %.3f, \"pressure\": %.3f}",
-                  comma, static_cast<long long>(n), fraction, rates[2], rates[0], rates[4], rates[2] / base,
-                  static_cast<double>(now.events - before.events) / static_cast<double>(now.collisions - before.collisions),
-                  1.0 + (now.virial - before.virial) / (now.action - before.action));
+      std::printf(
+          "%s\n  {\"n\": %lld, \"packing_fraction\": %g, \"collisions_per_second\": %.0f, \"spread\": [%.0f, %.0f], "
+          "\"ratio\": %.3f, "
+          "\"events_per_collision\": %.3f, \"pressure\": %.3f}",
+          comma, static_cast<long long>(n), fraction, rates[2], rates[0], rates[4], rates[2] / base,
+          static_cast<double>(now.events - before.events) / static_cast<double>(now.collisions - before.collisions),
+          1.0 + (now.virial - before.virial) / (now.action - before.action));
       comma = ",";
       std::fflush(stdout);
     }
@@ -153,8 +164,10 @@ int main(int argc, char **argv) {
       times.push_back(cpu() - t);
     }
     std::sort(times.begin(), times.end());
-    std::printf("%s\n  {\"n\": 1024, \"growth_rate\": 0.01, \"pressure\": %g, \"seconds\": %.3f, \"collisions\": %lld, \"packing_fraction\": %.6f}", comma,
-                report.pressure, times[1], static_cast<long long>(report.collisions), report.packing_fraction);
+    std::printf(
+        "%s\n  {\"n\": 1024, \"growth_rate\": 0.01, \"pressure\": %g, \"seconds\": %.3f, \"collisions\": %lld, "
+        "\"packing_fraction\": %.6f}",
+        comma, report.pressure, times[1], static_cast<long long>(report.collisions), report.packing_fraction);
     comma = ",";
   }
   std::printf("]}\n");

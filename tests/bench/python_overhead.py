@@ -31,12 +31,15 @@ def median(f, repeat=15):
 
 def import_seconds(repeat):
     """Wall and processor time of a fresh import; the second tells more on a busy machine."""
-    code = ("import time; t, c = time.perf_counter(), time.process_time(); import {}; "
-            "print(time.perf_counter() - t, time.process_time() - c)")
+    code = (
+        "import time; t, c = time.perf_counter(), time.process_time(); import {}; "
+        "print(time.perf_counter() - t, time.process_time() - c)"
+    )
 
     def run(name):
         done = subprocess.run([sys.executable, "-c", code.format(name)], capture_output=True, text=True, check=True)
         return [float(x) for x in done.stdout.split()]
+
     run("jam")
     times = [(*run("jam"), *run("numpy")) for _ in range(repeat)]
     names = ("import_jam", "import_jam_processor", "import_numpy", "import_numpy_processor")
@@ -61,6 +64,7 @@ def arrays():
     def baseline():
         library.jam_set_velocities(pointer, v.ctypes.data, v.size)
         np.copyto(out, s.velocities)
+
     result = {"doubles": v.size, "velocities_in_and_out": median(in_and_out), "same_by_raw_pointers": median(baseline)}
     assert (out == v).all()
     result["positions_view"] = median(lambda: s.positions, 200)
@@ -87,9 +91,14 @@ def crunch(pack, path, repeat):
             with open(report) as file:
                 program.append(json.load(file)["seconds_crunch"])
     ratio = [a / b for a, b in zip(python, program)]
-    return {"crunch_python": statistics.median(python), "crunch_jam_pack": statistics.median(program),
-            "crunch_ratio": statistics.median(ratio), "crunch_ratio_of_best": min(python) / min(program),
-            "wall_python": statistics.median(python_wall), "wall_jam_pack": statistics.median(program_wall)}
+    return {
+        "crunch_python": statistics.median(python),
+        "crunch_jam_pack": statistics.median(program),
+        "crunch_ratio": statistics.median(ratio),
+        "crunch_ratio_of_best": min(python) / min(program),
+        "wall_python": statistics.median(python_wall),
+        "wall_jam_pack": statistics.median(program_wall),
+    }
 
 
 def main():

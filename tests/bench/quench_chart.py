@@ -17,6 +17,7 @@ STARTS = ("random", 1e1, 1e2, 5e2, 1e4, 1e6)
 
 def study(args):
     import jam
+
     rows = []
     for start in STARTS:
         for seed in range(1, args.seeds + 1):
@@ -26,9 +27,21 @@ def study(args):
             for method in ("relinearise", "chain"):
                 copy, began = s.copy(), time.process_time()
                 r = copy.crunch(method=method)
-                rows.append(dict(start=str(start), seed=seed, method=method, used=r.method.name.lower(), jammed=int(r.jammed), phi=r.packing_fraction,
-                                 excess=r.excess_contacts, factorisations=r.factorisations, lps=r.lp_solves, seconds=time.process_time() - began,
-                                 force_residual=r.force_residual))
+                rows.append(
+                    dict(
+                        start=str(start),
+                        seed=seed,
+                        method=method,
+                        used=r.method.name.lower(),
+                        jammed=int(r.jammed),
+                        phi=r.packing_fraction,
+                        excess=r.excess_contacts,
+                        factorisations=r.factorisations,
+                        lps=r.lp_solves,
+                        seconds=time.process_time() - began,
+                        force_residual=r.force_residual,
+                    )
+                )
     return dict(n=args.n, seeds=args.seeds, rows=rows)
 
 
@@ -40,22 +53,31 @@ def pairs(data, start, field):
 
 def draw(data, picture):
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     starts = [str(s) for s in STARTS]
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.8))
-    labels = ["random\n0.2" if s == "random" else f"p\n{float(s):g}" if float(s) < 1e3 else f"p\n1e{int(np.log10(float(s)))}" for s in starts]
+    labels = [
+        "random\n0.2" if s == "random" else f"p\n{float(s):g}" if float(s) < 1e3 else f"p\n1e{int(np.log10(float(s)))}"
+        for s in starts
+    ]
     for k, start in enumerate(starts):
         path, chain = pairs(data, start, "phi")
         axes[0].plot(np.full(len(path), k - 0.12), path, ".", color="C0", label="barrier path" if k == 0 else None)
         axes[0].plot(np.full(len(chain), k + 0.12), chain, ".", color="C1", label="chain of LPs" if k == 0 else None)
         difference = path - chain
-        axes[1].errorbar(k, difference.mean(), difference.std(ddof=1) / np.sqrt(len(difference)), fmt="o", color="C2", capsize=3)
+        axes[1].errorbar(
+            k, difference.mean(), difference.std(ddof=1) / np.sqrt(len(difference)), fmt="o", color="C2", capsize=3
+        )
         for shift, (method, values) in zip((-0.12, 0.12), zip(("C0", "C1"), pairs(data, start, "seconds"))):
             axes[2].semilogy(np.full(len(values), k + shift), values, ".", color=method)
             axes[2].semilogy(k + shift, np.median(values), "_", ms=16, color=method)
     axes[1].axhline(0.0, color="k", lw=0.6)
-    for axis, label in zip(axes, (r"$\varphi_J$", r"$\varphi_J$ of the path less $\varphi_J$ of the chain", "processor seconds")):
+    for axis, label in zip(
+        axes, (r"$\varphi_J$", r"$\varphi_J$ of the path less $\varphi_J$ of the chain", "processor seconds")
+    ):
         axis.set(ylabel=label, xticks=range(len(starts)))
         axis.set_xticklabels(labels, fontsize=8)
         axis.grid(alpha=0.3)
@@ -79,8 +101,10 @@ def main():
         path, chain = pairs(data, start, "phi")
         d = path - chain
         seconds = pairs(data, start, "seconds")
-        print(f"{start:>9}: phi path {path.mean():.5f} chain {chain.mean():.5f} difference {d.mean():+.1e} +- {d.std(ddof=1) / np.sqrt(len(d)):.0e}, "
-              f"seconds {np.median(seconds[0]):.2f} {np.median(seconds[1]):.2f}, both jammed {len(d)} of {args.seeds}")
+        print(
+            f"{start:>9}: phi path {path.mean():.5f} chain {chain.mean():.5f} difference {d.mean():+.1e} +- {d.std(ddof=1) / np.sqrt(len(d)):.0e}, "
+            f"seconds {np.median(seconds[0]):.2f} {np.median(seconds[1]):.2f}, both jammed {len(d)} of {args.seeds}"
+        )
     if args.picture:
         draw(data, args.picture)
 

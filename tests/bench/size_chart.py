@@ -17,7 +17,11 @@ import numpy as np
 
 from grown import grown
 
-PUBLISHED = {"seconds": 2.75, "lps": 0.59, "factorisations": None}  # Diaz Hernandez Rojas, thesis (2021): whole crunch and LPs
+PUBLISHED = {
+    "seconds": 2.75,
+    "lps": 0.59,
+    "factorisations": None,
+}  # Diaz Hernandez Rojas, thesis (2021): whole crunch and LPs
 
 
 def run(start, md, n, seed, method, args):
@@ -27,11 +31,29 @@ def run(start, md, n, seed, method, args):
     began = clock()
     r = s.crunch(method=method, threads=args.threads)
     seconds = clock() - began
-    return dict(n=n, seed=seed, method=method, threads=args.threads, growth=args.growth, pressure=args.pressure, md_seconds=md, seconds=seconds,
-                wall_seconds=r.seconds, seconds_factor=r.seconds_factor, factorisations=r.factorisations, lps=r.lp_solves, jammed=r.jammed,
-                excess=r.excess_contacts, phi=r.packing_fraction, force_residual=r.force_residual, max_overlap=r.max_overlap,
-                estimated_bytes=estimate.bytes, estimated_seconds=estimate.seconds, used=r.method.name.lower(),
-                stop_reason=r.stop_reason.name.lower())
+    return dict(
+        n=n,
+        seed=seed,
+        method=method,
+        threads=args.threads,
+        growth=args.growth,
+        pressure=args.pressure,
+        md_seconds=md,
+        seconds=seconds,
+        wall_seconds=r.seconds,
+        seconds_factor=r.seconds_factor,
+        factorisations=r.factorisations,
+        lps=r.lp_solves,
+        jammed=r.jammed,
+        excess=r.excess_contacts,
+        phi=r.packing_fraction,
+        force_residual=r.force_residual,
+        max_overlap=r.max_overlap,
+        estimated_bytes=estimate.bytes,
+        estimated_seconds=estimate.seconds,
+        used=r.method.name.lower(),
+        stop_reason=r.stop_reason.name.lower(),
+    )
 
 
 def fit(sizes, values):
@@ -46,11 +68,15 @@ def fit(sizes, values):
 
 def draw(rows, picture):
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     figure, axes = plt.subplots(1, 3, figsize=(12, 4))
     exponents, kinds = {}, sorted({(r["method"], r["threads"]) for r in rows}, reverse=True)
-    for axis, (field, label) in zip(axes, (("seconds", "seconds of the whole crunch"), ("factorisations", "factorisations"), ("lps", "LPs solved"))):
+    for axis, (field, label) in zip(
+        axes, (("seconds", "seconds of the whole crunch"), ("factorisations", "factorisations"), ("lps", "LPs solved"))
+    ):
         for m, (method, threads) in enumerate(kinds):
             mine = [r for r in rows if (r["method"], r["threads"]) == (method, threads) and r["jammed"]]
             name = method if threads == 1 else f"{method}, {threads} threads"
@@ -61,17 +87,32 @@ def draw(rows, picture):
             power, error = fit(sizes, middle)
             exponents[name, field] = power, error
             axis.loglog([r["n"] for r in mine], [r[field] for r in mine], ".", color=f"C{m}", alpha=0.4)
-            axis.loglog(sizes, middle, "o-", color=f"C{m}", label=f"{name}: $N^{{{power:.2f} \\pm {error:.2f}}}$" if error == error else f"{name}: $N^{{{power:.2f}}}$")
+            axis.loglog(
+                sizes,
+                middle,
+                "o-",
+                color=f"C{m}",
+                label=f"{name}: $N^{{{power:.2f} \\pm {error:.2f}}}$"
+                if error == error
+                else f"{name}: $N^{{{power:.2f}}}$",
+            )
             if PUBLISHED[field] and (method == "chain" or len(kinds) == 1):  # what was published is a chain
-                axis.loglog(sizes, [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes], "k--", lw=1,
-                            label=f"published slope $N^{{{PUBLISHED[field]}}}$")
+                axis.loglog(
+                    sizes,
+                    [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes],
+                    "k--",
+                    lw=1,
+                    label=f"published slope $N^{{{PUBLISHED[field]}}}$",
+                )
         axis.set(xlabel="N", ylabel=label)
         low, high = axis.get_ylim()
         axis.set_ylim(low, high * (high / low) ** 0.4)  # room for the legend above the points
         axis.legend(fontsize=8, framealpha=0.5, loc="upper left")
         axis.grid(alpha=0.3, which="both")
     growth, pressure = rows[0]["growth"], rows[0]["pressure"]
-    axes[1].set_title(f"d = 3, grown at G = {growth:g} to p = {pressure:g}, up to {max(r['seed'] for r in rows)} seeds", fontsize=9)
+    axes[1].set_title(
+        f"d = 3, grown at G = {growth:g} to p = {pressure:g}, up to {max(r['seed'] for r in rows)} seeds", fontsize=9
+    )
     figure.tight_layout()
     figure.savefig(picture, dpi=100)
     return exponents
@@ -91,7 +132,9 @@ def main():
     parser.add_argument("--only-draw", action="store_true")
     args = parser.parse_args()
     rows = json.load(open(args.out)) if os.path.exists(args.out) else []
-    wanted = [] if args.only_draw else [(int(n), seed) for n in args.sizes.split(",") for seed in range(1, args.seeds + 1)]
+    wanted = (
+        [] if args.only_draw else [(int(n), seed) for n in args.sizes.split(",") for seed in range(1, args.seeds + 1)]
+    )
     for n, seed in wanted:
         same = dict(n=n, seed=seed, threads=args.threads, growth=args.growth, pressure=args.pressure)
         made = {r["method"] for r in rows if all(r[k] == v for k, v in same.items())}

@@ -10,8 +10,16 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SCALARS = {"double": "Cdouble", "int32_t": "Int32", "uint32_t": "UInt32", "int64_t": "Int64", "uint64_t": "UInt64",
-           "size_t": "Csize_t", "jam_status": "Int32", "char": "Cchar"}
+SCALARS = {
+    "double": "Cdouble",
+    "int32_t": "Int32",
+    "uint32_t": "UInt32",
+    "int64_t": "Int64",
+    "uint64_t": "UInt64",
+    "size_t": "Csize_t",
+    "jam_status": "Int32",
+    "char": "Cchar",
+}
 BYTES = {"Cdouble": 8, "Int32": 4, "UInt32": 4, "Int64": 8, "UInt64": 8, "Csize_t": 8}
 
 
@@ -39,15 +47,23 @@ def main():
     args = parser.parse_args()
     text = Path(args.julia).read_text()
     header = re.sub(r"/\*.*?\*/", " ", (ROOT / "include/jam/jam.h").read_text(), flags=re.S)
-    symbols = set(re.findall(r" T (jam_\w+)", subprocess.run(["nm", "-D", "--defined-only", args.library], capture_output=True,
-                                                             text=True, check=True).stdout))
+    symbols = set(
+        re.findall(
+            r" T (jam_\w+)",
+            subprocess.run(
+                ["nm", "-D", "--defined-only", args.library], capture_output=True, text=True, check=True
+            ).stdout,
+        )
+    )
     bad = []
     declared = {}
     for result, name, params in re.findall(r"JAM_API\s+([\w\s\*]*?)(jam_\w+)\s*\(([^)]*)\)", header):
         params = [p.strip() for p in params.split(",") if p.strip() not in ("", "void")]
         declared[name] = (result.strip(), params)
     called = {}
-    for name, result, types, passed in re.findall(r"ccall\(\(:(\w+), libjam\), ([\w{}]+), \(([^)]*)\)((?:, (?:_\w+\([^)]*\)|\w+))*)\)", text):
+    for name, result, types, passed in re.findall(
+        r"ccall\(\(:(\w+), libjam\), ([\w{}]+), \(([^)]*)\)((?:, (?:_\w+\([^)]*\)|\w+))*)\)", text
+    ):
         called[name] = (result, [t.strip() for t in types.split(",") if t.strip()], passed)
     for name, (result, params) in declared.items():
         if name not in called:
@@ -76,7 +92,10 @@ def main():
             values[a] = int(rest[0])
         else:
             offsets.setdefault(a, []).append((b, int(rest[0]), int(rest[1])))
-    structs = {n: re.findall(r"^    (\w+)::(\w+)", body, re.M) for n, body in re.findall(r"mutable struct (\w+)\n(.*?)\nend", text, re.S)}
+    structs = {
+        n: re.findall(r"^    (\w+)::(\w+)", body, re.M)
+        for n, body in re.findall(r"mutable struct (\w+)\n(.*?)\nend", text, re.S)
+    }
     if set(structs) != set(sizes):
         bad.append(f"structs differ: {set(structs) ^ set(sizes)}")
     for name, members in structs.items():

@@ -18,7 +18,9 @@ def main():
     first, second = text.split("## The code of Skoge")
     bad = []
     for part, names in ((first, CALIPPSO), (second, SKOGE)):
-        rows = [[c.strip() for c in line.strip("|\n").split(" | ")] for line in part.splitlines() if line.startswith("| ")]
+        rows = [
+            [c.strip() for c in line.strip("|\n").split(" | ")] for line in part.splitlines() if line.startswith("| ")
+        ]
         theirs = {name for row in rows for name in re.findall(r"`([\w!]+)`", row[0])}
         bad += [f"{name} is not in the table" for name in names if name not in theirs]
         for row in rows[1:]:

@@ -1,11 +1,11 @@
 // jam.hpp: ownership, views, exceptions through C frames. Links the shared library only.
 #include <cmath>
-#include <cstdio>
+#include <csetjmp>
 #include <cstdarg>
 #include <cstddef>
-#include <csetjmp>
-#include <cstring>
 #include <cstdint>
+#include <cstdio>
+#include <cstring>
 extern "C" {
 #include <cmocka.h>
 }
@@ -118,7 +118,8 @@ void test_callbacks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership), cmocka_unit_test(test_checkpoint), cmocka_unit_test(test_errors),
-                              cmocka_unit_test(test_crunch_and_forces), cmocka_unit_test(test_callbacks)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_ownership), cmocka_unit_test(test_checkpoint),
+                              cmocka_unit_test(test_errors), cmocka_unit_test(test_crunch_and_forces),
+                              cmocka_unit_test(test_callbacks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -18,6 +18,7 @@ def available(name):
 
 def write(folder):
     import jam
+
     folder.mkdir(parents=True, exist_ok=True)
     s = jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30)
     s.crunch()
@@ -36,6 +37,7 @@ def check_vtk(vtk, folder, want):
         reader.Update()
         assert reader.GetErrorCode() == 0, name
         return reader.GetOutput()
+
     spheres, lines = read("s.vtp"), read("f.vtp")
     n, m = len(want["sigma"]), len(want["forces"])
     assert (spheres.GetNumberOfPoints(), spheres.GetNumberOfVerts(), lines.GetNumberOfLines()) == (n, n, 2 * m)
@@ -54,11 +56,14 @@ def check_vtk(vtk, folder, want):
 
 def check_ase(folder, want):
     import ase.io
+
     atoms = ase.io.read(folder / "s.xyz")
     radius = atoms.arrays["radius"]
     assert (atoms.positions[:, :2] == want["x"]).all() and (2 * radius == want["sigma"]).all()
     assert list(atoms.pbc) == [True, True, False] and (atoms.arrays["contacts"] == want["z"]).all()
-    distance = atoms.get_all_distances(mic=True)  # with the box that the file names: each sphere has the contacts listed
+    distance = atoms.get_all_distances(
+        mic=True
+    )  # with the box that the file names: each sphere has the contacts listed
     near = np.abs(distance / np.add.outer(radius, radius) - 1) < 1e-9
     stable = want["z"] > 0
     assert (near[stable][:, stable].sum(1) == want["z"][stable]).all()
@@ -73,7 +78,9 @@ def main():
         check_vtk(vtk, folder, want)
     if ase:
         check_ase(folder, want)
-    print(f"VTK: {'reads both files' if vtk else 'not installed'}; ASE: {'reads extended XYZ' if ase else 'not installed'}")
+    print(
+        f"VTK: {'reads both files' if vtk else 'not installed'}; ASE: {'reads extended XYZ' if ase else 'not installed'}"
+    )
     sys.exit(0 if vtk or ase else 77)
 
 

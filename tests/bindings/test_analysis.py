@@ -18,8 +18,8 @@ class Network(unittest.TestCase):
         where[s.hessian_map()] = np.arange(self.r.stable)
         a = np.zeros((len(c), 2 * self.r.stable))
         for k, (i, j) in enumerate(c.pairs):
-            a[k, 2 * where[i]:2 * where[i] + 2] += c.vectors[k]
-            a[k, 2 * where[j]:2 * where[j] + 2] -= c.vectors[k]
+            a[k, 2 * where[i] : 2 * where[i] + 2] += c.vectors[k]
+            a[k, 2 * where[j] : 2 * where[j] + 2] -= c.vectors[k]
         np.testing.assert_allclose(h.toarray(), a.T @ a, atol=1e-12)
         hard = s.hessian("hard").toarray()
         np.testing.assert_allclose(hard, a.T @ (c.forces[:, None] ** 2 * a), atol=1e-10)
@@ -34,7 +34,7 @@ class Network(unittest.TestCase):
         np.testing.assert_allclose(low.values, every.values[2:7], atol=1e-9)
         v = low.vectors.reshape(5, -1)
         np.testing.assert_allclose(h @ v.T, v.T * low.values, atol=1e-7)
-        np.testing.assert_allclose(low.participation, (low.vectors ** 2).sum(2).__pow__(2).sum(1), rtol=1e-9)
+        np.testing.assert_allclose(low.participation, (low.vectors**2).sum(2).__pow__(2).sum(1), rtol=1e-9)
         with self.assertRaises(ValueError):
             s.modes(which="some")
 
@@ -88,7 +88,9 @@ class Network(unittest.TestCase):
         kinds = np.arange(s.n) % 2
         self.assertTrue((s.pair_correlation(kinds, 0, 1, 2.0, 30) != g).any())
         big = s.class_values("force", "extended")
-        np.testing.assert_allclose(s.histogram("force", jam.Class.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12)
+        np.testing.assert_allclose(
+            s.histogram("force", jam.Class.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12
+        )
         moduli = s.moduli()
         self.assertGreater(moduli.bulk, 0)
         self.assertIn("bulk_affine", repr(moduli))

@@ -16,8 +16,11 @@ import jam
 
 PACK = os.environ.get("JAM_PACK")  # the program in C
 
+
 def crunched(dim=2):
-    s = jam.System.random(n=60 if dim == 2 else 80, dim=dim, seed=3, diameters=[1.0, 1.4] * (30 if dim == 2 else 40), box=2.0)
+    s = jam.System.random(
+        n=60 if dim == 2 else 80, dim=dim, seed=3, diameters=[1.0, 1.4] * (30 if dim == 2 else 40), box=2.0
+    )
     s.crunch()
     return s
 
@@ -43,8 +46,10 @@ class Files(unittest.TestCase):
 
     def arrays(self, path):
         piece = ElementTree.parse(path).getroot().find("PolyData/Piece")
-        found = {a.get("Name"): np.array(a.text.split(), float).reshape(-1, int(a.get("NumberOfComponents")))
-                 for a in piece.iter("DataArray")}
+        found = {
+            a.get("Name"): np.array(a.text.split(), float).reshape(-1, int(a.get("NumberOfComponents")))
+            for a in piece.iter("DataArray")
+        }
         return piece, found
 
     def test_vtk_spheres(self):
@@ -52,7 +57,7 @@ class Files(unittest.TestCase):
             jam.files.write_vtk(s, self.path / "s.vtp")
             piece, a = self.arrays(self.path / "s.vtp")
             self.assertEqual(int(piece.get("NumberOfPoints")), s.n)
-            np.testing.assert_array_equal(a["Points"][:, :s.dim], s.positions)
+            np.testing.assert_array_equal(a["Points"][:, : s.dim], s.positions)
             np.testing.assert_array_equal(a["diameter"][:, 0], s.diameters)
             np.testing.assert_array_equal(a["contacts"][:, 0], s.coordination)
             self.assertEqual((a["kind"] == 0).sum(), s.report.rattlers)
@@ -95,8 +100,21 @@ class CommandLine(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             f = lambda name: str(Path(folder) / name)  # noqa: E731
             crunched().write(f("in.xyz"))
-            done = self.run_jam("--input", f("in.xyz"), "--report", "-", "--contacts", f("c.csv"), "--output", f("out.dat"),
-                                "--plot", f("p.png"), "--vtk", f("v"), "--quiet")
+            done = self.run_jam(
+                "--input",
+                f("in.xyz"),
+                "--report",
+                "-",
+                "--contacts",
+                f("c.csv"),
+                "--output",
+                f("out.dat"),
+                "--plot",
+                f("p.png"),
+                "--vtk",
+                f("v"),
+                "--quiet",
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
             report = json.loads(done.stdout)
             self.assertTrue(report["jammed"])
@@ -113,15 +131,21 @@ class CommandLine(unittest.TestCase):
         ours = {option for action in jam.cli.parser()._actions for option in action.option_strings}
         self.assertEqual(theirs - ours, set())
         tables = ("contacts", "gaps", "structure", "spectrum", "output")
-        for arguments in (["--n", "80", "--dim", "2", "--diameters-ratio", "1.4", "--growth", "0.1:50", "--nve", "2"],
-                          ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"],
-                          ["--n", "64", "--dim", "2", "--diameters", "lognormal:0.3", "--growth", "0.1:30"],
-                          ["--n", "64", "--plant", "0.5", "--zeta", "3", "--growth", "0.1:30"]):
+        for arguments in (
+            ["--n", "80", "--dim", "2", "--diameters-ratio", "1.4", "--growth", "0.1:50", "--nve", "2"],
+            ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"],
+            ["--n", "64", "--dim", "2", "--diameters", "lognormal:0.3", "--growth", "0.1:30"],
+            ["--n", "64", "--plant", "0.5", "--zeta", "3", "--growth", "0.1:30"],
+        ):
             with tempfile.TemporaryDirectory() as folder:
                 for name, program in (("a", [PACK]), ("b", [sys.executable, "-m", "jam"])):
                     asked = [x for t in tables for x in ("--" + t, f"{folder}/{name}.{t}")]
-                    done = subprocess.run([*program, *arguments, *asked, "--report", f"{folder}/{name}.json", "--quiet"],
-                                          capture_output=True, text=True, timeout=120)
+                    done = subprocess.run(
+                        [*program, *arguments, *asked, "--report", f"{folder}/{name}.json", "--quiet"],
+                        capture_output=True,
+                        text=True,
+                        timeout=120,
+                    )
                     self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
                 a, b = (json.loads(Path(folder, name + ".json").read_text()) for name in "ab")
                 self.assertEqual(list(a), list(b))
@@ -139,10 +163,23 @@ class CommandLine(unittest.TestCase):
             common = ["--quiet", "--no-crunch", "--growth", "0.1:30", "--growth", "0.1:300"]
 
             def run(program, name, *more):
-                done = subprocess.run([*program, *common, *more, "--checkpoint", f"{folder}/{name}.state", "--output", f"{folder}/{name}.dat"],
-                                      capture_output=True, text=True, timeout=120)
+                done = subprocess.run(
+                    [
+                        *program,
+                        *common,
+                        *more,
+                        "--checkpoint",
+                        f"{folder}/{name}.state",
+                        "--output",
+                        f"{folder}/{name}.dat",
+                    ],
+                    capture_output=True,
+                    text=True,
+                    timeout=120,
+                )
                 self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
                 return Path(folder, name + ".dat").read_text()
+
             begin = ["--dim", "2", "--diameters", str(sizes), "--seed", "4"]
             whole = run(programs[0], "whole", *begin)
             for first, second in (programs, programs[::-1]):
@@ -160,8 +197,15 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(self.run_jam("--diameters", folder + "/bad", "--no-md", "--no-crunch").returncode, 3)
             self.assertEqual(self.run_jam("--resume", folder + "/bad").returncode, 3)
         self.assertEqual(self.run_jam("--resume", "a", "--input", "b").returncode, 2)
-        for wrong in (["--modes", "5"], ["--no-crunch", "--gaps", "g"], ["--output", "x", "--plot", "x"], ["--pressure", "0.5"],
-                      ["--input", "x", "--structure", "x"], ["--growth", "0.1:"], ["--modes", "-1", "--spectrum", "s"]):
+        for wrong in (
+            ["--modes", "5"],
+            ["--no-crunch", "--gaps", "g"],
+            ["--output", "x", "--plot", "x"],
+            ["--pressure", "0.5"],
+            ["--input", "x", "--structure", "x"],
+            ["--growth", "0.1:"],
+            ["--modes", "-1", "--spectrum", "s"],
+        ):
             self.assertEqual(self.run_jam(*wrong).returncode, 2, wrong)
         self.assertEqual(self.run_jam("--growth", "-1").returncode, 2)
         self.assertEqual(self.run_jam("--no-md", "--nve", "3").returncode, 2)

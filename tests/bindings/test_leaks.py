@@ -33,6 +33,7 @@ class Leaks(unittest.TestCase):
             s = jam.System.from_arrays(x + 0.0, 1e-4)  # new arrays: one that is never released shows
             s.velocities = x + 0.0
             s.positions[0], s.copy().diameters[0], s.info
+
         self.assertLess(grown(cycle), 4000)
 
     def test_failures_and_callbacks(self):
@@ -41,13 +42,17 @@ class Leaks(unittest.TestCase):
         x[7] = x[3]  # refused
 
         def cycle():
-            for call in (lambda: jam.System.from_arrays(x, 1e-4), lambda: jam.System.random(dim=9),
-                         lambda: jam.raw.jam_set_positions(small.handle, x.astype(np.float32))):
+            for call in (
+                lambda: jam.System.from_arrays(x, 1e-4),
+                lambda: jam.System.random(dim=9),
+                lambda: jam.raw.jam_set_positions(small.handle, x.astype(np.float32)),
+            ):
                 try:
                     call()
                     self.fail("not refused")
                 except (jam.JamError, TypeError):
                     pass
+
         self.assertLess(grown(cycle), 4000)
 
     def test_crunch_results(self):
@@ -61,6 +66,7 @@ class Leaks(unittest.TestCase):
                 c.crunch(progress=lambda p: 1 / 0)
             except ZeroDivisionError:
                 pass
+
         self.assertLess(grown(cycle), 4000)
 
 

@@ -11,6 +11,7 @@ import jam
 def ink(figure, darker_than=250):
     """Share of pixels with a channel below this; of 255 white."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     return float((np.asarray(canvas.buffer_rgba())[..., :3] < darker_than).any(-1).mean())
@@ -32,7 +33,9 @@ class Pictures(unittest.TestCase):
         dark = [ink(jam.plot.packing(self.flat, forces=f, legend=False).figure, 40) for f in (False, True)]
         self.assertGreater(dark[1], dark[0] + 0.01)
         ax = jam.plot.packing(self.flat)
-        self.assertEqual(sum(len(c.get_offsets()) >= 60 for c in ax.collections[:1]), 0)  # one collection for each image of the box
+        self.assertEqual(
+            sum(len(c.get_offsets()) >= 60 for c in ax.collections[:1]), 0
+        )  # one collection for each image of the box
         self.assertGreaterEqual(sum(len(c.get_offsets()) for c in ax.collections), 60)
         self.assertTrue(all(len(c.get_offsets()) for c in ax.collections))  # an empty one would draw a stray circle
 
@@ -57,7 +60,9 @@ class Pictures(unittest.TestCase):
         edges, values = ax.patches[0].get_data().edges, ax.patches[0].get_data().values
         self.assertAlmostEqual((values * np.diff(edges)).sum(), 1 - 2 / len(modes), 6)  # all but the translations
         ax, h = jam.plot.convergence(self.flat), self.flat.history
-        self.assertEqual([len(line.get_xdata()) for line in ax.lines], [(h["gain"] > 0).sum(), (h["step_max"] > 0).sum()])
+        self.assertEqual(
+            [len(line.get_xdata()) for line in ax.lines], [(h["gain"] > 0).sum(), (h["step_max"] > 0).sum()]
+        )
         self.assertEqual(list(ax.lines[0].get_xdata()), list(np.cumsum(h["factorisations"])[h["gain"] > 0]))
         self.assertGreater(len(jam.plot.convergence(self.flat.trace).lines), 0)
         record = lambda phi, p: jam.Progress(2, phi, p, 0.0, 0.0, 0.0, 0.0, 10, 0, 0, 0)  # noqa: E731
@@ -66,12 +71,17 @@ class Pictures(unittest.TestCase):
 
     def test_axes_are_taken_and_no_pyplot_is_needed(self):
         from matplotlib.figure import Figure
+
         axes = Figure().subplots(1, 2)
         self.assertIs(jam.plot.packing(self.flat, axes[0]), axes[0])
         self.assertIs(jam.plot.cdf(self.flat.forces, axes[1]), axes[1])
-        code = ("import jam, sys; s = jam.System.random(n=20, dim=2); jam.plot.packing(s).figure.savefig('/dev/null', format='png');"
-                "sys.exit('matplotlib.pyplot' in sys.modules)")
-        self.assertEqual(subprocess.run([sys.executable, "-c", code], env={**__import__("os").environ, "DISPLAY": ""}).returncode, 0)
+        code = (
+            "import jam, sys; s = jam.System.random(n=20, dim=2); jam.plot.packing(s).figure.savefig('/dev/null', format='png');"
+            "sys.exit('matplotlib.pyplot' in sys.modules)"
+        )
+        self.assertEqual(
+            subprocess.run([sys.executable, "-c", code], env={**__import__("os").environ, "DISPLAY": ""}).returncode, 0
+        )
 
 
 if __name__ == "__main__":

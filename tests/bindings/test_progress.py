@@ -53,13 +53,17 @@ class Showing(unittest.TestCase):
     def shown(self, call, *, tqdm, notebook, terminal):
         """What goes to the standard error, and the bars, while call runs."""
         Bar.made = []
-        with modules(tqdm, notebook), unittest.mock.patch("sys.stderr", Terminal() if terminal else io.StringIO()) as stream:
+        with modules(tqdm, notebook), unittest.mock.patch(
+            "sys.stderr", Terminal() if terminal else io.StringIO()
+        ) as stream:
             call()
             return stream.getvalue(), Bar.made
 
     def test_bar_where_tqdm_is(self):
         for notebook, terminal in ((False, True), (True, False)):
-            text, bars = self.shown(lambda: work().crunch(progress=True), tqdm=True, notebook=notebook, terminal=terminal)
+            text, bars = self.shown(
+                lambda: work().crunch(progress=True), tqdm=True, notebook=notebook, terminal=terminal
+            )
             self.assertEqual((text, len(bars)), ("", 1))
             bar = bars[0]
             self.assertTrue(bar.closed and bar.seen)
@@ -67,7 +71,9 @@ class Showing(unittest.TestCase):
             self.assertTrue(all(0 <= n <= bar.total for n in bar.seen))
 
     def test_bar_follows_the_fraction_of_dynamics(self):
-        _, bars = self.shown(lambda: jam.System.random(n=500, seed=1).run(1500, progress=True), tqdm=True, notebook=True, terminal=False)
+        _, bars = self.shown(
+            lambda: jam.System.random(n=500, seed=1).run(1500, progress=True), tqdm=True, notebook=True, terminal=False
+        )
         self.assertEqual(bars[0].seen, sorted(bars[0].seen))
         self.assertGreater(bars[0].seen[-1], bars[0].seen[0])
         self.assertRegex(bars[0].texts[-1], r"^run .*collisions")
@@ -80,6 +86,7 @@ class Showing(unittest.TestCase):
             with self.assertRaises(jam.JamError):
                 s.crunch(max_lps=0, progress=True)
             s.modes(5, progress=True)
+
         _, bars = self.shown(stages, tqdm=True, notebook=True, terminal=False)
         self.assertGreaterEqual(len(bars), 4)
         self.assertTrue(all(bar.closed for bar in bars))

@@ -121,7 +121,14 @@ class Views(unittest.TestCase):
         view, copied = s.positions, s.positions.copy()
         with s:
             pass
-        for use in (lambda: s.n, lambda: s.positions, lambda: s.crunch(), lambda: s.copy(), lambda: s.report, lambda: s.cancel()):
+        for use in (
+            lambda: s.n,
+            lambda: s.positions,
+            lambda: s.crunch(),
+            lambda: s.copy(),
+            lambda: s.report,
+            lambda: s.cancel(),
+        ):
             with self.assertRaises(jam.errors.ClosedError):
                 use()
         self.assertEqual(repr(s), "System(closed)")

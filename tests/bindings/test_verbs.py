@@ -23,9 +23,9 @@ def overlap(s):
     """Largest -h over all pairs, by numpy alone."""
     x, sigma, worst = s.positions / s.box, s.diameters / s.box, 0.0
     for i in range(len(x) - 1):
-        r = x[i + 1:] - x[i]
+        r = x[i + 1 :] - x[i]
         r -= np.round(r)
-        h = np.sqrt((r * r).sum(1)) / (0.5 * (sigma[i + 1:] + sigma[i])) - 1
+        h = np.sqrt((r * r).sum(1)) / (0.5 * (sigma[i + 1 :] + sigma[i])) - 1
         worst = max(worst, -h.min())
     return worst
 
@@ -53,7 +53,7 @@ class Crunch(unittest.TestCase):
         self.assertEqual(len(c), r.contacts)
         self.assertEqual(c.pairs.dtype, np.int32)
         self.assertEqual(c.vectors.shape, (r.contacts, 2))
-        np.testing.assert_allclose((c.vectors ** 2).sum(1), 1, atol=1e-12)
+        np.testing.assert_allclose((c.vectors**2).sum(1), 1, atol=1e-12)
         self.assertAlmostEqual(s.forces.mean(), 1, 12)
         net = np.zeros((s.n, 2))
         np.add.at(net, c.pairs[:, 0], c.vectors * c.forces[:, None])
@@ -90,7 +90,9 @@ class MolecularDynamics(unittest.TestCase):
 
         def look(p):
             try:
-                seen.append((s.call("crunch_step_displacements"), s.call("crunch_step_contacts"), s.call("crunch_step_duals")))
+                seen.append(
+                    (s.call("crunch_step_displacements"), s.call("crunch_step_contacts"), s.call("crunch_step_duals"))
+                )
             except jam.errors.StateError:  # amid a step
                 pass
 
@@ -131,8 +133,10 @@ class MolecularDynamics(unittest.TestCase):
         self.assertTrue((np.diff(rows["time"]) > 0).all() and len(rows) >= 7)
         self.assertEqual(seen.spheres.collisions.sum(), 2 * r.collisions)
         self.assertEqual(seen.pairs.collisions.sum(), r.collisions)
-        self.assertEqual((len(seen.gaps.edge), len(seen.correlation.g), seen.spheres.displacement.shape), (21, 30, before.shape))
-        msd = (seen.spheres.displacement ** 2).sum(1).mean()
+        self.assertEqual(
+            (len(seen.gaps.edge), len(seen.correlation.g), seen.spheres.displacement.shape), (21, 30, before.shape)
+        )
+        msd = (seen.spheres.displacement**2).sum(1).mean()
         self.assertGreater(msd, 0)
         with self.assertRaises(jam.errors.StateError):
             jam.System.random(n=10).call("observed_series")
@@ -151,7 +155,10 @@ class MolecularDynamics(unittest.TestCase):
     def test_stages(self):
         s = jam.System.random(n=108, dim=3, seed=1)
         seen = []
-        r = s.compress(stages=[(0.1, 50), {"growth_rate": 0.05, "packing_fraction": 0.6, "pressure": 300}], progress=lambda p: seen.append(p.phase))
+        r = s.compress(
+            stages=[(0.1, 50), {"growth_rate": 0.05, "packing_fraction": 0.6, "pressure": 300}],
+            progress=lambda p: seen.append(p.phase),
+        )
         self.assertEqual(r.status, 0)
         self.assertIn(r.stop_reason, (jam.StopReason.PRESSURE, jam.StopReason.PACKING_FRACTION))
         self.assertEqual(set(seen), {jam.Phase.COMPRESS})
@@ -184,6 +191,7 @@ class Callbacks(unittest.TestCase):
 
         def raising(progress):
             raise Mine("from the callback")
+
         s = start()
         began = time.time()
         try:
@@ -198,6 +206,7 @@ class Callbacks(unittest.TestCase):
     def test_exception_in_log_reaches_the_caller(self):
         def raising(level, line):
             raise KeyError(line)
+
         s = jam.System.random(n=60, dim=2, seed=3)
         s.log(raising, "debug")
         try:

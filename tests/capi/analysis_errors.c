@@ -91,7 +91,8 @@ static void no_network(void **state) {
   assert_int_equal(jam_project(s, &x, 1, &x, 1, &x, 1, &m), JAM_E_STATE);
   assert_int_equal(jam_class_values(s, 0, 0, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_histogram(s, 0, 0, 0.0, 1.0, 5, NULL, 0, &m), JAM_E_STATE);
-  assert_int_equal(jam_contact_candidates(s, 0.1, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_OK); /* needs no network */
+  assert_int_equal(jam_contact_candidates(s, 0.1, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m),
+                   JAM_OK); /* needs no network */
   assert_int_equal(m, 0);
   assert_int_equal(jam_moduli_get(s, NULL, &moduli), JAM_E_STATE);
   assert_non_null(strstr(jam_last_error(), "jam_contacts_from_geometry"));
@@ -249,7 +250,8 @@ static void all_long_calls_stop(void **state) {
   assert_int_equal(phase, JAM_PHASE_ANALYSE);
   assert_true(x[0] == 7.0 && f[0] == 7.0 && residual == 7.0 && moduli.bulk == 7.0 && g.contacts == 7);
   assert_int_equal(jam_set_progress(s, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_stress_states(s, f, 256, NULL, 0, &residual, &m), JAM_AMBIGUOUS); /* the network is still there */
+  assert_int_equal(jam_stress_states(s, f, 256, NULL, 0, &residual, &m),
+                   JAM_AMBIGUOUS); /* the network is still there */
   jam_destroy(s);
   /* floppy modes need one state of self-stress */
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
@@ -284,8 +286,9 @@ static void cancelled(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(null_handles), cmocka_unit_test(no_network), cmocka_unit_test(all_rattlers),
-                                     cmocka_unit_test(hyperstatic),  cmocka_unit_test(arguments),  cmocka_unit_test(cancelled),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(null_handles),       cmocka_unit_test(no_network),
+                                     cmocka_unit_test(all_rattlers),       cmocka_unit_test(hyperstatic),
+                                     cmocka_unit_test(arguments),          cmocka_unit_test(cancelled),
                                      cmocka_unit_test(all_long_calls_stop)};
   return cmocka_run_group_tests_name("analysis_errors", tests, NULL, NULL);
 }

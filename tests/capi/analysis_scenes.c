@@ -1,5 +1,6 @@
-/* Scenes in which a contact network is not what one hopes for, by the public calls alone: each has its status and says why in
- * the report; what follows still works or is refused by name. Fluids, crystals and unclear gaps: analysis_errors, network_1ss. */
+/* Scenes in which a contact network is not what one hopes for, by the public calls alone: each has its status and says
+ * why in the report; what follows still works or is refused by name. Fluids, crystals and unclear gaps:
+ * analysis_errors, network_1ss. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,7 +64,8 @@ static void two_clusters(void **state) {
   size_t m;
   int i, zero = 0;
   (void)state;
-  for (i = 0; i < 36; ++i) x[2 * i] = i % 6 + 0.5 * (i / 6 % 3 % 2), x[2 * i + 1] = 0.1 + 3.0 * (i / 18) + i / 6 % 3 * sqrt(0.75);
+  for (i = 0; i < 36; ++i)
+    x[2 * i] = i % 6 + 0.5 * (i / 6 % 3 % 2), x[2 * i + 1] = 0.1 + 3.0 * (i / 18) + i / 6 % 3 * sqrt(0.75);
   s = spheres(2, 36, 6.0, 1.0, x);
   g = look(s, JAM_AMBIGUOUS);
   assert_true(g.clusters == 2 && g.contacts == 84 && g.zero_modes == 4);
@@ -102,7 +104,8 @@ static void four_images_of_a_neighbour(void **state) {
   size_t m;
   int k, c;
   (void)state;
-  assert_true(g.contacts == 4 && g.clusters == 1 && g.zero_modes == 2 && g.self_stresses == 2 && g.excess_contacts == 1);
+  assert_true(g.contacts == 4 && g.clusters == 1 && g.zero_modes == 2 && g.self_stresses == 2 &&
+              g.excess_contacts == 1);
   assert_int_equal(jam_contacts(s, pair, 8, &m), JAM_OK);
   assert_int_equal(jam_contact_vectors(s, n, 8, &m), JAM_OK);
   assert_int_equal(jam_forces(s, f, 4, &m), JAM_OK);
@@ -114,7 +117,8 @@ static void four_images_of_a_neighbour(void **state) {
     }
   }
   assert_true(fabs(sum[0]) < 1e-12 && fabs(sum[1]) < 1e-12);
-  assert_int_equal(jam_gaps(s, 0.5, 1, h, 8, NULL, 0, &m), JAM_OK); /* of the contacts' images none; own images one box away */
+  assert_int_equal(jam_gaps(s, 0.5, 1, h, 8, NULL, 0, &m),
+                   JAM_OK); /* of the contacts' images none; own images one box away */
   for (k = 0; k < (int)m; ++k) assert_true(fabs(h[k] - (sqrt(2.0) - 1.0)) < 1e-12);
   refuses_floppy_modes(s, "2");
   jam_destroy(s);
@@ -145,7 +149,8 @@ static void three_disks(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(one_spanning_chain), cmocka_unit_test(two_clusters), cmocka_unit_test(own_image),
-                                     cmocka_unit_test(four_images_of_a_neighbour), cmocka_unit_test(three_disks)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_spanning_chain), cmocka_unit_test(two_clusters),
+                                     cmocka_unit_test(own_image), cmocka_unit_test(four_images_of_a_neighbour),
+                                     cmocka_unit_test(three_disks)};
   return cmocka_run_group_tests_name("analysis_scenes", tests, NULL, NULL);
 }

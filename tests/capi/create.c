@@ -18,7 +18,8 @@ static jam_create_options options(void) {
 }
 
 /* Status as told, handle untouched, text holding `part`. */
-static void refused(const jam_create_options *o, const double *x, size_t nx, const double *s, size_t ns, jam_status status, const char *part) {
+static void refused(const jam_create_options *o, const double *x, size_t nx, const double *s, size_t ns,
+                    jam_status status, const char *part) {
   jam_system *out = (jam_system *)0x1;
   assert_int_equal(jam_create(o, x, nx, s, ns, &out), status);
   assert_ptr_equal(out, (jam_system *)0x1);
@@ -237,10 +238,16 @@ static void starts_are_valid(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bad_options),        cmocka_unit_test(older_caller),       cmocka_unit_test(too_dense_ends),
-      cmocka_unit_test(bad_arrays),         cmocka_unit_test(overlap_is_named_or_shrunk), cmocka_unit_test(wider_than_the_box), cmocka_unit_test(outside_is_wrapped),
-      cmocka_unit_test(same_seed_same_bits), cmocka_unit_test(setters_and_copies), cmocka_unit_test(null_handles),
-      cmocka_unit_test(starts_are_valid)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(bad_options),
+                                     cmocka_unit_test(older_caller),
+                                     cmocka_unit_test(too_dense_ends),
+                                     cmocka_unit_test(bad_arrays),
+                                     cmocka_unit_test(overlap_is_named_or_shrunk),
+                                     cmocka_unit_test(wider_than_the_box),
+                                     cmocka_unit_test(outside_is_wrapped),
+                                     cmocka_unit_test(same_seed_same_bits),
+                                     cmocka_unit_test(setters_and_copies),
+                                     cmocka_unit_test(null_handles),
+                                     cmocka_unit_test(starts_are_valid)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,7 +44,8 @@ typedef struct measured {
   double estimate, taken;
 } measured;
 
-/* The whole life of a packing in a fresh process: how much its peak grows while it crunches. The longest lists come early. */
+/* The whole life of a packing in a fresh process: how much its peak grows while it crunches. The longest lists come
+ * early. */
 static measured life(int64_t n, double phi, double pressure, int steps) {
   jam_system *small = start(200, 0.3), *sys;
   jam_crunch_options o;
@@ -127,7 +128,8 @@ static void near_pairs_cost(void **state) {
   path = estimated(sys, &o);
   o.method = JAM_CRUNCH_CHAIN;
   chain = estimated(sys, &o);
-  assert_true((double)path.pairs > 0.95 * (double)chain.pairs); /* the chain's list may be for diameters grown a little more */
+  assert_true((double)path.pairs >
+              0.95 * (double)chain.pairs); /* the chain's list may be for diameters grown a little more */
   assert_true(path.flops < 0.8 * chain.flops && path.step_seconds < chain.step_seconds);
   jam_destroy(sys);
 }
@@ -167,7 +169,8 @@ static void errors(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_within_two), cmocka_unit_test(orders), cmocka_unit_test(near_pairs_cost),
-                                     cmocka_unit_test(is_logged), cmocka_unit_test(errors)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_within_two), cmocka_unit_test(orders),
+                                     cmocka_unit_test(near_pairs_cost), cmocka_unit_test(is_logged),
+                                     cmocka_unit_test(errors)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* jam_crunch_history and jam_crunch_step_*: every column against what the state and the report tell, and the physics of a step:
- * displacements add up to the whole move, the linear network of every LP is in balance. */
+/* jam_crunch_history and jam_crunch_step_*: every column against what the state and the report tell, and the physics of
+ * a step: displacements add up to the whole move, the linear network of every LP is in balance. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -40,7 +40,8 @@ typedef struct watch {
   int dim, steps, lps;
   double phi, sigma0[N], sum[3 * N];
   double phi0, worst_gamma;
-  double balance[MAX_STEPS], balance_free[MAX_STEPS]; /* of each LP: over all spheres, over those below the largest displacement */
+  double balance[MAX_STEPS],
+      balance_free[MAX_STEPS]; /* of each LP: over all spheres, over those below the largest displacement */
 } watch;
 
 static void look_at_network(watch *w, const double *displacement) {
@@ -104,7 +105,8 @@ static void steps_add_up(int dim, int32_t method) {
   jam_info info;
   watch w;
   const double *x, *s;
-  double x0[3 * N], mean[3] = {0, 0, 0}, most = 0.0, msd = 0.0, balance = 0.0, v[MAX_STEPS], phase[MAX_STEPS], growth = 1.0, sum = 0.0, phi = 0.0;
+  double x0[3 * N], mean[3] = {0, 0, 0}, most = 0.0, msd = 0.0, balance = 0.0, v[MAX_STEPS], phase[MAX_STEPS],
+                    growth = 1.0, sum = 0.0, phi = 0.0;
   size_t len, rows, k, lp = 0, lps = 0, paths = 0;
   int c;
   memset(&w, 0, sizeof w), memset(&r, 0, sizeof r);
@@ -150,7 +152,8 @@ static void steps_add_up(int dim, int32_t method) {
   assert_true(fabs(phi - r.packing_fraction) < 1e-14);
   /* LPs stride through the dilute start, then the path if that is the method, LPs again and polish. */
   for (k = 0; k < rows; ++k) paths += phase[k] == JAM_STEP_PATH;
-  assert_true(phase[0] == JAM_STEP_LP && (paths > 0) == (method == JAM_CRUNCH_RELINEARISE) && phase[rows - 1] == JAM_STEP_POLISH);
+  assert_true(phase[0] == JAM_STEP_LP && (paths > 0) == (method == JAM_CRUNCH_RELINEARISE) &&
+              phase[rows - 1] == JAM_STEP_POLISH);
   assert_int_equal(r.method, method); /* the quench that was used */
   assert_int_equal(lps, r.lp_solves);
   assert_int_equal(lps, w.lps);
@@ -174,8 +177,8 @@ static void steps_add_up(int dim, int32_t method) {
   column(sys, JAM_HISTORY_HELD, v);
   for (k = 0, lps = 0; k < rows; ++k)
     if (phase[k] == JAM_STEP_LP) balance = fmax(balance, v[k] > 0.0 ? w.balance_free[lps] : w.balance[lps]), ++lps;
-  print_message("d %d method %d: %d steps, %d LPs, worst balance %.1e, worst |sum lambda sigma^2 - 1| %.1e\n", dim, method, w.steps, w.lps, balance,
-                w.worst_gamma);
+  print_message("d %d method %d: %d steps, %d LPs, worst balance %.1e, worst |sum lambda sigma^2 - 1| %.1e\n", dim,
+                method, w.steps, w.lps, balance, w.worst_gamma);
   assert_true(w.lps > 0 && balance > 0.0 && balance < 1e-3 && w.worst_gamma < 1e-6);
   jam_destroy(sys);
 }
@@ -196,7 +199,8 @@ static int32_t asks_in_vain(const jam_progress *p, void *user) {
   return 0;
 }
 
-/* Errors by name; the details are for the callback of a crunch with steps = 1 alone; what moves the spheres drops the history. */
+/* Errors by name; the details are for the callback of a crunch with steps = 1 alone; what moves the spheres drops the
+ * history. */
 static void errors(void **state) {
   jam_system *sys = start(2, 1), *copy;
   jam_crunch_options o;

@@ -1,5 +1,5 @@
-// Out of memory at any allocation of a crunch: JAM_E_MEMORY with a valid state, either that before the call or the last good one on
-// the way, from which the next crunch goes on; no leak.
+// Out of memory at any allocation of a crunch: JAM_E_MEMORY with a valid state, either that before the call or the last
+// good one on the way, from which the next crunch goes on; no leak.
 extern "C" {
 #include <jam/jam.h>
 #include <setjmp.h>
@@ -17,7 +17,8 @@ extern "C" {
 #include <vector>
 
 namespace {
-std::atomic<long> until_failure{-1};  // allocations that still succeed; -1: all. Then each fails, or with `once` a single one
+std::atomic<long> until_failure{
+    -1};  // allocations that still succeed; -1: all. Then each fails, or with `once` a single one
 std::atomic<long> alive{0};
 bool once = false;
 
@@ -120,7 +121,8 @@ void fail_each(const jam_crunch_options &o, long dense) {
     jam_destroy(sys);
     assert_int_equal(alive, clean);
   }
-  print_message("state as before %ld times, last good state %ld times, not needed %ld times\n", as_before, advanced, survived);
+  print_message("state as before %ld times, last good state %ld times, not needed %ld times\n", as_before, advanced,
+                survived);
   assert_true(as_before > 5 && advanced > 5);
 }
 

@@ -1,5 +1,5 @@
-/* Cancel and wall time inside every phase of a crunch: path, LP by either solver, polish. The log callback tells the phase.
- * Each time the status says so, the state is valid, and the next call goes on from it. */
+/* Cancel and wall time inside every phase of a crunch: path, LP by either solver, polish. The log callback tells the
+ * phase. Each time the status says so, the state is valid, and the next call goes on from it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,9 +23,9 @@ static jam_system *start(int n) {
 
 typedef struct ambush {
   jam_system *sys;
-  const char *word; /* beginning of the log line that says what runs */
-  int wait;         /* lines of it to let pass */
-  double sleep;     /* seconds to sleep there; 0: cancel */
+  const char *word;  /* beginning of the log line that says what runs */
+  int wait;          /* lines of it to let pass */
+  double sleep;      /* seconds to sleep there; 0: cancel */
   int sprung, after; /* lines of it behind the trap: none but one that was on its way */
 } ambush;
 
@@ -50,12 +50,14 @@ static jam_report crunch(jam_system *sys, const jam_crunch_options *o, jam_statu
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
   status = jam_crunch(sys, o, &r);
-  if (status != expected) fail_msg("status %d (%s, %s)", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
+  if (status != expected)
+    fail_msg("status %d (%s, %s)", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
   return r;
 }
 
 /* A trap in one phase, then the same call again without it. phi_min: nothing is lost. */
-static void trap(const char *word, int wait, double sleep, const jam_crunch_options *o, jam_status expected, jam_stop_reason reason) {
+static void trap(const char *word, int wait, double sleep, const jam_crunch_options *o, jam_status expected,
+                 jam_stop_reason reason) {
   jam_system *sys = start(100);
   ambush a;
   jam_report r, done;
@@ -135,7 +137,8 @@ static void polish_is_stopped(void **state) {
   o.polish = 0;
   b = crunch(plain, &o, JAM_OK);
   jam_positions_view(plain, &y, &len);
-  for (way = 0; way < 3; ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
+  for (way = 0; way < 3;
+       ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
     jam_system *sys = start(100);
     jam_report a;
     ambush trap_set;
@@ -144,12 +147,15 @@ static void polish_is_stopped(void **state) {
     trap_set.sys = sys, trap_set.word = "polish";
     jam_crunch_options_init(&o, sizeof o);
     if (way == 2) o.wall_time = 1.5, trap_set.sleep = 1.6;
-    if (way) jam_set_log(sys, spring, JAM_LOG_DEBUG, &trap_set);
-    else jam_set_progress(sys, count_calls, &calls);
+    if (way)
+      jam_set_log(sys, spring, JAM_LOG_DEBUG, &trap_set);
+    else
+      jam_set_progress(sys, count_calls, &calls);
     a = crunch(sys, &o, way == 2 ? JAM_LIMIT : JAM_CANCELLED);
     assert_true(way ? trap_set.sprung : calls == 1);
     assert_true(a.stop_reason == (way == 2 ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED) && !a.jammed);
-    assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction && a.force_residual == b.force_residual);
+    assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction &&
+                a.force_residual == b.force_residual);
     jam_positions_view(sys, &x, &len);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(sys);

@@ -1,6 +1,6 @@
 /* Files that are no packings: a clear error with the line, no handle, no memory for data that is not there. */
-#include "io_helpers.h"
 #include <sys/resource.h>
+#include "io_helpers.h"
 
 static void plain_files(void **state) {
   (void)state;
@@ -25,7 +25,8 @@ static void plain_files(void **state) {
   expect_refused("3\n2\n0.1 box 0\n", JAM_E_ARGUMENT, "line 3: the box side is 0");
   expect_refused("3\n2\n0.1 side 2\n", JAM_E_FORMAT, "line 3");
   expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n", JAM_E_FORMAT, "after 1 of 2 spheres");
-  expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n0.5 0.6 0.7\n0.1 0.1 0.1\n", JAM_E_FORMAT, "line 6: there is more after the 2 spheres");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n0.5 0.6 0.7\n0.1 0.1 0.1\n", JAM_E_FORMAT,
+                 "line 6: there is more after the 2 spheres");
   expect_refused("3\n2\n0.1\n0.1 0.2 0.3\n0.5 0.6\n", JAM_E_FORMAT, "line 5: 2 columns, 3 are needed");
   expect_refused("3\n2\n0.1\n0.1 0.2 0.3 0.4\n", JAM_E_FORMAT, "line 4: 4 columns");
   expect_refused("3\n2\n0.1\n0.1 0.2 x3\n", JAM_E_FORMAT, "line 4: 'x3' is not a number");
@@ -35,10 +36,12 @@ static void plain_files(void **state) {
   expect_refused("3\n2\n0.1\n0.1 nan 0.3\n", JAM_E_NONFINITE, "line 4: 'nan'");
   expect_refused("3\n2\n0.1\n0.1 -inf 0.3\n", JAM_E_NONFINITE, "line 4: '-inf'");
   expect_refused("3\n2\n0.1\n0.1 1e999 0.3\n", JAM_E_FORMAT, "line 4: '1e999' is outside the range");
-  expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6\n", JAM_E_FORMAT, "line 5: 2 columns, 3 are needed (coordinates and diameter)");
+  expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6\n", JAM_E_FORMAT,
+                 "line 5: 2 columns, 3 are needed (coordinates and diameter)");
   expect_refused("2\n2\ndiameters\n0.1 0.2 0.1\n0.5 0.6 0\n", JAM_E_ARGUMENT, "line 5: the diameter is 0");
   expect_refused("2\n2\n0.3\n0.1 0.2\n0.2 0.2\n", JAM_E_OVERLAP, "spheres 0 and 1");
-  expect_refused("2\n1\n1e9\n0.1 0.2\n", JAM_E_OVERLAP, "largest diameter 1e+09"); /* and at once, not after listing its images */
+  expect_refused("2\n1\n1e9\n0.1 0.2\n", JAM_E_OVERLAP,
+                 "largest diameter 1e+09"); /* and at once, not after listing its images */
   expect_refused("2\n3\n0.9\n0.1 0.2\n0.4 0.4\n0.7 0.9\n", JAM_E_OVERLAP, "packing fraction 1.9");
   expect_refused("2\n1\n4.9e-324\n0.1 0.2\n", JAM_E_ARGUMENT, "line 3: the diameter is");
   expect_refused("2\n2\n0.1\n0.1 0.2\n0.5 0.6", JAM_E_FORMAT, "line 5: the file ends inside a line");
@@ -57,10 +60,14 @@ static void xyz_files(void **state) {
   expect_refused("1\n" LATTICE "Properties=pos:R:0:radius:R:1\n", JAM_E_FORMAT, "0 columns");
   expect_refused("1\n" LATTICE "Properties=pos:R:9:radius:R:1\n", JAM_E_DIMENSION, "the dimension is 9");
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 dim=4\n0 0 0 0.1\n", JAM_E_FORMAT, "dim is 4");
-  expect_refused("1\nLattice=\"1 0 0\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "Lattice has 3 numbers");
-  expect_refused("1\nLattice=\"1 0 0 0 2 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED, "not a cube");
-  expect_refused("1\nLattice=\"1 0 0 0.5 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED, "not a cube");
-  expect_refused("1\nLattice=\"1 0 0 0 1 0 0 0 1 Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "not closed");
+  expect_refused("1\nLattice=\"1 0 0\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT,
+                 "Lattice has 3 numbers");
+  expect_refused("1\nLattice=\"1 0 0 0 2 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
+                 "not a cube");
+  expect_refused("1\nLattice=\"1 0 0 0.5 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
+                 "not a cube");
+  expect_refused("1\nLattice=\"1 0 0 0 1 0 0 0 1 Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT,
+                 "not closed");
   expect_refused("2\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "after 1 of 2");
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 0.1 7\n", JAM_E_FORMAT, "line 3: 5 columns");
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 -0.1\n", JAM_E_ARGUMENT, "the radius is -0.1");
@@ -76,7 +83,8 @@ static void every_truncation(const char *name, double ratio) {
   text = get_bytes(in_scratch(name), &size);
   for (cut = 0; cut < size; ++cut) {
     put_bytes(in_scratch("cut.dat"), text, cut);
-    if (jam_read(in_scratch("cut.dat"), NULL, &back) >= 0) fail_msg("%s cut to %zu of %zu bytes was read", name, cut, size);
+    if (jam_read(in_scratch("cut.dat"), NULL, &back) >= 0)
+      fail_msg("%s cut to %zu of %zu bytes was read", name, cut, size);
     assert_null(back);
     assert_true(strlen(jam_last_error()) > 0);
   }
@@ -182,7 +190,7 @@ static void shared_file(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(no_allocation_ahead), cmocka_unit_test(plain_files),    cmocka_unit_test(xyz_files),
+      cmocka_unit_test(no_allocation_ahead), cmocka_unit_test(plain_files),      cmocka_unit_test(xyz_files),
       cmocka_unit_test(truncated),           cmocka_unit_test(missing_and_null), cmocka_unit_test(overlap_policy),
       cmocka_unit_test(shared_file),
   };

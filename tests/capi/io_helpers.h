@@ -4,13 +4,13 @@
 #ifndef _XOPEN_SOURCE
 #define _XOPEN_SOURCE 700
 #endif
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
 #include <cmocka.h>
 #include <dirent.h>
 #include <errno.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,7 +80,8 @@ static inline void expect_refused(const char *text, jam_status status, const cha
   put_bytes(path, text, strlen(text));
   got = jam_read(path, NULL, &sys);
   if (got != status || !strstr(jam_last_error(), part))
-    fail_msg("status %d, expected %d; text '%s', expected '%s' in it; input:\n%s", got, status, jam_last_error(), part, text);
+    fail_msg("status %d, expected %d; text '%s', expected '%s' in it; input:\n%s", got, status, jam_last_error(), part,
+             text);
   assert_null(sys);
 }
 

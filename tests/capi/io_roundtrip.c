@@ -1,6 +1,6 @@
 /* Write and read back gives the same bits, in every dimension, format, box and locale. */
-#include "io_helpers.h"
 #include <locale.h>
+#include "io_helpers.h"
 
 static void round_trip(int32_t dim, double ratio, double box, const char *name, int32_t format) {
   jam_system *sys = some_packing(dim, 60, ratio, box), *back = NULL;
@@ -41,7 +41,8 @@ static const char *set_comma_locale(void) {
   for (k = 0; k < 3; ++k)
     if (setlocale(LC_ALL, names[k])) return names[k];
   if (access("/usr/share/i18n/locales/de_DE", R_OK)) return NULL;
-  snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 >%s/localedef.log 2>&1", scratch, scratch);
+  snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 >%s/localedef.log 2>&1", scratch,
+           scratch);
   if (system(command) != 0 || setenv("LOCPATH", scratch, 1) != 0) return NULL;
   return setlocale(LC_ALL, "de_DE.UTF-8");
 }
@@ -123,8 +124,11 @@ static void tolerant_reader(void **state) {
   assert_true(coordinate(sys, 0) == 0.75);
   assert_true(coordinate(sys, 1) == 0.5);
   jam_destroy(sys);
-  sys = read_text("2\nanimation=no pbc=\"T T T\" Properties=species:S:1:radius:R:1:pos:R:3:move:I:2 step Lattice=\"4 0 0 0 4 0 0 0 4\"\n"
-                  "A 0.5 1 1 1 0 0\nB 0.25 3 3 3 0 0\n", NULL);
+  sys = read_text(
+      "2\nanimation=no pbc=\"T T T\" Properties=species:S:1:radius:R:1:pos:R:3:move:I:2 step Lattice=\"4 0 0 0 4 0 0 0 "
+      "4\"\n"
+      "A 0.5 1 1 1 0 0\nB 0.25 3 3 3 0 0\n",
+      NULL);
   jam_info_get(sys, &info);
   assert_int_equal(info.dim, 3);
   assert_true(info.box == 4.0);
@@ -145,7 +149,9 @@ static void tolerant_reader(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(same_bits),       cmocka_unit_test(comma_locale), cmocka_unit_test(layout_of_plain),
+      cmocka_unit_test(same_bits),
+      cmocka_unit_test(comma_locale),
+      cmocka_unit_test(layout_of_plain),
       cmocka_unit_test(tolerant_reader),
   };
   return cmocka_run_group_tests(tests, make_scratch, remove_scratch);

@@ -1,8 +1,8 @@
 /* Writing: whole or not at all, nothing left behind, nobody's file harmed. */
-#include "io_helpers.h"
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include "io_helpers.h"
 
 static const char old_text[] = "what was here before\n";
 

@@ -336,10 +336,11 @@ static void box_only_scales(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(refuses_bad_arguments), cmocka_unit_test(one_sphere_and_rest),        cmocka_unit_test(exact_packing_fraction),
-      cmocka_unit_test(exact_collisions),      cmocka_unit_test(starts_at_contact),          cmocka_unit_test(jammed_start),
-      cmocka_unit_test(fast_growth_ends),      cmocka_unit_test(wall_limit_ends),            cmocka_unit_test(cancels_with_a_valid_state),
-      cmocka_unit_test(box_only_scales),
+      cmocka_unit_test(refuses_bad_arguments),      cmocka_unit_test(one_sphere_and_rest),
+      cmocka_unit_test(exact_packing_fraction),     cmocka_unit_test(exact_collisions),
+      cmocka_unit_test(starts_at_contact),          cmocka_unit_test(jammed_start),
+      cmocka_unit_test(fast_growth_ends),           cmocka_unit_test(wall_limit_ends),
+      cmocka_unit_test(cancels_with_a_valid_state), cmocka_unit_test(box_only_scales),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,8 +67,10 @@ static void series_pairs_and_ways(void **state) {
   second = run(sys, 400); /* observations go on over calls */
   assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 80);
-  assert_int_equal(jam_observed_series(sys, time, 79, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_BUFFER);
-  assert_int_equal(jam_observed_series(sys, time, 100, count, 100, NULL, 0, pressure, 100, error, 100, msd, 100, &needed), JAM_OK);
+  assert_int_equal(jam_observed_series(sys, time, 79, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed),
+                   JAM_E_BUFFER);
+  assert_int_equal(
+      jam_observed_series(sys, time, 100, count, 100, NULL, 0, pressure, 100, error, 100, msd, 100, &needed), JAM_OK);
   for (k = 0; k < needed; ++k) {
     assert_true(fabs(count[k] - 10.0 * (double)(k + 1)) < 1e-9);
     assert_true(time[k] > (k ? time[k - 1] : 0.0) && error[k] > 0.0);
@@ -90,8 +92,11 @@ static void series_pairs_and_ways(void **state) {
   for (k = 0; k < N; ++k) sum += collisions[k];
   assert_int_equal(sum, 800 * N);
   assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, &total_time, &needed), JAM_OK);
-  pair = malloc(2 * needed * sizeof *pair), momentum = malloc(needed * sizeof *momentum), pair_collisions = malloc(needed * sizeof *pair_collisions);
-  assert_int_equal(jam_observed_pairs(sys, pair, 2 * needed, pair_collisions, needed, momentum, needed, &total_time, &needed), JAM_OK);
+  pair = malloc(2 * needed * sizeof *pair), momentum = malloc(needed * sizeof *momentum),
+  pair_collisions = malloc(needed * sizeof *pair_collisions);
+  assert_int_equal(
+      jam_observed_pairs(sys, pair, 2 * needed, pair_collisions, needed, momentum, needed, &total_time, &needed),
+      JAM_OK);
   jam_diameters_view(sys, &d, &len);
   for (k = 0; k < needed; ++k) {
     assert_true(pair[2 * k] >= 0 && pair[2 * k] < pair[2 * k + 1] && pair[2 * k + 1] < N && momentum[k] > 0.0);
@@ -137,7 +142,8 @@ static void histograms(void **state) {
   assert_int_equal(jam_observed_gaps(sys, edge, 22, density, 21, error, 21, &needed), JAM_OK);
   assert_int_equal(needed, 21);
   assert_true(edge[0] == 0.0 && fabs(edge[1] - 0.01) < 1e-15 && fabs(edge[21] - 0.3) < 1e-12);
-  print_message("g(sigma) by pressure %.3f, in [0, 0.01] %.3f(%.3f), at 0.3 %.3f\n", contact, density[0], error[0], density[20]);
+  print_message("g(sigma) by pressure %.3f, in [0, 0.01] %.3f(%.3f), at 0.3 %.3f\n", contact, density[0], error[0],
+                density[20]);
   /* g falls by about 2 per cent over the first bin. */
   assert_true(fabs(density[0] / contact - 0.98) < 0.02 + 3.0 * error[0] / contact);
   assert_true(density[20] < 0.75 * density[0]);
@@ -233,7 +239,8 @@ static void refuses(void **state) {
   c.n = 8;
   assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
   assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed),
+                   JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(needed, 77);
   assert_int_equal(jam_observe_options_init(&o, 3), JAM_E_STRUCT_SIZE);
@@ -260,7 +267,7 @@ static void refuses(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(series_pairs_and_ways), cmocka_unit_test(histograms), cmocka_unit_test(snapshots),
-                                     cmocka_unit_test(refuses)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(series_pairs_and_ways), cmocka_unit_test(histograms),
+                                     cmocka_unit_test(snapshots), cmocka_unit_test(refuses)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

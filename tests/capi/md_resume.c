@@ -1,4 +1,5 @@
-/* Stages that stop early, by any reason, and go on, in the same process or from a file: the same bits as one that ran through. */
+/* Stages that stop early, by any reason, and go on, in the same process or from a file: the same bits as one that ran
+ * through. */
 #include <jam/jam.h>
 #include <math.h>
 #include <setjmp.h>
@@ -33,7 +34,8 @@ static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) 
 }
 
 static void same(const jam_system *a, const jam_system *b) {
-  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view, jam_velocities_view};
+  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view,
+                                                                                jam_velocities_view};
   int k;
   for (k = 0; k < 3; ++k) {
     const double *x, *y;
@@ -64,14 +66,17 @@ static int32_t after(const jam_progress *p, void *user) {
   return --*left < 0;
 }
 
-/* Euclidean with lists, with images (few spheres), Mari-Kurchan, mixture with masses; diameter and density rates; slowing down. */
+/* Euclidean with lists, with images (few spheres), Mari-Kurchan, mixture with masses; diameter and density rates;
+ * slowing down. */
 static const struct {
   int32_t model, dim;
   int64_t n;
   double fraction, growth, end, pressure;
   int32_t law;
-} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.05, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER}, {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
-             {JAM_MODEL_MK, 3, 100, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER},   {JAM_MODEL_EUCLID, 2, 120, 0.4, 2e-2, 2e-3, 1e4, JAM_GROWTH_DENSITY}};
+} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.05, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER},
+             {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
+             {JAM_MODEL_MK, 3, 100, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
+             {JAM_MODEL_EUCLID, 2, 120, 0.4, 2e-2, 2e-3, 1e4, JAM_GROWTH_DENSITY}};
 enum { CASES = sizeof cases / sizeof cases[0] };
 
 static jam_compress_options options_of(int k) {
@@ -100,9 +105,12 @@ static void growth_goes_on_to_the_same_bits(void **state) {
       int stops = 0, left = 12;
       c = options_of(k);
       do { /* at first a limit on collisions that grows, not by whole windows, or on time; then none */
-        if (--left > 0 && left % 3) c.collisions_per_particle = 0.7 + 7.3 * stops * stops;
-        else if (left > 0) c.collisions_per_particle = INFINITY, c.time = report.time * 0.08 * (stops + 1);
-        else c.collisions_per_particle = c.time = INFINITY;
+        if (--left > 0 && left % 3)
+          c.collisions_per_particle = 0.7 + 7.3 * stops * stops;
+        else if (left > 0)
+          c.collisions_per_particle = INFINITY, c.time = report.time * 0.08 * (stops + 1);
+        else
+          c.collisions_per_particle = c.time = INFINITY;
         status = jam_compress(sys, &c, &part);
         collisions += part.collisions;
         c.resume = 1;
@@ -112,7 +120,8 @@ static void growth_goes_on_to_the_same_bits(void **state) {
       } while (status == JAM_LIMIT);
       assert_int_equal(status, JAM_OK);
       assert_true(stops > 5);
-      print_message("case %d, file %d: %d stops, %lld collisions of %lld\n", k, with_file, stops, (long long)collisions, (long long)report.collisions);
+      print_message("case %d, file %d: %d stops, %lld collisions of %lld\n", k, with_file, stops, (long long)collisions,
+                    (long long)report.collisions);
       same(whole, sys);
       assert_true(part.pressure == report.pressure && part.packing_fraction == report.packing_fraction);
       assert_int_equal(collisions, report.collisions);
@@ -135,8 +144,10 @@ static void cancelled_runs_go_on_to_the_same_bits(void **state) {
   assert_int_equal(jam_run(whole, &r, NULL), JAM_OK);
   do { /* the callback comes every 0.05 s: wherever the run is then */
     left = 0;
-    if (stops < 4) jam_set_progress(sys, after, &left);
-    else jam_set_progress(sys, NULL, NULL);
+    if (stops < 4)
+      jam_set_progress(sys, after, &left);
+    else
+      jam_set_progress(sys, NULL, NULL);
     status = jam_run(sys, &r, NULL);
     r.resume = 1;
     if (status == JAM_CANCELLED && stops == 2) { /* a copy has the stage too */
@@ -231,7 +242,8 @@ static void what_cannot_go_on(void **state) {
   jam_destroy(sys);
 }
 
-/* Any byte of the stage may be damaged and the checksum made right again: an error or a run, never a crash or an endless loop. */
+/* Any byte of the stage may be damaged and the checksum made right again: an error or a run, never a crash or an
+ * endless loop. */
 static uint64_t mix64(uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -287,8 +299,9 @@ static void damaged_stage(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_goes_on_to_the_same_bits), cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
-                                     cmocka_unit_test(checkpoint_from_the_callback), cmocka_unit_test(what_cannot_go_on),
-                                     cmocka_unit_test(damaged_stage)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_goes_on_to_the_same_bits),
+                                     cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
+                                     cmocka_unit_test(checkpoint_from_the_callback),
+                                     cmocka_unit_test(what_cannot_go_on), cmocka_unit_test(damaged_stage)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

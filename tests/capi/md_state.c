@@ -24,7 +24,8 @@ static jam_system *make(int32_t model) {
 }
 
 static void same(const jam_system *a, const jam_system *b) {
-  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view, jam_velocities_view};
+  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view,
+                                                                                jam_velocities_view};
   int k;
   for (k = 0; k < 3; ++k) {
     const double *x, *y;
@@ -150,7 +151,8 @@ static void glass_fit(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(resumes_to_the_same_bits), cmocka_unit_test(refuses_what_is_no_checkpoint),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(resumes_to_the_same_bits),
+                                     cmocka_unit_test(refuses_what_is_no_checkpoint),
                                      cmocka_unit_test(equations_of_state), cmocka_unit_test(glass_fit)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Runs a fuzz target over files and folders of files, without libFuzzer. Each file is also cut at every byte of its first 300
- * and has each of them changed, so that the small corpus goes a long way. */
+/* Runs a fuzz target over files and folders of files, without libFuzzer. Each file is also cut at every byte of its
+ * first 300 and has each of them changed, so that the small corpus goes a long way. */
 #include <dirent.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -63,22 +63,45 @@ class JamPack(unittest.TestCase):
 
     def test_wrong_command_line(self):
         for args, text in [
-            (["--colour", "red"], "unknown option '--colour'"), (["--n"], "'--n' is unknown or lacks its value"),
-            (["packing.dat"], "unexpected argument 'packing.dat'"), (["--n", "many"], "--n is 'many'"), (["--n", "0"], "--n is '0'"),
-            (["--n", "-4"], "--n is '-4'"), (["--n", "4294967296"], "--n is '4294967296'"), (["--n", "1e3"], "--n is '1e3'"),
-            (["--n="], "--n is ''"), (["--dim", "1"], "integer in 2..8"), (["--dim", "9"], "integer in 2..8"),
-            (["--phi0", "nan"], "--phi0 is 'nan'"), (["--phi0", "-0.2"], "--phi0"), (["--phi0", "0"], "--phi0"),
-            (["--phi0", "0.2x"], "--phi0 is '0.2x'"), (["--growth", "0"], "--growth is '0'"), (["--growth", "-1e-3"], "--growth"),
-            (["--growth", "inf"], "--growth"), (["--growth", "1e-2:"], "pressure of --growth"),
-            (["--growth", "1e-2:0.5"], "larger than 1"), (["--pressure", "1"], "larger than 1"), (["--lp", "highs"], "ipm or clp"),
-            (["--seed", "1.5"], "--seed"), (["--seed", "99999999999999999999"], "--seed"), (["--threads", "0"], "--threads"),
-            (["--nve", "-1"], "--nve"), (["--wall-time", "0"], "--wall-time"), (["--diameters-ratio", "0"], "--diameters-ratio"),
-            (["--no-md", "--growth", "1e-2"], "--no-md contradicts --growth"), (["--no-md", "--nve", "5"], "contradicts --nve"),
+            (["--colour", "red"], "unknown option '--colour'"),
+            (["--n"], "'--n' is unknown or lacks its value"),
+            (["packing.dat"], "unexpected argument 'packing.dat'"),
+            (["--n", "many"], "--n is 'many'"),
+            (["--n", "0"], "--n is '0'"),
+            (["--n", "-4"], "--n is '-4'"),
+            (["--n", "4294967296"], "--n is '4294967296'"),
+            (["--n", "1e3"], "--n is '1e3'"),
+            (["--n="], "--n is ''"),
+            (["--dim", "1"], "integer in 2..8"),
+            (["--dim", "9"], "integer in 2..8"),
+            (["--phi0", "nan"], "--phi0 is 'nan'"),
+            (["--phi0", "-0.2"], "--phi0"),
+            (["--phi0", "0"], "--phi0"),
+            (["--phi0", "0.2x"], "--phi0 is '0.2x'"),
+            (["--growth", "0"], "--growth is '0'"),
+            (["--growth", "-1e-3"], "--growth"),
+            (["--growth", "inf"], "--growth"),
+            (["--growth", "1e-2:"], "pressure of --growth"),
+            (["--growth", "1e-2:0.5"], "larger than 1"),
+            (["--pressure", "1"], "larger than 1"),
+            (["--lp", "highs"], "ipm or clp"),
+            (["--seed", "1.5"], "--seed"),
+            (["--seed", "99999999999999999999"], "--seed"),
+            (["--threads", "0"], "--threads"),
+            (["--nve", "-1"], "--nve"),
+            (["--wall-time", "0"], "--wall-time"),
+            (["--diameters-ratio", "0"], "--diameters-ratio"),
+            (["--no-md", "--growth", "1e-2"], "--no-md contradicts --growth"),
+            (["--no-md", "--nve", "5"], "contradicts --nve"),
             (["--no-crunch", "--contacts", "c.csv"], "--contacts needs the crunch"),
-            (["--output", "a", "--report", "a"], "must be different"), (["--input", "a", "--report", "a"], "overwrite the input"),
-            (["--gaps", "a", "--structure", "a"], "--gaps and --structure must be different"), (["--modes", "-1"], "--modes is '-1'"),
-            (["--input", "a", "--spectrum", "a"], "--spectrum would overwrite"), (["--modes", "5"], "--spectrum writes, which is missing"),
-            (["--no-crunch", "--gaps", "a"], "--gaps needs the crunch"), (["--no-crunch", "--spectrum", "a"], "--spectrum needs"),
+            (["--output", "a", "--report", "a"], "must be different"),
+            (["--input", "a", "--report", "a"], "overwrite the input"),
+            (["--gaps", "a", "--structure", "a"], "--gaps and --structure must be different"),
+            (["--modes", "-1"], "--modes is '-1'"),
+            (["--input", "a", "--spectrum", "a"], "--spectrum would overwrite"),
+            (["--modes", "5"], "--spectrum writes, which is missing"),
+            (["--no-crunch", "--gaps", "a"], "--gaps needs the crunch"),
+            (["--no-crunch", "--spectrum", "a"], "--spectrum needs"),
         ]:
             self.refuse(2, text, *args)
 
@@ -167,8 +190,26 @@ class JamPack(unittest.TestCase):
     def test_tables_of_the_network(self):
         xyz, gaps, spheres, low, full = (self.dir / name for name in ("p.xyz", "g.csv", "s.csv", "low.csv", "all.csv"))
         contacts = self.dir / "c.csv"
-        report = self.report("--n", 100, "--dim", 2, "--diameters-ratio", 1.4, "--output", xyz, "--contacts", contacts, "--gaps", gaps,
-                             "--structure", spheres, "--spectrum", low, "--modes", 7)
+        report = self.report(
+            "--n",
+            100,
+            "--dim",
+            2,
+            "--diameters-ratio",
+            1.4,
+            "--output",
+            xyz,
+            "--contacts",
+            contacts,
+            "--gaps",
+            gaps,
+            "--structure",
+            spheres,
+            "--spectrum",
+            low,
+            "--modes",
+            7,
+        )
         rows, rattlers, network = positions(xyz), report["rattlers"], self.table(contacts)
         sums = [[0.0, 0.0] for _ in rows]
         for line in network:
@@ -212,7 +253,20 @@ class JamPack(unittest.TestCase):
             self.assertTrue(all(0.3 < float(x) < 1.0 for x in filled))
 
     def test_two_dimensions_two_sizes(self):
-        report, _ = self.job("--n", 128, "--dim", 2, "--diameters-ratio", 1.4, "--growth", "1e-2:500", "--growth", "3e-3", "--pressure", "1e6")
+        report, _ = self.job(
+            "--n",
+            128,
+            "--dim",
+            2,
+            "--diameters-ratio",
+            1.4,
+            "--growth",
+            "1e-2:500",
+            "--growth",
+            "3e-3",
+            "--pressure",
+            "1e6",
+        )
         self.assertTrue(0.81 < report["packing_fraction"] < 0.86, report["packing_fraction"])
 
     def test_simplex_gives_the_same_packing(self):
@@ -236,10 +290,14 @@ class JamPack(unittest.TestCase):
         self.assertTrue(report["jammed"])
         self.assertEqual(report["contacts"], report["one_ss"])
         self.assertTrue(1.8 < report["packing_fraction"] < 3.5, report["packing_fraction"])
-        one = self.report("--n", 100, "--model", "mk", "--zeta", 0, "--no-md", "--no-crunch", "--output", self.dir / "a.dat")
+        one = self.report(
+            "--n", 100, "--model", "mk", "--zeta", 0, "--no-md", "--no-crunch", "--output", self.dir / "a.dat"
+        )
         two = self.report("--n", 100, "--no-md", "--no-crunch", "--output", self.dir / "b.dat")
         self.assertEqual(one["packing_fraction"], two["packing_fraction"])
-        self.assertEqual((self.dir / "a.dat").read_bytes(), (self.dir / "b.dat").read_bytes())  # no shift: the same start
+        self.assertEqual(
+            (self.dir / "a.dat").read_bytes(), (self.dir / "b.dat").read_bytes()
+        )  # no shift: the same start
         self.refused(2, "--model", "potts")
         self.refused(2, "--plant", "x")
 
@@ -269,12 +327,24 @@ class JamPack(unittest.TestCase):
         job = ["--n", 1000, "--growth", "1e-2:500", "--growth", "3e-3:1e5", "--no-crunch"]
         self.report(*job, "--output", self.dir / "whole.dat")
         kept = self.dir / "state.bin"
-        first = self.report(*job, "--checkpoint", kept, "--wall-time", 0.25, "--output", self.dir / "part.dat", status=1)
+        first = self.report(
+            *job, "--checkpoint", kept, "--wall-time", 0.25, "--output", self.dir / "part.dat", status=1
+        )
         self.assertEqual(first["stop_reason"], "wall_time")
         rounds = 0
         while True:
-            report = self.report(*job, "--resume", kept, "--checkpoint", kept, "--wall-time", 0.6, "--output", self.dir / "part.dat",
-                                 status=None)
+            report = self.report(
+                *job,
+                "--resume",
+                kept,
+                "--checkpoint",
+                kept,
+                "--wall-time",
+                0.6,
+                "--output",
+                self.dir / "part.dat",
+                status=None,
+            )
             rounds += 1
             if report["stop_reason"] == "pressure" and report["pressure"] > 9e4 or rounds > 100:
                 break
@@ -290,7 +360,9 @@ class JamPack(unittest.TestCase):
 
     def test_wall_time(self):
         began = time.monotonic()
-        report = self.report("--n", 4000, "--growth", "1e-5", "--wall-time", 1, "--output", self.dir / "p.dat", status=1)
+        report = self.report(
+            "--n", 4000, "--growth", "1e-5", "--wall-time", 1, "--output", self.dir / "p.dat", status=1
+        )
         self.assertLess(time.monotonic() - began, 20)
         self.assertEqual(report["stop_reason"], "wall_time")
         self.report("--input", self.dir / "p.dat", "--no-crunch")
@@ -301,8 +373,12 @@ class JamPack(unittest.TestCase):
 
     def test_ctrl_c_keeps_the_state(self):
         out = self.dir / "p.xyz"
-        with subprocess.Popen([program, "--n", "4000", "--growth", "1e-5", "--output", str(out), "--report", "-"], text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        with subprocess.Popen(
+            [program, "--n", "4000", "--growth", "1e-5", "--output", str(out), "--report", "-"],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        ) as process:
             time.sleep(1.5)
             process.send_signal(signal.SIGINT)
             stdout, stderr = process.communicate(timeout=30)

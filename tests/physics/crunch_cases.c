@@ -19,12 +19,13 @@ static jam_report crunch(jam_system *sys, const jam_crunch_options *o, jam_statu
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
   status = jam_crunch(sys, o, &r);
-  if (status != expected) fail_msg("status %d (%s, %s)", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
+  if (status != expected)
+    fail_msg("status %d (%s, %s)", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
   return r;
 }
 
-/* From positions, diameters, contacts and forces alone: no overlap over all images, forces balanced and positive, contacts
- * closed, rattlers without contacts, counts as reported. */
+/* From positions, diameters, contacts and forces alone: no overlap over all images, forces balanced and positive,
+ * contacts closed, rattlers without contacts, counts as reported. */
 static void certify(const jam_system *sys, const jam_report *r, double tolerance) {
   const double *x, *s;
   size_t len, m = 0, k, i, j;
@@ -117,8 +118,11 @@ static void shared_file(void **state) {
 }
 
 static void random_starts(void **state) {
-  const struct { int n, dim; double phi, ratio; } cases[] = {
-      {64, 3, 0.05, 1.0}, {128, 3, 0.2, 1.0}, {128, 2, 0.4, 1.4}, {64, 4, 0.1, 1.0}, {64, 3, 0.2, 4.0}, {48, 5, 0.05, 1.0}, {100, 3, 0.1, 10.0}};
+  const struct {
+    int n, dim;
+    double phi, ratio;
+  } cases[] = {{64, 3, 0.05, 1.0}, {128, 3, 0.2, 1.0}, {128, 2, 0.4, 1.4}, {64, 4, 0.1, 1.0},
+               {64, 3, 0.2, 4.0},  {48, 5, 0.05, 1.0}, {100, 3, 0.1, 10.0}};
   size_t k;
   (void)state;
   for (k = 0; k < sizeof cases / sizeof *cases; ++k) {
@@ -129,8 +133,9 @@ static void random_starts(void **state) {
     for (i = 0; i < cases[k].n; ++i) diameters[i] = i % 2 ? 1.0 : cases[k].ratio;
     sys = random_start(cases[k].n, cases[k].dim, cases[k].phi, diameters, cases[k].n, 3);
     r = crunch(sys, NULL, JAM_OK);
-    print_message("n %d d %d ratio %g: phi %.6f contacts %d rattlers %d excess %d LPs %d factorisations %d\n", cases[k].n, cases[k].dim,
-                  cases[k].ratio, r.packing_fraction, (int)r.contacts, (int)r.rattlers, (int)r.excess_contacts, (int)r.lp_solves, (int)r.factorisations);
+    print_message("n %d d %d ratio %g: phi %.6f contacts %d rattlers %d excess %d LPs %d factorisations %d\n",
+                  cases[k].n, cases[k].dim, cases[k].ratio, r.packing_fraction, (int)r.contacts, (int)r.rattlers,
+                  (int)r.excess_contacts, (int)r.lp_solves, (int)r.factorisations);
     assert_true(r.jammed && r.excess_contacts >= 0);
     certify(sys, &r, 1e-10);
     jam_destroy(sys);
@@ -138,7 +143,8 @@ static void random_starts(void **state) {
 }
 
 /* cells^dim copies of a basis in the unit cube, diameters a little below contact. */
-static jam_system *lattice(int dim, int cells, const double *basis, int basis_len, double contact, double shrink, int vacancy) {
+static jam_system *lattice(int dim, int cells, const double *basis, int basis_len, double contact, double shrink,
+                           int vacancy) {
   const int total = basis_len * (dim == 2 ? cells * cells : cells * cells * cells);
   double *x = malloc(sizeof(double) * total * dim), sigma = contact / cells * shrink;
   jam_system *sys;
@@ -168,7 +174,8 @@ static void crystals(void **state) {
   for (vacancy = 0; vacancy < 2; ++vacancy) {
     jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0.98, vacancy);
     jam_report r = crunch(sys, NULL, JAM_OK);
-    print_message("FCC vacancy %d: phi %.12f contacts %d excess %d\n", vacancy, r.packing_fraction, (int)r.contacts, (int)r.excess_contacts);
+    print_message("FCC vacancy %d: phi %.12f contacts %d excess %d\n", vacancy, r.packing_fraction, (int)r.contacts,
+                  (int)r.excess_contacts);
     assert_true(r.jammed && r.excess_contacts > 0);
     if (!vacancy) assert_true(fabs(r.packing_fraction - 0.74048048969306) < 1e-12 && r.contacts == 6 * 108);
     certify(sys, &r, 1e-9);
@@ -192,8 +199,9 @@ static void crystals(void **state) {
   }
 }
 
-/* Forces of a hyperstatic packing are not unique: a vertex of the simplex leaves contacts without any, the analytic centre none.
- * Either way all that touch are contacts, and the forces are those of least norm: equal ones in FCC, where all sum to zero. */
+/* Forces of a hyperstatic packing are not unique: a vertex of the simplex leaves contacts without any, the analytic
+ * centre none. Either way all that touch are contacts, and the forces are those of least norm: equal ones in FCC, where
+ * all sum to zero. */
 static void degenerate_forces(void **state) {
   const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
   int solver;
@@ -211,7 +219,8 @@ static void degenerate_forces(void **state) {
     assert_int_equal(jam_forces(sys, f, 648, NULL), JAM_OK);
     for (k = 0; k < 648; ++k) assert_true(fabs(f[k] - 1.0) < 1e-10); /* the lattice itself holds to about 1e-12 */
     jam_destroy(sys);
-    sys = random_start(64, 3, 0.2, NULL, 0, 1); /* grown slowly enough to order: more contacts than one state of self-stress */
+    sys = random_start(64, 3, 0.2, NULL, 0,
+                       1); /* grown slowly enough to order: more contacts than one state of self-stress */
     assert_true(jam_compress(sys, NULL, NULL) >= 0);
     r = crunch(sys, &o, JAM_OK);
     assert_true(r.jammed && r.excess_contacts >= 0);
@@ -232,8 +241,9 @@ static void few_spheres(void **state) {
       memset(&r, 0, sizeof r);
       r.struct_size = sizeof r;
       status = jam_crunch(sys, NULL, &r);
-      print_message("n %d d %d: status %d %s phi %.9f contacts %d excess %d overlap %.1e\n", n, d, status, jam_stop_string(r.stop_reason), r.packing_fraction,
-                    (int)r.contacts, (int)r.excess_contacts, r.max_overlap);
+      print_message("n %d d %d: status %d %s phi %.9f contacts %d excess %d overlap %.1e\n", n, d, status,
+                    jam_stop_string(r.stop_reason), r.packing_fraction, (int)r.contacts, (int)r.excess_contacts,
+                    r.max_overlap);
       assert_true(status >= 0);
       assert_true(r.max_overlap < 1e-12);
       if (r.jammed) assert_true(r.excess_contacts >= 0 && r.force_residual < 1e-9);
@@ -377,10 +387,15 @@ static void box_does_not_matter(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(shared_file),       cmocka_unit_test(random_starts),           cmocka_unit_test(crystals),
-      cmocka_unit_test(degenerate_forces),
-      cmocka_unit_test(few_spheres),       cmocka_unit_test(cancel_and_resume), cmocka_unit_test(cancel_waits),       cmocka_unit_test(limits_and_options),
-      cmocka_unit_test(threads_and_determinism), cmocka_unit_test(box_does_not_matter)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(shared_file),
+                                     cmocka_unit_test(random_starts),
+                                     cmocka_unit_test(crystals),
+                                     cmocka_unit_test(degenerate_forces),
+                                     cmocka_unit_test(few_spheres),
+                                     cmocka_unit_test(cancel_and_resume),
+                                     cmocka_unit_test(cancel_waits),
+                                     cmocka_unit_test(limits_and_options),
+                                     cmocka_unit_test(threads_and_determinism),
+                                     cmocka_unit_test(box_does_not_matter)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

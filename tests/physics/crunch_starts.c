@@ -1,5 +1,6 @@
-/* jam_crunch from every kind of start and any sizes, each result certified here from positions, sizes, pairs and forces alone:
- * densities and pressures, mixtures, few spheres in small boxes, lattices with a vacancy, disks that order, jammed input. */
+/* jam_crunch from every kind of start and any sizes, each result certified here from positions, sizes, pairs and forces
+ * alone: densities and pressures, mixtures, few spheres in small boxes, lattices with a vacancy, disks that order,
+ * jammed input. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -41,8 +42,8 @@ static double smallest_gap(const jam_system *sys, int reach) {
   return least;
 }
 
-/* Every claim of the report that follows from the packing: no overlap; when jammed, closed contacts, positive balanced forces,
- * at least one state of self-stress, every stable sphere with d + 1 contacts or more. */
+/* Every claim of the report that follows from the packing: no overlap; when jammed, closed contacts, positive balanced
+ * forces, at least one state of self-stress, every stable sphere with d + 1 contacts or more. */
 static void certify(const jam_system *sys, const jam_report *r, int reach) {
   const double *x, *s;
   size_t len, m = 0, k;
@@ -99,17 +100,24 @@ static jam_report crunched(jam_system *sys, const jam_crunch_options *o, const c
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
   status = jam_crunch(sys, o, &r);
-  print_message("%s %g: status %d, phi %.6f, contacts %d, excess %d, rattlers %d, LPs %d, factorisations %d\n", what, value, status, r.packing_fraction, (int)r.contacts,
-                (int)r.excess_contacts, (int)r.rattlers, (int)r.lp_solves, (int)r.factorisations);
-  if (status < 0 || (must_jam && !r.jammed)) fail_msg("status %d (%s) %s", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
+  print_message("%s %g: status %d, phi %.6f, contacts %d, excess %d, rattlers %d, LPs %d, factorisations %d\n", what,
+                value, status, r.packing_fraction, (int)r.contacts, (int)r.excess_contacts, (int)r.rattlers,
+                (int)r.lp_solves, (int)r.factorisations);
+  if (status < 0 || (must_jam && !r.jammed))
+    fail_msg("status %d (%s) %s", status, jam_stop_string(r.stop_reason), status < 0 ? jam_last_error() : "");
   certify(sys, &r, 1);
   return r;
 }
 
 /* From a hundredth of the jammed volume to nearly all of it, d = 2..5; denser than random placement goes by growth. */
 static void densities(void **state) {
-  const struct { int dim, n; double phi[5]; } starts[] = {
-      {2, 60, {0.05, 0.3, 0.5, 0.7, 0.8}}, {3, 60, {0.05, 0.2, 0.35, 0.5, 0.6}}, {4, 50, {0.02, 0.05, 0.15, 0.3, 0.4}}, {5, 50, {0.01, 0.05, 0.1, 0.2, 0.25}}};
+  const struct {
+    int dim, n;
+    double phi[5];
+  } starts[] = {{2, 60, {0.05, 0.3, 0.5, 0.7, 0.8}},
+                {3, 60, {0.05, 0.2, 0.35, 0.5, 0.6}},
+                {4, 50, {0.02, 0.05, 0.15, 0.3, 0.4}},
+                {5, 50, {0.01, 0.05, 0.1, 0.2, 0.25}}};
   double sizes[64];
   int k, q;
   (void)state;
@@ -153,8 +161,9 @@ static void pressures(void **state) {
   }
 }
 
-/* Grown fast the state is closed to 1e-7 where spheres must still move by 1e-3: the gaps say that it is all but jammed, only
- * the bend of the way says that LPs would creep along it, and it goes by the barrier path. Grown slowly the LPs finish alone. */
+/* Grown fast the state is closed to 1e-7 where spheres must still move by 1e-3: the gaps say that it is all but jammed,
+ * only the bend of the way says that LPs would creep along it, and it goes by the barrier path. Grown slowly the LPs
+ * finish alone. */
 static void bends(void **state) {
   const double growth[] = {3e-3, 1e-3};
   int k, seed;
@@ -190,8 +199,10 @@ static void mixtures(void **state) {
         double low = -6.0, high = 6.0, at = (k + 0.5) / 80.0;
         while (high - low > 1e-12) {
           const double mid = 0.5 * (low + high);
-          if (0.5 * (1.0 + erf(mid / sqrt(2.0))) < at) low = mid;
-          else high = mid;
+          if (0.5 * (1.0 + erf(mid / sqrt(2.0))) < at)
+            low = mid;
+          else
+            high = mid;
         }
         sizes[k * 27 % 80] = kinds[kind] < 0.0 ? exp(width * low) : k % 2 ? 1.0 : kinds[kind];
       }
@@ -217,7 +228,8 @@ static void small_boxes(void **state) {
 }
 
 /* cells copies of a basis, spheres a little below contact, one missing if asked. */
-static jam_system *lattice(int dim, const int *cells, const double *basis, int basis_len, double box_over_cell, double sigma, int vacancy) {
+static jam_system *lattice(int dim, const int *cells, const double *basis, int basis_len, double box_over_cell,
+                           double sigma, int vacancy) {
   double x[3 * 300];
   jam_create_options o;
   jam_system *sys = NULL;
@@ -226,7 +238,8 @@ static jam_system *lattice(int dim, const int *cells, const double *basis, int b
   for (k = 0; k < total; ++k) {
     int cell = k / basis_len;
     if (vacancy && k == total / 2) continue;
-    for (c = 0; c < dim; ++c, cell /= cells[c - 1]) x[n * dim + c] = (cell % cells[c] + basis[k % basis_len * dim + c]) * (c == 0 ? 1.0 : box_over_cell) / cells[0];
+    for (c = 0; c < dim; ++c, cell /= cells[c - 1])
+      x[n * dim + c] = (cell % cells[c] + basis[k % basis_len * dim + c]) * (c == 0 ? 1.0 : box_over_cell) / cells[0];
     ++n;
   }
   jam_create_options_init(&o, sizeof o);
@@ -235,7 +248,8 @@ static jam_system *lattice(int dim, const int *cells, const double *basis, int b
   return sys;
 }
 
-/* Degenerate LPs with and without a vacancy: a certified state that is no less dense than the lattice, and its excess. */
+/* Degenerate LPs with and without a vacancy: a certified state that is no less dense than the lattice, and its excess.
+ */
 static void lattices(void **state) {
   const double square[2] = {0, 0}, bcc[6] = {0, 0, 0, .5, .5, .5}, fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
   const int six[3] = {6, 6, 6}, three[3] = {3, 3, 3};
@@ -257,8 +271,8 @@ static void lattices(void **state) {
   }
 }
 
-/* Equal disks order into pieces of the triangular lattice: hyperstatic, and the report says by how much. A nearly triangular
- * lattice squeezed into the square box does so at once. */
+/* Equal disks order into pieces of the triangular lattice: hyperstatic, and the report says by how much. A nearly
+ * triangular lattice squeezed into the square box does so at once. */
 static void ordering_disks(void **state) {
   jam_system *sys = random_start(90, 2, 0.5, NULL, 1);
   jam_compress_options c;
@@ -274,7 +288,8 @@ static void ordering_disks(void **state) {
   r = crunched(sys, NULL, "equal disks", 90, 1);
   assert_true(r.packing_fraction > 0.84);
   jam_destroy(sys);
-  for (vacancy = 0; vacancy < 2; ++vacancy) { /* 9 columns, 10 rows of height 0.1 where sqrt(3)/2 / 9 = 0.0962 would be triangular */
+  for (vacancy = 0; vacancy < 2;
+       ++vacancy) { /* 9 columns, 10 rows of height 0.1 where sqrt(3)/2 / 9 = 0.0962 would be triangular */
     for (k = 0; k < 90; ++k) x[2 * k] = (k % 9 + 0.5 * (k / 9 % 2)) / 9.0, x[2 * k + 1] = (k / 9) / 10.0;
     jam_create_options_init(&o, sizeof o);
     o.dim = 2;
@@ -306,13 +321,16 @@ static void jammed_input(void **state) {
     assert_true(again.gain < 1e-12 && again.max_step < 1e-9 && again.contacts == first.contacts);
     assert_true(fabs(again.packing_fraction - first.packing_fraction) < 1e-13);
     assert_int_equal(jam_forces(sys, g, 400, &m), JAM_OK);
-    for (k = 0; k < m; ++k) assert_true(fabs(f[k] - g[k]) < 1e-6); /* the condition of the contact matrix times rounding */
+    for (k = 0; k < m; ++k)
+      assert_true(fabs(f[k] - g[k]) < 1e-6); /* the condition of the contact matrix times rounding */
     jam_destroy(sys);
   }
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(densities),      cmocka_unit_test(pressures), cmocka_unit_test(bends), cmocka_unit_test(mixtures), cmocka_unit_test(small_boxes),
-                                     cmocka_unit_test(lattices),       cmocka_unit_test(ordering_disks), cmocka_unit_test(jammed_input)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(densities),      cmocka_unit_test(pressures),
+                                     cmocka_unit_test(bends),          cmocka_unit_test(mixtures),
+                                     cmocka_unit_test(small_boxes),    cmocka_unit_test(lattices),
+                                     cmocka_unit_test(ordering_disks), cmocka_unit_test(jammed_input)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,7 +51,8 @@ static void equation_of_state(void **state) {
     run(sys, 100);
     report = run(sys, 1000);
     deviation = report.pressure / carnahan_starling(fractions[k]) - 1.0;
-    print_message("phi %.2f: p %.4f(%.4f), %+.2f %% of Carnahan-Starling\n", fractions[k], report.pressure, report.pressure_error, 100 * deviation);
+    print_message("phi %.2f: p %.4f(%.4f), %+.2f %% of Carnahan-Starling\n", fractions[k], report.pressure,
+                  report.pressure_error, 100 * deviation);
     assert_true(report.pressure_error < 0.005 * report.pressure);
     assert_true(fabs(deviation) < 0.005 + 2.0 * report.pressure_error / report.pressure);
     assert_true(fabs(deviation) < 0.01);
@@ -75,7 +76,8 @@ static void other_dimensions(void **state) {
     sys = fluid(500, d, fraction);
     report = run(sys, 500);
     /* The fourth term is below 0.3 b2^3. */
-    print_message("d %d: p - 1 = %.4f(%.4f), series %.4f\n", d, report.pressure - 1, report.pressure_error, b2 + b3[d] * b2 * b2);
+    print_message("d %d: p - 1 = %.4f(%.4f), series %.4f\n", d, report.pressure - 1, report.pressure_error,
+                  b2 + b3[d] * b2 * b2);
     assert_true(fabs(report.pressure - 1.0 - b2 - b3[d] * b2 * b2) < 0.3 * b2 * b2 * b2 + 4.0 * report.pressure_error);
     jam_destroy(sys);
   }

@@ -24,14 +24,16 @@ static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta,
   return sys;
 }
 
-/* p = 1 + 2^d phi / 2 for zeta infinite. Planted starts are in equilibrium, so it holds at once and also beyond the dynamical
- * transition (1.776 in d = 3). With N spheres each shift is uniform over what a pair leaves free, the box less 2^d phi / N of
- * it, so that exactly p = 1 + 2^(d-1) phi / (1 - 2^d phi / N). A shift strength of a whole number of boxes is as good as infinite. */
+/* p = 1 + 2^d phi / 2 for zeta infinite. Planted starts are in equilibrium, so it holds at once and also beyond the
+ * dynamical transition (1.776 in d = 3). With N spheres each shift is uniform over what a pair leaves free, the box
+ * less 2^d phi / N of it, so that exactly p = 1 + 2^(d-1) phi / (1 - 2^d phi / N). A shift strength of a whole number
+ * of boxes is as good as infinite. */
 static void equation_of_state(void **state) {
   const struct {
     int32_t dim;
     double fraction, zeta;
-  } cases[] = {{3, 0.5, INFINITY}, {3, 1.5, INFINITY}, {3, 2.2, INFINITY}, {2, 1.0, INFINITY}, {4, 0.5, INFINITY}, {3, 1.0, 3.0}};
+  } cases[] = {{3, 0.5, INFINITY}, {3, 1.5, INFINITY}, {3, 2.2, INFINITY},
+               {2, 1.0, INFINITY}, {4, 0.5, INFINITY}, {3, 1.0, 3.0}};
   size_t k;
   (void)state;
   for (k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
@@ -55,7 +57,8 @@ static void equation_of_state(void **state) {
       jam_destroy(sys);
     }
     error = sqrt(fmax(0.0, square - sum * sum) / (samples - 1));
-    print_message("d %d, phi %.2f, zeta %g: p %.4f(%.4f), exact %.4f\n", cases[k].dim, cases[k].fraction, cases[k].zeta, sum, error, exact);
+    print_message("d %d, phi %.2f, zeta %g: p %.4f(%.4f), exact %.4f\n", cases[k].dim, cases[k].fraction, cases[k].zeta,
+                  sum, error, exact);
     assert_true(fabs(sum / exact - 1.0) < 0.01 + 2.0 * error / exact && error < 0.03 * exact);
   }
 }
@@ -116,7 +119,7 @@ static void too_dense_to_plant(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(equation_of_state), cmocka_unit_test(chain_to_jamming), cmocka_unit_test(no_shift_is_euclidean),
-                                     cmocka_unit_test(too_dense_to_plant)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(equation_of_state), cmocka_unit_test(chain_to_jamming),
+                                     cmocka_unit_test(no_shift_is_euclidean), cmocka_unit_test(too_dense_to_plant)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,8 @@ static jam_md_report run(jam_system *sys, double collisions) {
   return report;
 }
 
-/* Rattlers exchange energy with the others so slowly that growth leaves them hotter or colder: one temperature for all again. */
+/* Rattlers exchange energy with the others so slowly that growth leaves them hotter or colder: one temperature for all
+ * again. */
 static void draw_velocities(jam_system *sys) {
   double v[3 * 1000], square = 0;
   const double *old;
@@ -87,10 +88,12 @@ static void gap_plateau(void **state) {
     jam_info_get(sys, &info);
     height = (report.pressure - 1.0) / (4.0 * info.packing_fraction);
     assert_int_equal(jam_observed_gaps(sys, edge, 13, density, 12, error, 12, &needed), JAM_OK);
-    print_message("p %.4g: height %.4g, first bin %.4g(%.2g), h in %.2g..%.2g: %.4g, %.2g..%.2g: %.4g\n", report.pressure, height, density[0], error[0],
-                  edge[1], edge[2], density[1], edge[11], edge[12], density[11]);
-    /* A first bin of a tenth of 1/p: about 75 of 800 contacts at a time, 200 samples: noise of one per cent; g falls by some
-     * per cent within it, as the force of a contact closes its gap on the scale of 1/p times the mean force over its own. */
+    print_message("p %.4g: height %.4g, first bin %.4g(%.2g), h in %.2g..%.2g: %.4g, %.2g..%.2g: %.4g\n",
+                  report.pressure, height, density[0], error[0], edge[1], edge[2], density[1], edge[11], edge[12],
+                  density[11]);
+    /* A first bin of a tenth of 1/p: about 75 of 800 contacts at a time, 200 samples: noise of one per cent; g falls by
+     * some per cent within it, as the force of a contact closes its gap on the scale of 1/p times the mean force over
+     * its own. */
     assert_true(density[0] / height > 0.88 && density[0] / height < 1.03);
     assert_true(density[1] < density[0] * 1.03 && density[11] < 0.02 * density[0]);
   }
@@ -118,7 +121,8 @@ static void forces_by_collisions(void **state) {
   run(sys, 20000);
   jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, &time, &pairs);
   jam_forces(jammed, NULL, 0, &contacts);
-  pair = malloc(2 * pairs * sizeof *pair), count = malloc(pairs * sizeof *count), momentum = malloc(pairs * sizeof *momentum);
+  pair = malloc(2 * pairs * sizeof *pair), count = malloc(pairs * sizeof *count),
+  momentum = malloc(pairs * sizeof *momentum);
   contact = malloc(2 * contacts * sizeof *contact), force = malloc(contacts * sizeof *force);
   assert_int_equal(jam_observed_pairs(sys, pair, 2 * pairs, count, pairs, momentum, pairs, &time, &pairs), JAM_OK);
   assert_int_equal(jam_forces(jammed, force, contacts, &contacts), JAM_OK);
@@ -137,7 +141,8 @@ static void forces_by_collisions(void **state) {
       if (pair[2 * m] == contact[2 * k] && pair[2 * m + 1] == contact[2 * k + 1])
         deviation += pow(momentum[m] / (cross / square) - force[k], 2);
   deviation = sqrt(deviation / (double)contacts);
-  print_message("%.0f of %d contacts collide, they carry %.4f of the momentum; rms deviation %.4f of the mean force\n", covered, (int)contacts, sum / all, deviation);
+  print_message("%.0f of %d contacts collide, they carry %.4f of the momentum; rms deviation %.4f of the mean force\n",
+                covered, (int)contacts, sum / all, deviation);
   assert_true(covered == (double)contacts);
   assert_true(sum / all > 0.99); /* rattlers carry the rest */
   assert_true(deviation < 0.05);
@@ -152,8 +157,9 @@ static double score(const jam_system *sys) {
   return s;
 }
 
-/* The two-stage protocol shows no peak of g(r) at sqrt 2. A crystal that has run at 0.58, just above melting, and was then
- * compressed does; at 0.58 itself its peaks are as wide as their distance, so the score is for compressed states. */
+/* The two-stage protocol shows no peak of g(r) at sqrt 2. A crystal that has run at 0.58, just above melting, and was
+ * then compressed does; at 0.58 itself its peaks are as wide as their distance, so the score is for compressed states.
+ */
 static void crystals_are_told(void **state) {
   jam_system *glass = start(500, 0.2, 1.0), *crystal = NULL;
   jam_create_options o;
@@ -177,15 +183,16 @@ static void crystals_are_told(void **state) {
   run(crystal, 300);
   shaken = score(crystal);
   compress(crystal, 1e-2, 1e4);
-  print_message("score of the glass %.2f, of the crystal at 0.58 %.2f, compressed %.2f\n", score(glass), shaken, score(crystal));
+  print_message("score of the glass %.2f, of the crystal at 0.58 %.2f, compressed %.2f\n", score(glass), shaken,
+                score(crystal));
   assert_true(score(glass) < 1.0);
   assert_true(score(crystal) > 3.0);
   jam_destroy(glass);
   jam_destroy(crystal);
 }
 
-/* A fluid held at 0.56 crystallises by itself: its pressure falls from 21 to that of the crystal, below 15, and after compression
- * g(r) has the peak at sqrt 2. How long it takes is up to chance, so it may take long. */
+/* A fluid held at 0.56 crystallises by itself: its pressure falls from 21 to that of the crystal, below 15, and after
+ * compression g(r) has the peak at sqrt 2. How long it takes is up to chance, so it may take long. */
 static void fluid_crystallises(void **state) {
   jam_system *sys = start(500, 0.2, 1.0);
   jam_compress_options c;
@@ -210,12 +217,14 @@ static void fluid_crystallises(void **state) {
     if (fabs(r[k] - 1.4142) < 0.03) at_sqrt2 = fmax(at_sqrt2, g[k]);
     if (fabs(r[k] - 1.25) < 0.03) before = fmax(before, g[k]);
   }
-  print_message("crystal after %d x 1000 collisions per sphere, p %.2f; score %.2f, g %.2f at sqrt 2, %.2f at 1.25\n", blocks, p, score(sys), at_sqrt2, before);
+  print_message("crystal after %d x 1000 collisions per sphere, p %.2f; score %.2f, g %.2f at sqrt 2, %.2f at 1.25\n",
+                blocks, p, score(sys), at_sqrt2, before);
   assert_true(score(sys) > 1.5 && at_sqrt2 > 1.3 * before); /* six seeds: scores 2.8 to 4.3; a glass 0.9 */
   jam_destroy(sys);
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gap_plateau), cmocka_unit_test(forces_by_collisions), cmocka_unit_test(crystals_are_told), cmocka_unit_test(fluid_crystallises)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gap_plateau), cmocka_unit_test(forces_by_collisions),
+                                     cmocka_unit_test(crystals_are_told), cmocka_unit_test(fluid_crystallises)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

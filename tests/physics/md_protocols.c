@@ -60,8 +60,9 @@ static void rates(void **state) {
   }
 }
 
-/* The rate falls as a power of p, from 1e-2 at 1e3 to 1e-3 at 1e7: looked at between the ends, wherever the stage stops. How many
- * collisions that takes is no measure: late rearrangements, and pairs that hold much of the energy, change it by factors. */
+/* The rate falls as a power of p, from 1e-2 at 1e3 to 1e-3 at 1e7: looked at between the ends, wherever the stage
+ * stops. How many collisions that takes is no measure: late rearrangements, and pairs that hold much of the energy,
+ * change it by factors. */
 static void quasi_static(void **state) {
   jam_system *sys = start(200, 0.2, 1.4, 0, 1.0);
   jam_compress_options c;
@@ -163,7 +164,8 @@ static void masses_by_volume(void **state) {
       }
     }
     for (k = 0; k < 3; ++k) assert_true(fabs(momentum[k]) < 1e-9);
-    print_message("masses %d: temperature of large spheres %.4f, of small ones %.4f, p %.3f(%.3f)\n", (int)masses, large, small, report.pressure, report.pressure_error);
+    print_message("masses %d: temperature of large spheres %.4f, of small ones %.4f, p %.3f(%.3f)\n", (int)masses,
+                  large, small, report.pressure, report.pressure_error);
     /* 600 degrees of freedom each, some tens of independent samples: errors below one per cent. */
     assert_true(fabs(large - 1.0) < 0.03 && fabs(small - 1.0) < 0.03);
     jam_destroy(sys);
@@ -172,7 +174,7 @@ static void masses_by_volume(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(quasi_static), cmocka_unit_test(time_limits),
-                                     cmocka_unit_test(masses_by_volume)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rates), cmocka_unit_test(quasi_static),
+                                     cmocka_unit_test(time_limits), cmocka_unit_test(masses_by_volume)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Packings crunched from a random start have one state of self-stress; everything the analysis says about them hangs together:
- * forces from positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow from forces. */
+/* Packings crunched from a random start have one state of self-stress; everything the analysis says about them hangs
+ * together: forces from positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow
+ * from forces. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,10 +18,10 @@ struct network {
   jam_system *sys;
   int d;
   int64_t n, stable, contacts;
-  int32_t *pair, *map;      /* contacts, 2; stable */
-  double *normal, *force;   /* contacts, d; contacts */
+  int32_t *pair, *map;    /* contacts, 2; stable */
+  double *normal, *force; /* contacts, d; contacts */
   double *diameter;
-  int32_t *node;            /* sphere -> row, -1 */
+  int32_t *node; /* sphere -> row, -1 */
 };
 
 static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
@@ -90,7 +91,8 @@ static double sigma(const struct network *w, int64_t k) {
   return 0.5 * (w->diameter[w->pair[2 * k]] + w->diameter[w->pair[2 * k + 1]]);
 }
 
-/* Forces three ways: multipliers of the LP, null vector on the same network, network and null vector from positions alone. */
+/* Forces three ways: multipliers of the LP, null vector on the same network, network and null vector from positions
+ * alone. */
 static void forces_from_positions(const struct network *w) {
   double *f = malloc(ROOM * sizeof *f), residual = 1.0;
   size_t m = 0, got = 0;
@@ -146,8 +148,8 @@ static double next_contact(const struct network *w, const double *u, double gamm
   return best;
 }
 
-/* Twice the second-order term of sum_k f_k |r_k + s dr_k|, by differences: contacts have length sigma. First-order displacements
- * are enough, because forces in balance do no work on those of second order. */
+/* Twice the second-order term of sum_k f_k |r_k + s dr_k|, by differences: contacts have length sigma. First-order
+ * displacements are enough, because forces in balance do no work on those of second order. */
 static double bend(const struct network *w, const double *u, double s) {
   double sum = 0.0;
   int64_t k;
@@ -167,7 +169,8 @@ static double bend(const struct network *w, const double *u, double s) {
 
 /* S dr = e_l + gamma sigma, exactly, for the stated gamma; no net translation. */
 static void floppy_keeps_contacts(const struct network *w, int check_next) {
-  double *u = malloc(ROOM * sizeof *u), *b = malloc(ROOM * sizeof *b), *sp = malloc(ROOM * sizeof *sp), *ss = malloc(ROOM * sizeof *ss);
+  double *u = malloc(ROOM * sizeof *u), *b = malloc(ROOM * sizeof *b), *sp = malloc(ROOM * sizeof *sp),
+         *ss = malloc(ROOM * sizeof *ss);
   double *wt = malloc(ROOM * sizeof *wt), *st = malloc(ROOM * sizeof *st);
   double fs = 0.0;
   size_t m;
@@ -179,7 +182,8 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     assert_int_equal(jam_floppy_mode(w->sys, l, u, ROOM, &m), JAM_OK);
     assert_int_equal(m, w->stable * w->d);
     for (k = 0; k < (int64_t)m; ++k) size = fmax(size, fabs(u[k]));
-    for (k = 0; k < w->contacts; ++k) assert_true(fabs(stretch(w, k, u) - gamma * sigma(w, k) - (k == l)) < 1e-9 * (1.0 + size));
+    for (k = 0; k < w->contacts; ++k)
+      assert_true(fabs(stretch(w, k, u) - gamma * sigma(w, k) - (k == l)) < 1e-9 * (1.0 + size));
     for (k = 0; k < w->stable; ++k) mean += u[k * w->d];
     assert_true(fabs(mean) < 1e-9 * size * (double)w->stable);
   }
@@ -189,7 +193,8 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     assert_true(sp[k] > 0.0 && ss[k] > 0.0);
     assert_true(fabs(st[k] * sp[k] / ss[k] - 1.0) < 1e-12);
   }
-  for (l = 0; l < w->contacts; l += w->contacts / 5 + 1) { /* f = W times the displacement in the middle of the ranking */
+  for (l = 0; l < w->contacts;
+       l += w->contacts / 5 + 1) { /* f = W times the displacement in the middle of the ranking */
     double all = 0.0;
     int below = 0;
     assert_int_equal(jam_floppy_mode(w->sys, l, u, ROOM, &m), JAM_OK);
@@ -202,7 +207,8 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
       below += sqrt(s) < b[l] * sqrt(all) * (1.0 - 1e-8);
     }
     assert_int_equal(below, w->stable / 2);
-    assert_true(fabs(ss[l] * bend(w, u, 1e-4 / sqrt(all)) / w->force[l] - 1.0) < 1e-4); /* the least diameter is at s_star */
+    assert_true(fabs(ss[l] * bend(w, u, 1e-4 / sqrt(all)) / w->force[l] - 1.0) <
+                1e-4); /* the least diameter is at s_star */
     if (check_next) assert_true(fabs(sp[l] / next_contact(w, u, -w->force[l] / fs) - 1.0) < 1e-6);
   }
   free(u), free(b), free(sp), free(ss), free(wt), free(st);
@@ -224,7 +230,8 @@ static void moduli_follow_from_forces(const struct network *w) {
   for (a = 0; a < w->d; ++a)
     for (b = a + 1; b < w->d; ++b) {
       fe = 0.0;
-      for (k = 0; k < w->contacts; ++k) fe += w->force[k] * sigma(w, k) * w->normal[k * w->d + a] * w->normal[k * w->d + b];
+      for (k = 0; k < w->contacts; ++k)
+        fe += w->force[k] * sigma(w, k) * w->normal[k * w->d + a] * w->normal[k * w->d + b];
       shear += fe * fe / ff / (w->d * (w->d - 1) / 2);
     }
   assert_true(fabs(m.shear - shear) < 1e-9 * m.shear_affine);
@@ -234,7 +241,8 @@ static void moduli_follow_from_forces(const struct network *w) {
 static void spectrum_identities(const struct network *w) {
   const size_t rows = (size_t)(w->stable * w->d);
   jam_modes_options o;
-  double *l = malloc(rows * sizeof *l), *v = malloc(rows * rows * sizeof *v), *y = malloc(rows * sizeof *y), trace = 0.0, value;
+  double *l = malloc(rows * sizeof *l), *v = malloc(rows * rows * sizeof *v), *y = malloc(rows * sizeof *y),
+         trace = 0.0, value;
   double low[8];
   size_t m, k;
   assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
@@ -268,7 +276,8 @@ static void spectrum_identities(const struct network *w) {
   for (k = 0; k < 8; ++k) assert_true(fabs(low[k] - l[k + (size_t)w->d]) < 1e-11);
   { /* the density of states integrates to one, and its second moment is the trace */
     jam_dos_options q;
-    double *omega = malloc(400 * sizeof *omega), *d = malloc(400 * sizeof *d), *e = malloc(400 * sizeof *e), zero = 0.0, two = 0.0, error = 0.0;
+    double *omega = malloc(400 * sizeof *omega), *d = malloc(400 * sizeof *d), *e = malloc(400 * sizeof *e), zero = 0.0,
+           two = 0.0, error = 0.0;
     assert_int_equal(jam_dos_options_init(&q, sizeof q), JAM_OK);
     q.points = 400;
     q.vectors = 32;
@@ -284,7 +293,7 @@ static void spectrum_identities(const struct network *w) {
     zero = omega[0], two = omega[1];
     assert_int_equal(jam_cumulative_spectrum(w->sys, NULL, &q, omega, 400, d, 400, e, 400, &m), JAM_OK);
     assert_true(fabs(omega[0] - 0.5 * (zero + two)) < 1e-12); /* upper ends of the bins, not their middles */
-    for (k = 0; k < 400; ++k) { /* against the modes one by one */
+    for (k = 0; k < 400; ++k) {                               /* against the modes one by one */
       size_t below = (size_t)w->d;
       while (below < rows && l[below] <= omega[k] * omega[k]) ++below;
       assert_true(fabs(d[k] - (double)(below - (size_t)w->d) / (double)(rows - (size_t)w->d)) < 0.03);
@@ -299,7 +308,11 @@ static void small_packings(void **state) {
   (void)state;
   for (dim = 2; dim <= 4; ++dim) {
     jam_report report;
-    struct network w = open_network(crunched(dim, dim == 4 ? 150 : 80, dim == 2 ? 0.4 : dim == 3 ? 0.2 : 0.1, dim == 2, &report));
+    struct network w = open_network(crunched(dim, dim == 4 ? 150 : 80,
+                                             dim == 2   ? 0.4
+                                             : dim == 3 ? 0.2
+                                                        : 0.1,
+                                             dim == 2, &report));
     assert_int_equal(report.excess_contacts, 0);
     forces_from_positions(&w);
     floppy_keeps_contacts(&w, 1);
@@ -321,8 +334,8 @@ static void mari_kurchan(void **state) {
   close_network(&w);
 }
 
-/* Spheres pushed about by a part of the smallest gap: contacts and near misses are no longer told apart by a clear jump. The
- * status says so, and the right network is among the candidates. */
+/* Spheres pushed about by a part of the smallest gap: contacts and near misses are no longer told apart by a clear
+ * jump. The status says so, and the right network is among the candidates. */
 static void unclear_jump_of(double part) {
   jam_report report;
   jam_system *s = crunched(3, 80, 0.2, 0, &report);
@@ -400,8 +413,8 @@ static void fill_hole(double place[3][2], const double *radius, double gap, doub
   }
 }
 
-/* A rattler that all but touches its cage makes a second candidate of a contact more than isostatic: the null space tells that the
- * first one is the network, although the second jump is nearly as wide. */
+/* A rattler that all but touches its cage makes a second candidate of a contact more than isostatic: the null space
+ * tells that the first one is the network, although the second jump is nearly as wide. */
 static void rattler_against_its_cage(void **state) {
   jam_report report;
   struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
@@ -483,7 +496,8 @@ static void shared_packing(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(mari_kurchan), cmocka_unit_test(unclear_jump), cmocka_unit_test(rattler_against_its_cage),
-                                     cmocka_unit_test(compares), cmocka_unit_test(shared_packing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(mari_kurchan),
+                                     cmocka_unit_test(unclear_jump),   cmocka_unit_test(rattler_against_its_cage),
+                                     cmocka_unit_test(compares),       cmocka_unit_test(shared_packing)};
   return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
 }

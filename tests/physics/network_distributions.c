@@ -17,7 +17,8 @@ static int32_t a[ROOM], b[ROOM];
 
 static int setup(void **state) {
   jam_system *s = NULL;
-  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, &s) != JAM_OK) { /* no such file beside the tree: make one, of half the size */
+  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, &s) !=
+      JAM_OK) { /* no such file beside the tree: make one, of half the size */
     jam_create_options o;
     if (jam_create_options_init(&o, sizeof o) != JAM_OK) return -1;
     o.n = 512;
@@ -55,7 +56,8 @@ static void forces(void **state) {
       if (((a[k] & JAM_CONTACT_LOCALISED) != 0) == kind) mean += y[m++] = x[k];
     for (k = 0; k < m; ++k) y[k] /= mean / (double)m;
     theta = exponent(y, m, 0.2, &error);
-    printf("%s: %zu contacts, theta %.3f +- %.3f, expected %.3f\n", kind ? "localised" : "extended", m, theta, error, expected);
+    printf("%s: %zu contacts, theta %.3f +- %.3f, expected %.3f\n", kind ? "localised" : "extended", m, theta, error,
+           expected);
     assert_true(fabs(theta - expected) < 4.0 * error);
   }
 }
@@ -101,7 +103,8 @@ static void contact_vectors(void **state) {
   assert_true(top == 29 || top == 30); /* the bins beside 1/2 */
   assert_int_equal(jam_sphere_structure(s, 0, x, ROOM, y, ROOM, &n), JAM_OK);
   assert_int_equal(jam_coordination(s, b, ROOM, &n), JAM_OK);
-  for (k = 0; k < n; ++k) { /* S_i reaches its edge at -z/2, where the contact vectors add up to nothing, and never passes it */
+  for (k = 0; k < n;
+       ++k) { /* S_i reaches its edge at -z/2, where the contact vectors add up to nothing, and never passes it */
     const double c2 = x[3 * k] * x[3 * k] + x[3 * k + 1] * x[3 * k + 1] + x[3 * k + 2] * x[3 * k + 2];
     assert_true(fabs(y[k] - 0.5 * (c2 - b[k])) < 1e-12 && y[k] >= -0.5 * b[k] - 1e-12);
     if (b[k] > 0) nearest = fmin(nearest, y[k] + 0.5 * b[k]);

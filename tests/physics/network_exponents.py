@@ -68,9 +68,15 @@ class Packings(unittest.TestCase):
                 values["gaps"].append(packing.gaps(h_max=1.0, stable_only=1).gap)
         for name, expected in (("extended", 0.42311), ("localised", 0.17462), ("gaps", -0.41269)):
             gaps = name == "gaps"
-            f = tail.fit(values[name], 1024, tail.GAP_POWERS if gaps else tail.POWERS, tail.GAP_FLOOR if gaps else tail.FLOOR)
-            print(f"{name}: {f['exponent']:.3f} +- {f['error']:.3f} from {f['low']:.2g} to {f['high']:.2g}, published {expected:.3f}")
-            self.assertLess(abs(f["exponent"] - expected), 4 * f["error"])  # one sample, and another one in every version
+            f = tail.fit(
+                values[name], 1024, tail.GAP_POWERS if gaps else tail.POWERS, tail.GAP_FLOOR if gaps else tail.FLOOR
+            )
+            print(
+                f"{name}: {f['exponent']:.3f} +- {f['error']:.3f} from {f['low']:.2g} to {f['high']:.2g}, published {expected:.3f}"
+            )
+            self.assertLess(
+                abs(f["exponent"] - expected), 4 * f["error"]
+            )  # one sample, and another one in every version
             self.assertLess(f["error"], 0.2 if gaps else 0.6)  # two packings say no more
 
 

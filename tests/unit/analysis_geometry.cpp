@@ -7,11 +7,11 @@
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
+#include <cmocka.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
-#include <cmocka.h>
 }
 
 using namespace jam;
@@ -129,7 +129,8 @@ void two_clusters(void **) {
   const double h = std::sqrt(0.75);
   for (int strip = 0; strip < 2; ++strip)
     for (int row = 0; row < 3; ++row)
-      for (int i = 0; i < 6; ++i) p.position.insert(p.position.end(), {i + 0.5 * (row % 2), 0.1 + 3.0 * strip + row * h});
+      for (int i = 0; i < 6; ++i)
+        p.position.insert(p.position.end(), {i + 0.5 * (row % 2), 0.1 + 3.0 * strip + row * h});
   p.diameter.assign(36, 1.0);
   const GeometryResult r = look(p, 1e-9);
   assert_int_equal(r.report.contacts, 2 * (18 + 24));
@@ -164,8 +165,8 @@ void no_clear_jump(void **) {
 }
 
 void no_force_of_one_sign(void **) {
-  // Four disks with six bars, sides and diagonals: the self-stress of one such square pulls where it does not push. Two of
-  // them have two states, and no combination repels everywhere.
+  // Four disks with six bars, sides and diagonals: the self-stress of one such square pulls where it does not push. Two
+  // of them have two states, and no combination repels everywhere.
   Case c;
   c.packing.dim = 2;
   c.packing.box = 10.0;

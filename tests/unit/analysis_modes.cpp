@@ -1,4 +1,5 @@
-// Hessians and modes against lattices whose spectra are known in closed form (Bloch), finite differences, and identities.
+// Hessians and modes against lattices whose spectra are known in closed form (Bloch), finite differences, and
+// identities.
 #include <functional>
 #include "analysis/modes.hpp"
 #include "analysis_networks.hpp"
@@ -6,11 +7,11 @@
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
+#include <cmocka.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
-#include <cmocka.h>
 }
 
 using namespace jam;
@@ -255,7 +256,8 @@ void two_images_and_self_contact(void **) {
   add_contact(c, 0, 1, {2.0, 0.0});
   add_contact(c, 0, 0, {0.0, 1.0});
   const Solved s = solve(c, JAM_MODES_ALL, 1);
-  assert_true(worst(s.modes.lambda, {0.0, 0.0, 0.0, 4.0}) < 1e-14);  // both springs act on the relative coordinate: 2 k / (m/2)
+  assert_true(worst(s.modes.lambda, {0.0, 0.0, 0.0, 4.0}) <
+              1e-14);  // both springs act on the relative coordinate: 2 k / (m/2)
 }
 
 void refuses(void **) {
@@ -284,7 +286,8 @@ void cancels(void **) {
     monitor.progress = stop_at_once;
     monitor.begin();
     Modes modes;
-    assert_int_equal(find_modes(g, contact_weights(g, 1.0, default_hessian_options()), o, monitor, modes), JAM_CANCELLED);
+    assert_int_equal(find_modes(g, contact_weights(g, 1.0, default_hessian_options()), o, monitor, modes),
+                     JAM_CANCELLED);
     assert_int_equal(modes.vector.size(), 0);
   }
 }
@@ -292,13 +295,20 @@ void cancels(void **) {
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(triangular_full),      cmocka_unit_test(more_than_one_panel), cmocka_unit_test(fcc_full),
-      cmocka_unit_test(prestressed_full),     cmocka_unit_test(square_has_floppy_lines),
-      cmocka_unit_test(unstable_lowest),      cmocka_unit_test(hard_sphere_weights),
-      cmocka_unit_test(triangular_few),       cmocka_unit_test(fcc_few),
-      cmocka_unit_test(finite_differences),   cmocka_unit_test(curvature_is_quadratic_form),
-      cmocka_unit_test(spectra_of_both_products), cmocka_unit_test(two_images_and_self_contact),
-      cmocka_unit_test(refuses),              cmocka_unit_test(cancels)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(triangular_full),
+                                     cmocka_unit_test(more_than_one_panel),
+                                     cmocka_unit_test(fcc_full),
+                                     cmocka_unit_test(prestressed_full),
+                                     cmocka_unit_test(square_has_floppy_lines),
+                                     cmocka_unit_test(unstable_lowest),
+                                     cmocka_unit_test(hard_sphere_weights),
+                                     cmocka_unit_test(triangular_few),
+                                     cmocka_unit_test(fcc_few),
+                                     cmocka_unit_test(finite_differences),
+                                     cmocka_unit_test(curvature_is_quadratic_form),
+                                     cmocka_unit_test(spectra_of_both_products),
+                                     cmocka_unit_test(two_images_and_self_contact),
+                                     cmocka_unit_test(refuses),
+                                     cmocka_unit_test(cancels)};
   return cmocka_run_group_tests_name("analysis_modes", tests, nullptr, nullptr);
 }

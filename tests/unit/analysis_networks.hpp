@@ -83,7 +83,9 @@ inline Vectors fcc_basis() {
   const double h = std::sqrt(0.5);
   return {{0, h, h}, {h, 0, h}, {h, h, 0}};
 }
-inline std::vector<std::vector<int>> fcc_bonds() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {0, 1, -1}, {1, 0, -1}}; }
+inline std::vector<std::vector<int>> fcc_bonds() {
+  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {0, 1, -1}, {1, 0, -1}};
+}
 inline Vectors square_basis() { return {{1.0, 0.0}, {0.0, 1.0}}; }
 inline std::vector<std::vector<int>> square_bonds() { return {{1, 0}, {0, 1}}; }
 
@@ -93,7 +95,8 @@ inline std::vector<double> small_eigenvalues(std::vector<double> a, int d) {
     for (int p = 0; p < d; ++p)
       for (int q = p + 1; q < d; ++q) {
         if (std::fabs(a[p * d + q]) < 1e-300) continue;
-        const double theta = 0.5 * std::atan2(2.0 * a[p * d + q], a[q * d + q] - a[p * d + p]), co = std::cos(theta), si = std::sin(theta);
+        const double theta = 0.5 * std::atan2(2.0 * a[p * d + q], a[q * d + q] - a[p * d + p]), co = std::cos(theta),
+                     si = std::sin(theta);
         for (int k = 0; k < d; ++k) {
           const double x = a[k * d + p], y = a[k * d + q];
           a[k * d + p] = co * x - si * y;
@@ -112,7 +115,8 @@ inline std::vector<double> small_eigenvalues(std::vector<double> a, int d) {
 
 // Bloch: for wave number m (phases 2 pi m_k / cells) the dynamical matrix is sum over bonds of 2 (1 - cos) of the block
 // k n n^T - t (1 - n n^T); all eigenvalues, sorted.
-inline std::vector<double> bloch_spectrum(const Vectors &basis, const std::vector<std::vector<int>> &bonds, int cells, double t = 0.0) {
+inline std::vector<double> bloch_spectrum(const Vectors &basis, const std::vector<std::vector<int>> &bonds, int cells,
+                                          double t = 0.0) {
   const int d = static_cast<int>(basis.size());
   int n = 1;
   for (int k = 0; k < d; ++k) n *= cells;
@@ -144,7 +148,8 @@ inline jam::Packing fcc_cube(int cells) {
   for (int x = 0; x < cells; ++x)
     for (int y = 0; y < cells; ++y)
       for (int z = 0; z < cells; ++z)
-        for (const auto &s : site) p.position.insert(p.position.end(), {(x + s[0]) * a, (y + s[1]) * a, (z + s[2]) * a});
+        for (const auto &s : site)
+          p.position.insert(p.position.end(), {(x + s[0]) * a, (y + s[1]) * a, (z + s[2]) * a});
   p.diameter.assign(4 * static_cast<size_t>(cells * cells * cells), 1.0);
   return p;
 }

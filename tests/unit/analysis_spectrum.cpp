@@ -6,11 +6,11 @@
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
+#include <cmocka.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
-#include <cmocka.h>
 }
 
 using namespace jam;
@@ -35,7 +35,8 @@ void density_of_fcc(void **) {
     sum += dos.density[k] * step;
     second += dos.density[k] * dos.omega[k] * dos.omega[k] * step;
     const double edge = dos.omega[k] + 0.5 * step;
-    const auto below = static_cast<double>(std::upper_bound(exact.begin(), exact.end(), edge * edge) - exact.begin()) - 3.0;
+    const auto below =
+        static_cast<double>(std::upper_bound(exact.begin(), exact.end(), edge * edge) - exact.begin()) - 3.0;
     worst = std::max(worst, std::fabs(sum - below / modes));
     assert_true(dos.density[k] > -1e-9 && dos.density_error[k] >= 0.0);
   }
@@ -51,7 +52,8 @@ void density_of_fcc(void **) {
 }
 
 void density_with_prestress(void **) {
-  // A crystal that its pre-stress makes unstable: negative eigenvalues at negative omega, by Bloch's cumulative spectrum.
+  // A crystal that its pre-stress makes unstable: negative eigenvalues at negative omega, by Bloch's cumulative
+  // spectrum.
   const double t = 0.3;
   const Case c = lattice(fcc_basis(), fcc_bonds(), 10);
   const StableGraph g = make_graph(c.packing, c.network);
@@ -120,7 +122,9 @@ void prestressed_moduli(void **) {
       }
   assert_true(std::fabs(m.shear / shear - 1.0) < 1e-6 && std::fabs(m.shear_affine / m.shear - 1.0) < 1e-12);
   // K = -V dp/dV by differences of p = sum f r / (d V) under a stretch of all lengths
-  auto pressure = [&](double stretch) { return 6.0 * 64 * (1.05 - stretch) * stretch / (3.0 * volume * std::pow(stretch, 3)); };
+  auto pressure = [&](double stretch) {
+    return 6.0 * 64 * (1.05 - stretch) * stretch / (3.0 * volume * std::pow(stretch, 3));
+  };
   const double step = 1e-5, bulk = -(pressure(1 + step) - pressure(1 - step)) / (2 * step) / 3.0;
   assert_true(std::fabs(m.bulk / bulk - 1.0) < 1e-7);
   h.prestress = 0.3;
@@ -134,7 +138,8 @@ void prestressed_moduli(void **) {
 }
 
 void relaxed_moduli(void **) {
-  // The non-affine part against the sum over all modes: E'' = du.B.du - sum (v.F)^2 / lambda, with and without pre-stress.
+  // The non-affine part against the sum over all modes: E'' = du.B.du - sum (v.F)^2 / lambda, with and without
+  // pre-stress.
   Case c = lattice(fcc_basis(), fcc_bonds(), 3);
   Rng rng(9, Stream::analysis_start);
   for (double &x : c.packing.position) x += 0.04 * rng.normal();
@@ -142,7 +147,8 @@ void relaxed_moduli(void **) {
   moved.packing = c.packing;
   for (size_t k = 0; k < c.network.size(); ++k)
     add_contact(moved, c.network.pairs.i[k], c.network.pairs.j[k],
-                {c.network.pairs.offset[3 * k], c.network.pairs.offset[3 * k + 1], c.network.pairs.offset[3 * k + 2]}, 0.5 + rng.uniform());
+                {c.network.pairs.offset[3 * k], c.network.pairs.offset[3 * k + 1], c.network.pairs.offset[3 * k + 2]},
+                0.5 + rng.uniform());
   for (double e : {0.0, 0.03}) {
     jam_hessian_options h = default_hessian_options();
     h.prestress = e;
@@ -183,8 +189,8 @@ void relaxed_moduli(void **) {
 }
 
 void moduli_of_triangular(void **) {
-  // Springs k = 1 on a triangular lattice of spacing 1: Lame constants sqrt(3)/4 each, so G = sqrt(3)/4, K = sqrt(3)/2, no
-  // non-affine part (every site is a centre of symmetry). The area is not box^2 here: cells^2 sqrt(3)/2.
+  // Springs k = 1 on a triangular lattice of spacing 1: Lame constants sqrt(3)/4 each, so G = sqrt(3)/4, K = sqrt(3)/2,
+  // no non-affine part (every site is a centre of symmetry). The area is not box^2 here: cells^2 sqrt(3)/2.
   const int cells = 8;
   Case c = lattice(triangular_basis(), triangular_bonds(), cells);
   c.packing.box = std::sqrt(cells * cells * std::sqrt(0.75));
@@ -210,7 +216,8 @@ void moduli_of_fcc(void **) {
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(density_of_fcc), cmocka_unit_test(density_with_prestress), cmocka_unit_test(prestressed_moduli),
-                                     cmocka_unit_test(relaxed_moduli), cmocka_unit_test(moduli_of_triangular), cmocka_unit_test(moduli_of_fcc)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(density_of_fcc),       cmocka_unit_test(density_with_prestress),
+                                     cmocka_unit_test(prestressed_moduli),   cmocka_unit_test(relaxed_moduli),
+                                     cmocka_unit_test(moduli_of_triangular), cmocka_unit_test(moduli_of_fcc)};
   return cmocka_run_group_tests_name("analysis_spectrum", tests, nullptr, nullptr);
 }

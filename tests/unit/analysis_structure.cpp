@@ -8,11 +8,11 @@
 #include "jam/jam.h"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
+#include <cmocka.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
-#include <cmocka.h>
 }
 
 using namespace jam;
@@ -50,7 +50,8 @@ void triangular_bond_order(void **) {
   p.box = 10.0;
   p.diameter.assign(7, 1.0);
   p.position = {5.0, 5.0};
-  for (int k = 0; k < 6; ++k) p.position.insert(p.position.end(), {5.0 + std::cos(k * M_PI / 3.0), 5.0 + std::sin(k * M_PI / 3.0)});
+  for (int k = 0; k < 6; ++k)
+    p.position.insert(p.position.end(), {5.0 + std::cos(k * M_PI / 3.0), 5.0 + std::sin(k * M_PI / 3.0)});
   assert_true(std::fabs(bond_order(p, 6, 1.2)[0] - 1.0) < 1e-12);
   assert_true(bond_order(p, 4, 1.2)[0] < 1e-7);
 }
@@ -76,7 +77,8 @@ void sum_rule(void **) {
   Case moved;
   moved.packing = c.packing;
   for (size_t k = 0; k < c.network.size(); ++k)
-    add_contact(moved, c.network.pairs.i[k], c.network.pairs.j[k], {c.network.pairs.offset[2 * k], c.network.pairs.offset[2 * k + 1]}, rng.uniform());
+    add_contact(moved, c.network.pairs.i[k], c.network.pairs.j[k],
+                {c.network.pairs.offset[2 * k], c.network.pairs.offset[2 * k + 1]}, rng.uniform());
   for (bool weighted : {false, true}) {
     const SphereStructure s = sphere_structure(moved.packing, moved.network, weighted);
     const ContactDots dots = contact_dots(moved.packing, moved.network, weighted);
@@ -96,7 +98,8 @@ void gaps_by_brute_force(void **) {
   const Gaps g = find_gaps(p, nullptr, 1.0, false);
   const PairList all = find_pairs_brute(p, 0.0, 2.0);
   std::vector<double> h, r(3);
-  for (size_t k = 0; k < all.size(); ++k) h.push_back(std::sqrt(pair_vector(p, all, k, r.data())) / p.diameter[0] - 1.0);
+  for (size_t k = 0; k < all.size(); ++k)
+    h.push_back(std::sqrt(pair_vector(p, all, k, r.data())) / p.diameter[0] - 1.0);
   std::sort(h.begin(), h.end());
   assert_int_equal(h.size(), g.gap.size());
   for (size_t k = 0; k < h.size(); ++k) assert_true(std::fabs(h[k] - g.gap[k]) < 1e-12);
@@ -118,7 +121,8 @@ void classes(void **) {
   add_contact(c, 0, 3, {0, 0}, 2.0);
   add_contact(c, 2, 3, {0, 0}, 4.0);
   const std::vector<int32_t> f = classify_contacts(c.packing, c.network);
-  assert_int_equal(f[0], JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);  // the only one of sphere 1
+  assert_int_equal(f[0],
+                   JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);  // the only one of sphere 1
   assert_int_equal(f[1], JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);
   assert_int_equal(f[2], JAM_CONTACT_LOCALISED | JAM_CONTACT_SMALLEST | JAM_CONTACT_MEDIAN);
   assert_int_equal(f[3], 0);
@@ -135,7 +139,8 @@ void values_by_class(void **) {
   add_contact(c, 0, 3, {0, 0}, 2.0);
   add_contact(c, 1, 4, {0, 0}, 6.0);
   const auto get = [&](int32_t quantity, int32_t which) { return class_values(c.packing, c.network, quantity, which); };
-  const std::vector<double> local = get(JAM_QUANTITY_FORCE, JAM_CLASS_LOCALISED), extended = get(JAM_QUANTITY_FORCE, JAM_CLASS_EXTENDED);
+  const std::vector<double> local = get(JAM_QUANTITY_FORCE, JAM_CLASS_LOCALISED),
+                            extended = get(JAM_QUANTITY_FORCE, JAM_CLASS_EXTENDED);
   assert_int_equal(local.size(), 3);
   assert_true(local[0] == 1.5 && local[1] == 0.5 && local[2] == 1.0);  // over their mean 2
   assert_int_equal(extended.size(), 1);
@@ -146,11 +151,13 @@ void values_by_class(void **) {
   assert_true(get(JAM_QUANTITY_FORCE_SUM, JAM_CLASS_ALL) == (std::vector<double>{6.0, 9.0, 1.0, 2.0, 6.0}));
   assert_int_equal(get(JAM_QUANTITY_VECTOR_DOT, JAM_CLASS_LOCALISED).size(), 3);
   assert_int_equal(get(JAM_QUANTITY_VECTOR_DOT, JAM_CLASS_EXTENDED).size(), 1);
-  assert_true(std::fabs(get(JAM_QUANTITY_FORCE_DOT, JAM_CLASS_EXTENDED)[0] + 18.0) < 1e-12);  // straight through sphere 1
+  assert_true(std::fabs(get(JAM_QUANTITY_FORCE_DOT, JAM_CLASS_EXTENDED)[0] + 18.0) <
+              1e-12);  // straight through sphere 1
   assert_true(std::fabs(get(JAM_QUANTITY_VECTOR_PAIRS, JAM_CLASS_EXTENDED)[0] + 1.0) < 1e-12);
   assert_true(std::fabs(get(JAM_QUANTITY_VECTOR_SUM, JAM_CLASS_EXTENDED)[0]) < 1e-12);
   const std::vector<double> h = histogram({0.1, 0.1, 0.6, 5.0, -1.0}, 0.0, 1.0, 4);
-  assert_true(std::fabs(h[0] - 0.4 / 0.25) < 1e-12 && h[1] == 0.0 && std::fabs(h[2] - 0.2 / 0.25) < 1e-12 && h[3] == 0.0);
+  assert_true(std::fabs(h[0] - 0.4 / 0.25) < 1e-12 && h[1] == 0.0 && std::fabs(h[2] - 0.2 / 0.25) < 1e-12 &&
+              h[3] == 0.0);
   assert_true(histogram({}, 0.0, 1.0, 2) == (std::vector<double>{0.0, 0.0}));
 }
 
@@ -159,8 +166,10 @@ void correlation_adds_up(void **) {
   std::vector<int32_t> kind(500);
   for (int i = 0; i < 500; ++i) kind[i] = i < 200;
   const double r_max = 1.4 * p.box / diameter_mean(p);  // past half the box: several images count
-  const auto all = pair_correlation(p, nullptr, 0, -1, -1, r_max, 60), aa = pair_correlation(p, kind.data(), 500, 1, 1, r_max, 60),
-             ab = pair_correlation(p, kind.data(), 500, 1, 0, r_max, 60), bb = pair_correlation(p, kind.data(), 500, 0, 0, r_max, 60);
+  const auto all = pair_correlation(p, nullptr, 0, -1, -1, r_max, 60),
+             aa = pair_correlation(p, kind.data(), 500, 1, 1, r_max, 60),
+             ab = pair_correlation(p, kind.data(), 500, 1, 0, r_max, 60),
+             bb = pair_correlation(p, kind.data(), 500, 0, 0, r_max, 60);
   for (int k = 0; k < 60; ++k) assert_true(std::fabs(0.16 * aa[k] + 2 * 0.24 * ab[k] + 0.36 * bb[k] - all[k]) < 1e-12);
   double tail = 0.0;
   for (int k = 40; k < 60; ++k) tail += all[k] / 20.0;
@@ -179,7 +188,8 @@ void structure_factor_direct(void **) {
       for (int y = -3; y <= 3; ++y)
         if (x * x + y * y == n2) {
           std::complex<double> rho = 0.0;
-          for (size_t i = 0; i < p.n(); ++i) rho += std::polar(1.0, 2.0 * M_PI * (x * p.position[2 * i] + y * p.position[2 * i + 1]));
+          for (size_t i = 0; i < p.n(); ++i)
+            rho += std::polar(1.0, 2.0 * M_PI * (x * p.position[2 * i] + y * p.position[2 * i + 1]));
           s += std::norm(rho) / 60.0;
           ++count;
         }
@@ -195,8 +205,10 @@ void structure_factor_direct(void **) {
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(fcc_structure), cmocka_unit_test(triangular_bond_order), cmocka_unit_test(local_fraction_of_fcc),
-                                     cmocka_unit_test(sum_rule),      cmocka_unit_test(gaps_by_brute_force),   cmocka_unit_test(classes),
-                                     cmocka_unit_test(values_by_class), cmocka_unit_test(correlation_adds_up), cmocka_unit_test(structure_factor_direct)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(fcc_structure),          cmocka_unit_test(triangular_bond_order),
+                                     cmocka_unit_test(local_fraction_of_fcc),  cmocka_unit_test(sum_rule),
+                                     cmocka_unit_test(gaps_by_brute_force),    cmocka_unit_test(classes),
+                                     cmocka_unit_test(values_by_class),        cmocka_unit_test(correlation_adds_up),
+                                     cmocka_unit_test(structure_factor_direct)};
   return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
 }

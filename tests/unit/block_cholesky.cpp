@@ -1,5 +1,5 @@
-// Sparse block Cholesky against dense factorisations: random graphs in d = 1..8, disconnected, tiny, singular, indefinite
-// and non-finite matrices; both orderings, both numbers of threads.
+// Sparse block Cholesky against dense factorisations: random graphs in d = 1..8, disconnected, tiny, singular,
+// indefinite and non-finite matrices; both orderings, both numbers of threads.
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -19,11 +19,11 @@
 #include "lp/dense_front.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
+#include <cmocka.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
-#include <cmocka.h>
 }
 
 using namespace jam;
@@ -66,8 +66,10 @@ Problem make_problem(int dim, int32_t n, double degree, bool local, int64_t seed
         r2 += t * t;
       }
       const bool joined = local ? r2 < radius * radius : rng.uniform() * n < degree;
-      if (joined && rng.uniform() < 0.5) p.ei.push_back(i), p.ej.push_back(j);
-      else if (joined) p.ei.push_back(j), p.ej.push_back(i);
+      if (joined && rng.uniform() < 0.5)
+        p.ei.push_back(i), p.ej.push_back(j);
+      else if (joined)
+        p.ei.push_back(j), p.ej.push_back(i);
     }
   const int b = dim * dim;
   p.diag.assign(static_cast<size_t>(n) * b, 0.0), p.off.resize(p.ei.size() * b);
@@ -78,7 +80,8 @@ Problem make_problem(int dim, int32_t n, double degree, bool local, int64_t seed
     for (int q = 0; q < dim; ++q) p.diag[i * b + q * (dim + 1)] = dim + rng.uniform();
   }
   for (size_t k = 0; k < p.ei.size(); ++k)
-    for (int q = 0; q < dim; ++q) p.diag[p.ei[k] * b + q * (dim + 1)] += dim, p.diag[p.ej[k] * b + q * (dim + 1)] += dim;
+    for (int q = 0; q < dim; ++q)
+      p.diag[p.ei[k] * b + q * (dim + 1)] += dim, p.diag[p.ej[k] * b + q * (dim + 1)] += dim;
   return p;
 }
 
@@ -98,8 +101,10 @@ void make_springs(Problem &p, int64_t seed) {
 double solve_error(const Problem &p, const BlockCholesky &f, int nrhs) {
   const Eigen::MatrixXd a = p.dense();
   Eigen::MatrixXd b = Eigen::MatrixXd::Random(a.rows(), nrhs), x = b;
-  if (nrhs == 1) f.solve(x.data());
-  else f.solve_many(x.data(), nrhs);
+  if (nrhs == 1)
+    f.solve(x.data());
+  else
+    f.solve_many(x.data(), nrhs);
   if (!x.allFinite()) return 1e300;
   return (a * x - b).norm() / (a.norm() * x.norm() + b.norm());
 }
@@ -174,8 +179,8 @@ void threads_agree(void **) {
   assert_true(x == y && x == z);
 }
 
-// Where the system has no second thread to give, the parts run one after the other, to the same bits. In a process of its own, which may
-// not have the memory for another stack.
+// Where the system has no second thread to give, the parts run one after the other, to the same bits. In a process of
+// its own, which may not have the memory for another stack.
 void no_second_thread(void **) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   print_message("not with a sanitizer, which needs that memory itself\n");
@@ -219,7 +224,8 @@ void no_second_thread(void **) {
 #endif
 }
 
-// Large enough that single panels and triangular solves are split: 4e6 numbers in the factor, fronts of 800 rows and more.
+// Large enough that single panels and triangular solves are split: 4e6 numbers in the factor, fronts of 800 rows and
+// more.
 void two_threads_share_fronts(void **) {
   const Problem p = make_problem(3, 2500, 25.0, true, 4);
   BlockCholesky one, two;
@@ -252,7 +258,8 @@ void panels(void **) {
   for (int threads = 1; threads <= 2; ++threads) {
     Eigen::MatrixXd l = a;
     assert_int_equal(factor_panel(l.data(), rows, rows, columns, diagonal.data(), {1e-16, 0.0}, threads), 0);
-    const Eigen::MatrixXd upper = l.topRows(columns).triangularView<Eigen::Lower>().toDenseMatrix().transpose(), rest = l.bottomRows(below);
+    const Eigen::MatrixXd upper = l.topRows(columns).triangularView<Eigen::Lower>().toDenseMatrix().transpose(),
+                          rest = l.bottomRows(below);
     assert_true((upper.transpose() * upper - a.topRows(columns)).norm() < 1e-13 * a.norm());
     assert_true((rest * upper - a.bottomRows(below)).norm() < 1e-13 * a.norm());
     for (const int count : {1, 2}) {
@@ -275,7 +282,8 @@ void singular(void **) {
     BlockCholesky f;
     f.set_pivot_rule(1e-12, 0.0);
     // One translation per direction in every part that hangs together.
-    const int zeros = static_cast<int>(p.dense().rows()) - static_cast<int>(Eigen::FullPivLU<Eigen::MatrixXd>(p.dense()).setThreshold(1e-10).rank());
+    const int zeros = static_cast<int>(p.dense().rows()) -
+                      static_cast<int>(Eigen::FullPivLU<Eigen::MatrixXd>(p.dense()).setThreshold(1e-10).rank());
     assert_true(zeros >= dim);
     assert_int_equal(analyse_and_factorise(f, p, 1, Ordering::dissection), zeros);
     // A right-hand side in the range is solved, with 0 in the replaced components.
@@ -302,8 +310,10 @@ void indefinite_and_not_finite(void **) {
   for (double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()})
     for (int where = 0; where < 8; ++where) {
       p = good;
-      if (where < 4) p.diag[where * 9 * 70 + 3] = bad;  // below the diagonal of its block
-      else p.off[p.off.size() / 9 * (where - 4)] = bad;
+      if (where < 4)
+        p.diag[where * 9 * 70 + 3] = bad;  // below the diagonal of its block
+      else
+        p.off[p.off.size() / 9 * (where - 4)] = bad;
       for (int threads = 1; threads <= 2; ++threads) {
         BlockCholesky g;
         assert_int_equal(analyse_and_factorise(g, p, threads, Ordering::dissection), -1);
@@ -331,8 +341,8 @@ void order_kept(void **) {
   assert_true(solve_error(p, f, 1) < 1e-14);
 }
 
-// A crunch analyses graphs of the same size again and again: all of them together take hardly more room than one, and that is what
-// was promised beforehand.
+// A crunch analyses graphs of the same size again and again: all of them together take hardly more room than one, and
+// that is what was promised beforehand.
 void room_is_used_again(void **) {
   for (int threads = 1; threads <= 2; ++threads) {
     BlockCholesky f;
@@ -347,17 +357,24 @@ void room_is_used_again(void **) {
       f.analyse(3, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads);
     }
     assert_true(static_cast<double>(f.bytes()) < 1.15 * static_cast<double>(largest));
-    assert_true(static_cast<double>(largest) < 1.15 * 8.0 * static_cast<double>(promised) + 1e6);  // tables of the symbolic part
+    assert_true(static_cast<double>(largest) <
+                1.15 * 8.0 * static_cast<double>(promised) + 1e6);  // tables of the symbolic part
   }
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(no_second_thread), cmocka_unit_test(random_graphs), cmocka_unit_test(dimension_refused), cmocka_unit_test(orders_are_permutations),
+  const CMUnitTest tests[] = {cmocka_unit_test(no_second_thread),
+                              cmocka_unit_test(random_graphs),
+                              cmocka_unit_test(dimension_refused),
+                              cmocka_unit_test(orders_are_permutations),
                               cmocka_unit_test(threads_agree),
-                              cmocka_unit_test(two_threads_share_fronts), cmocka_unit_test(panels),
-                              cmocka_unit_test(singular),      cmocka_unit_test(indefinite_and_not_finite), cmocka_unit_test(order_kept),
+                              cmocka_unit_test(two_threads_share_fronts),
+                              cmocka_unit_test(panels),
+                              cmocka_unit_test(singular),
+                              cmocka_unit_test(indefinite_and_not_finite),
+                              cmocka_unit_test(order_kept),
                               cmocka_unit_test(room_is_used_again)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,8 +1,8 @@
-// The barrier function of the path: its value along a line against true distances, its slope against differences, its best step
-// against a scan; and the turns that the path takes off saddles and out of creeping LPs.
+// The barrier function of the path: its value along a line against true distances, its slope against differences, its
+// best step against a scan; and the turns that the path takes off saddles and out of creeping LPs.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -69,7 +69,8 @@ double brute(const Scene &w, double alpha) {
   return -std::log(gamma) - w.b.mu * sum;
 }
 
-// The bent rows are exact, so the merit is; the best step is the best of a fine scan, and its slope is minus the decrement.
+// The bent rows are exact, so the merit is; the best step is the best of a fine scan, and its slope is minus the
+// decrement.
 void merit_is_true(void **) {
   for (const int dim : {2, 3, 5})
     for (const double length : {1e-4, 1e-3, 0.05}) {
@@ -85,9 +86,11 @@ void merit_is_true(void **) {
       assert_true(std::fabs(brute(w, best.alpha) - best.merit) < 1e-11 * (1.0 + std::fabs(best.merit)));
       const double h = 1e-6 / length, slope = (brute(w, h) - brute(w, -h)) / (2.0 * h);
       assert_true(std::fabs(slope + w.b.mu * w.b.decrement(w.x)) < 1e-5 * std::fabs(slope));
-      // No point of a scan beats the search by more than a whole Newton step may differ from the minimum (a tenth of its length).
+      // No point of a scan beats the search by more than a whole Newton step may differ from the minimum (a tenth of
+      // its length).
       double least = 0.0;
-      const double farthest = std::min({2.0 * best.alpha, 0.1 / w.b.longest_move(w.x), 3.98});  // four directions at most
+      const double farthest =
+          std::min({2.0 * best.alpha, 0.1 / w.b.longest_move(w.x), 3.98});  // four directions at most
       for (int k = 1; k < 400; ++k) {
         const double value = brute(w, farthest * k / 400.0);
         if (!std::isfinite(value)) break;  // through a wall
@@ -98,7 +101,8 @@ void merit_is_true(void **) {
     }
 }
 
-// Two spheres that would run through each other: the step ends before they touch, however far the minimum of the line lies.
+// Two spheres that would run through each other: the step ends before they touch, however far the minimum of the line
+// lies.
 void walls_stop(void **) {
   Scene w;
   w.p.dim = 2, w.p.position = {0.4, 0.5, 0.55, 0.5}, w.p.diameter = {0.1, 0.1}, w.p.velocity.assign(4, 0.0);
@@ -133,8 +137,8 @@ PathRun follow(Packing &p, RelineariseControl control) {
   return run;
 }
 
-// A square lattice, off its sites by a millionth, is a saddle of the density: the path must leave it for something denser without
-// an overlap. One that may not take any step more says that it did not arrive.
+// A square lattice, off its sites by a millionth, is a saddle of the density: the path must leave it for something
+// denser without an overlap. One that may not take any step more says that it did not arrive.
 void saddle_is_left(void **) {
   Packing p;
   const int m = 8;
@@ -142,7 +146,9 @@ void saddle_is_left(void **) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> one(-1.0, 1.0);
   for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j) p.position.push_back((i + 0.5 + 1e-6 * one(random)) / m), p.position.push_back((j + 0.5 + 1e-6 * one(random)) / m);
+    for (int j = 0; j < m; ++j)
+      p.position.push_back((i + 0.5 + 1e-6 * one(random)) / m),
+          p.position.push_back((j + 0.5 + 1e-6 * one(random)) / m);
   p.diameter.assign(m * m, (1.0 - 1e-5) / m);
   p.velocity.assign(2 * m * m, 0.0);
   const double square = packing_fraction(p);
@@ -166,7 +172,9 @@ void nothing_left(Packing &p, const PathRun &run) {
   assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
 }
 
-Packing near_start(int n, int dim, int seed) { return near_jamming(start(n, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed)); }
+Packing near_start(int n, int dim, int seed) {
+  return near_jamming(start(n, dim, dim == 2 ? 0.5 : 0.3, dim == 2 ? 1.4 : 1.0, seed));
+}
 
 // Some paths meet saddles on their way and leave them by a warmer barrier, where the duality gap is larger.
 void arrives(void **) {
@@ -183,7 +191,8 @@ void arrives(void **) {
   assert_true(saddles > 0);
 }
 
-// A saddle that one cooling more would leave below the target is not left by warming up: the path ends there, says so, and LPs go on.
+// A saddle that one cooling more would leave below the target is not left by warming up: the path ends there, says so,
+// and LPs go on.
 void saddle_near_the_end(void **) {
   int scenes = 0;
   for (const int dim : {2, 3})
@@ -198,15 +207,18 @@ void saddle_near_the_end(void **) {
       RelineariseControl control;
       control.target = 0.25 * warmed.gaps[k - 1], control.saddle_ends = true;
       const PathRun ends = follow(q, control);
-      assert_true(!ends.end.reached && ends.end.reheats == 0 && ends.end.gap < 1.25 * warmed.gaps[k - 1] && closest_pair(q).gap > 0.0);
-      assert_true(ends.gaps.size() < warmed.gaps.size() && std::equal(ends.gaps.begin(), ends.gaps.end(), warmed.gaps.begin()));  // the same until there
+      assert_true(!ends.end.reached && ends.end.reheats == 0 && ends.end.gap < 1.25 * warmed.gaps[k - 1] &&
+                  closest_pair(q).gap > 0.0);
+      assert_true(ends.gaps.size() < warmed.gaps.size() &&
+                  std::equal(ends.gaps.begin(), ends.gaps.end(), warmed.gaps.begin()));  // the same until there
       ++scenes;
     }
   assert_true(scenes > 0);
 }
 
-// Where a factorisation is worth many triangular solves, as it is for tens of thousands of spheres, short steps do without.
-// With few solves allowed conjugate gradients often end too early: then the step takes a factorisation after all.
+// Where a factorisation is worth many triangular solves, as it is for tens of thousands of spheres, short steps do
+// without. With few solves allowed conjugate gradients often end too early: then the step takes a factorisation after
+// all.
 void old_factor_will_do(void **) {
   for (const int worth : {24, 80}) {
     int steps = 0, factorisations = 0;
@@ -223,8 +235,8 @@ void old_factor_will_do(void **) {
   }
 }
 
-// Equal disks slide along rows for long: LPs creep, some go back to the path, and where a step bound alone ends a gain it must open.
-// All of these starts end jammed; seeds 10 and 54 stalled for a thousand LPs when the bound stayed.
+// Equal disks slide along rows for long: LPs creep, some go back to the path, and where a step bound alone ends a gain
+// it must open. All of these starts end jammed; seeds 10 and 54 stalled for a thousand LPs when the bound stayed.
 void creeping_disks(void **) {
   int returns = 0;
   for (int seed = 1; seed <= 60; ++seed) {
@@ -242,7 +254,9 @@ void creeping_disks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop), cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives),
-                              cmocka_unit_test(saddle_near_the_end), cmocka_unit_test(old_factor_will_do), cmocka_unit_test(creeping_disks)};
+  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true),       cmocka_unit_test(walls_stop),
+                              cmocka_unit_test(saddle_is_left),      cmocka_unit_test(arrives),
+                              cmocka_unit_test(saddle_near_the_end), cmocka_unit_test(old_factor_will_do),
+                              cmocka_unit_test(creeping_disks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

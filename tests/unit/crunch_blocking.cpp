@@ -1,7 +1,8 @@
-// Forces that push aside the rows which cut steps short: their sizes on rows whose answers are known, on one that no force moves, and on the path.
+// Forces that push aside the rows which cut steps short: their sizes on rows whose answers are known, on one that no
+// force moves, and on the path.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -20,8 +21,8 @@ namespace {
 constexpr int most = 12;     // pushes that a step of the path may take
 constexpr double aim = 0.8;  // the length up to which rows are to stay open
 
-// Three rows that block, at c - close c after a whole step. A force alone moves each by `share` of what it would if the row were by itself, and
-// pulls a little on the one before.
+// Three rows that block, at c - close c after a whole step. A force alone moves each by `share` of what it would if the
+// row were by itself, and pulls a little on the one before.
 struct Scene {
   Barrier b;
   BarrierStep x;
@@ -38,7 +39,8 @@ struct Scene {
     const size_t rows = b.pairs.size();
     x.s.assign(p.position.size(), 0.0), x.w.resize(rows), x.y.assign(rows, 0.0), x.g = 0.0;
     weight.resize(rows), target.resize(rows), b.y.resize(rows);
-    for (size_t k = 0; k < rows; ++k) b.y[k] = b.mu / b.lp.c[k], weight[k] = b.y[k] / b.lp.c[k], x.w[k] = 0.5 * b.lp.c[k];
+    for (size_t k = 0; k < rows; ++k)
+      b.y[k] = b.mu / b.lp.c[k], weight[k] = b.y[k] / b.lp.c[k], x.w[k] = 0.5 * b.lp.c[k];
     for (int q = 0; q < 3; ++q) x.w[block[q]] = -close[q] * b.lp.c[block[q]];
   }
 
@@ -57,7 +59,8 @@ struct Scene {
       for (int q = 0; q < 3; ++q) force[q] = target[block[q]] / b.lp.c[block[q]] - weight[block[q]] * first_[block[q]];
       for (int q = 0; q < 3; ++q) {
         const size_t k = block[q], other = block[(q + 1) % 3];
-        next.w[k] = first_[k] + share[q] * (force[q] / weight[k] - pull * force[(q + 1) % 3] / std::sqrt(weight[k] * weight[other]));
+        next.w[k] = first_[k] + share[q] * (force[q] / weight[k] -
+                                            pull * force[(q + 1) % 3] / std::sqrt(weight[k] * weight[other]));
       }
       blocking.learn(x, next);
       std::swap(x, next);
@@ -105,7 +108,8 @@ void path_pushes(void **) {
     const RelineariseResult end = relinearise(p, RelineariseControl(), system, monitor);
     assert_true(end.reached && closest_pair(p).gap > 0.0);
     const std::string word = "correctors ";
-    for (size_t at = log.find(word); at != std::string::npos; at = log.find(word, at + 1)) pushed += std::atoi(log.c_str() + at + word.size()) > 5;
+    for (size_t at = log.find(word); at != std::string::npos; at = log.find(word, at + 1))
+      pushed += std::atoi(log.c_str() + at + word.size()) > 5;
   }
   assert_true(pushed > 0);
 }
@@ -113,6 +117,7 @@ void path_pushes(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(they_give_way), cmocka_unit_test(one_stays), cmocka_unit_test(path_pushes)};
+  const CMUnitTest tests[] = {cmocka_unit_test(they_give_way), cmocka_unit_test(one_stays),
+                              cmocka_unit_test(path_pushes)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,7 +1,7 @@
 // When the barrier path cools and when it is warmed up, from invented courses of the Newton decrement.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -52,13 +52,17 @@ void same_saddle(void **) {
 // With more rows in the way more steps are short before it is a saddle; all but centred they are not waited for.
 void many_rows(void **) {
   const double rows_of_many = 3e5;
-  const auto course = [&](double decrement) { return [=](int) { return Cooling::Step{decrement * rows_of_many, rows_of_many, 1e-9, 1e-3, 0.1, 0.1}; }; };
+  const auto course = [&](double decrement) {
+    return [=](int) { return Cooling::Step{decrement * rows_of_many, rows_of_many, 1e-9, 1e-3, 0.1, 0.1}; };
+  };
   Cooling waits, turns, centred, last;
   assert_true(first_turn(waits, 40, course(1.0)) == 1.0);
   assert_true(first_turn(turns, 60, course(1.0)) > 1.0);
   assert_true(first_turn(centred, 20, course(0.015)) < 1.0);
   // Where one cooling more would be the last it is LPs' turn sooner.
-  assert_true(first_turn(last, 20, [=](int) { return Cooling::Step{rows_of_many, rows_of_many, 1e-12, 1e-3, 0.1, 0.1, true}; }) > 1.0);
+  assert_true(first_turn(last, 20, [=](int) {
+                return Cooling::Step{rows_of_many, rows_of_many, 1e-12, 1e-3, 0.1, 0.1, true};
+              }) > 1.0);
 }
 
 // Short steps are none where the decrement falls: a little with each of them, or much now and then.
@@ -87,7 +91,8 @@ void flows(void **) {
   assert_true(first_turn(again, 30, [](int) { return Cooling::Step{1e3 * rows, rows, 0.1, 1e-3, 0.1, 0.5}; }) < 1.0);
 }
 
-// Forces far from balance and hardly a step: too cold for a start. It is warmed up a few times, but not once a maximum was reached.
+// Forces far from balance and hardly a step: too cold for a start. It is warmed up a few times, but not once a maximum
+// was reached.
 void creeping(void **) {
   const Cooling::Step creeps = {1e3 * rows, rows, 1.0, 0.9, 0.01, 0.01};
   Cooling c, centred;
@@ -112,8 +117,8 @@ void new_mu(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(saddles), cmocka_unit_test(same_saddle), cmocka_unit_test(many_rows),
-                              cmocka_unit_test(falling), cmocka_unit_test(nearly_centred),
-                              cmocka_unit_test(flows),   cmocka_unit_test(creeping), cmocka_unit_test(new_mu)};
+  const CMUnitTest tests[] = {cmocka_unit_test(saddles),  cmocka_unit_test(same_saddle),    cmocka_unit_test(many_rows),
+                              cmocka_unit_test(falling),  cmocka_unit_test(nearly_centred), cmocka_unit_test(flows),
+                              cmocka_unit_test(creeping), cmocka_unit_test(new_mu)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

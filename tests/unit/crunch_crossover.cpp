@@ -1,7 +1,7 @@
 // The exact vertex: from networks with a wrong contact, from those that are right, and the small LP that it ends in.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -23,7 +23,9 @@ namespace {
 bool near_vertex(int seed, double wanted, Packing &p, ContactNetwork &net, PairList &pair) {
   CrunchResult r = run(start(40, 3, 0.3, seed), default_crunch_options());
   int32_t sphere;
-  if (!r.report.jammed || r.report.excess_contacts != 0 || bring_together(r.packing, r.contacts, pair, sphere, wanted) == 0.0) return false;
+  if (!r.report.jammed || r.report.excess_contacts != 0 ||
+      bring_together(r.packing, r.contacts, pair, sphere, wanted) == 0.0)
+    return false;
   p = r.packing, net = r.contacts;
   return true;
 }
@@ -44,8 +46,8 @@ ContactNetwork exchanged(const Packing &p, const ContactNetwork &net, size_t k, 
   return subset(all, on, p.dim);
 }
 
-// A neighbour of the vertex: one contact is exchanged for a pair that is nearly one. All close, but forces pull. From there polish finds
-// back: the same contacts, the same diameters to rounding, nothing pulls.
+// A neighbour of the vertex: one contact is exchanged for a pair that is nearly one. All close, but forces pull. From
+// there polish finds back: the same contacts, the same diameters to rounding, nothing pulls.
 void wrong_contact(void **) {
   int back = 0;
   for (int seed = 1; seed <= 6; ++seed) {
@@ -66,15 +68,17 @@ void wrong_contact(void **) {
       assert_true(std::fabs(q.diameter[0] / p.diameter[0] - 1.0) < 1e-13 && closest_pair(q).gap > -1e-14);
       assert_memory_equal(wrong.pairs.i.data(), net.pairs.i.data(), net.size() * sizeof(int32_t));
       assert_memory_equal(wrong.pairs.j.data(), net.pairs.j.data(), net.size() * sizeof(int32_t));
-      for (size_t c = 0; c < net.size(); ++c) assert_true(wrong.force[c] > 0.0 && std::fabs(wrong.force[c] - net.force[c]) < 1e-6 && std::fabs(wrong.gap[c]) < 1e-14);
+      for (size_t c = 0; c < net.size(); ++c)
+        assert_true(wrong.force[c] > 0.0 && std::fabs(wrong.force[c] - net.force[c]) < 1e-6 &&
+                    std::fabs(wrong.gap[c]) < 1e-14);
       ++back;
     }
   }
   assert_true(back >= 200);  // of about 110 contacts in each of the scenes
 }
 
-// A contact too weak for an LP to list: the others close but cannot balance. Polish finds it among the pairs that nearly touch, whether or
-// not another is there to choose from, and the result is the packing.
+// A contact too weak for an LP to list: the others close but cannot balance. Polish finds it among the pairs that
+// nearly touch, whether or not another is there to choose from, and the result is the packing.
 void missing_contact(void **) {
   int back[2] = {0, 0};
   for (int seed = 1; seed <= 6; ++seed)
@@ -95,15 +99,18 @@ void missing_contact(void **) {
         Packing q = p;
         NewtonSystem system;
         assert_true(polish(q, fewer, system, 1) == PolishEnd::done);
-        assert_true(std::fabs(q.diameter[0] / p.diameter[0] - 1.0) < 1e-13 && closest_pair(q).gap > -1e-14 && fewer.pairs.i == net.pairs.i && fewer.pairs.j == net.pairs.j);
-        for (size_t c = 0; c < net.size(); ++c) assert_true(std::fabs(fewer.force[c] - net.force[c]) < 1e-6 && std::fabs(fewer.gap[c]) < 1e-14);
+        assert_true(std::fabs(q.diameter[0] / p.diameter[0] - 1.0) < 1e-13 && closest_pair(q).gap > -1e-14 &&
+                    fewer.pairs.i == net.pairs.i && fewer.pairs.j == net.pairs.j);
+        for (size_t c = 0; c < net.size(); ++c)
+          assert_true(std::fabs(fewer.force[c] - net.force[c]) < 1e-6 && std::fabs(fewer.gap[c]) < 1e-14);
         ++back[other];
       }
     }
   assert_true(back[0] >= 200 && back[1] >= 200);
 }
 
-// Contacts that hold no sphere are no network, and no near pair makes them one: polish says that they are too few and changes nothing.
+// Contacts that hold no sphere are no network, and no near pair makes them one: polish says that they are too few and
+// changes nothing.
 void no_network(void **) {
   const CrunchResult r = run(start(40, 3, 0.3, 1), default_crunch_options());
   assert_true(r.report.jammed);
@@ -142,14 +149,16 @@ void interrupted_at_the_vertex(void **) {
     ContactNetwork same = wrong;
     NewtonSystem system;
     assert_true(polish(q, same, system, 1, &monitor) == PolishEnd::interrupted);
-    assert_true(q.position == p.position && q.diameter == p.diameter && same.force == wrong.force && same.pairs.i == wrong.pairs.i);
+    assert_true(q.position == p.position && q.diameter == p.diameter && same.force == wrong.force &&
+                same.pairs.i == wrong.pairs.i);
     Vertex vertex;
-    assert_true(!find_vertex(p, wrong, system, 1, &monitor, vertex) && find_vertex(p, wrong, system, 1, nullptr, vertex));
+    assert_true(!find_vertex(p, wrong, system, 1, &monitor, vertex) &&
+                find_vertex(p, wrong, system, 1, nullptr, vertex));
   }
 }
 
-// The vertex of a network that is right is the network: no step, the same forces, nothing open. Where no pair but the contacts is near
-// there is nothing to decide, and it says so.
+// The vertex of a network that is right is the network: no step, the same forces, nothing open. Where no pair but the
+// contacts is near there is nothing to decide, and it says so.
 void vertex_of_the_vertex(void **) {
   int scenes = 0;
   for (int seed = 1; seed <= 6; ++seed) {
@@ -166,14 +175,17 @@ void vertex_of_the_vertex(void **) {
     assert_true(vertex.open < 1e-14 && step < 1e-12 && std::fabs(vertex.step.g) < 1e-14);
     for (size_t c = 0; c < net.size(); ++c) assert_true(std::fabs(vertex.net.force[c] - net.force[c]) < 1e-10);
     const CrunchResult alone = run(start(40, 3, 0.3, seed), default_crunch_options());
-    if (relative_gap(alone.packing, nearest_other(alone.packing, alone.contacts)) > 1e-5) assert_true(!find_vertex(alone.packing, alone.contacts, system, 1, nullptr, vertex)), ++scenes;
+    if (relative_gap(alone.packing, nearest_other(alone.packing, alone.contacts)) > 1e-5)
+      assert_true(!find_vertex(alone.packing, alone.contacts, system, 1, nullptr, vertex)), ++scenes;
   }
   assert_true(scenes >= 2);
 }
 
-// min -2 a - b, a + b + c = 1, a - d = 0.25: a = 1. No optimum where a column is free to grow, nor where nothing is feasible.
+// min -2 a - b, a + b + c = 1, a - d = 0.25: a = 1. No optimum where a column is free to grow, nor where nothing is
+// feasible.
 void small_lp(void **) {
-  const std::vector<double> x = solve_small_lp({-2.0, -1.0, 0.0, 0.0}, {1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, -1.0}, {1.0, 0.25});
+  const std::vector<double> x =
+      solve_small_lp({-2.0, -1.0, 0.0, 0.0}, {1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, -1.0}, {1.0, 0.25});
   assert_int_equal(x.size(), 4);
   assert_true(std::fabs(x[0] - 1.0) < 1e-12 && x[1] == 0.0 && x[2] == 0.0 && std::fabs(x[3] - 0.75) < 1e-12);
   assert_true(solve_small_lp({-1.0, 0.0}, {1.0, -1.0}, {0.0}).empty());
@@ -183,7 +195,8 @@ void small_lp(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact), cmocka_unit_test(missing_contact), cmocka_unit_test(no_network),
-                              cmocka_unit_test(interrupted_at_the_vertex), cmocka_unit_test(vertex_of_the_vertex), cmocka_unit_test(small_lp)};
+  const CMUnitTest tests[] = {cmocka_unit_test(wrong_contact),        cmocka_unit_test(missing_contact),
+                              cmocka_unit_test(no_network),           cmocka_unit_test(interrupted_at_the_vertex),
+                              cmocka_unit_test(vertex_of_the_vertex), cmocka_unit_test(small_lp)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,7 +1,8 @@
-// Rare ends of a crunch, forced through CrunchSeams: an interior point that fails, a path that gives up, a polish that refuses.
+// Rare ends of a crunch, forced through CrunchSeams: an interior point that fails, a path that gives up, a polish that
+// refuses.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -33,8 +34,8 @@ void two_threads_repeat(void **) {
   same_bits(r, run(p, o));
 }
 
-// Every answer of the interior point is spoiled, each time in another way: Clp must finish the job alone, on the same jamming
-// point that it finds as the chosen solver.
+// Every answer of the interior point is spoiled, each time in another way: Clp must finish the job alone, on the same
+// jamming point that it finds as the chosen solver.
 void clp_takes_over(void **) {
   const Packing p = start(40, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
@@ -47,8 +48,9 @@ void clp_takes_over(void **) {
       return;
     }
     if (ipm % 4 == 0) x.solved = false;
-    if (ipm % 4 == 1) x.g += 1e-6;                              // some pair would overlap
-    if (ipm % 4 == 2) for (double &y : x.y) y *= 1.001;          // |sum y - 1|
+    if (ipm % 4 == 1) x.g += 1e-6;  // some pair would overlap
+    if (ipm % 4 == 2)
+      for (double &y : x.y) y *= 1.001;  // |sum y - 1|
     if (ipm % 4 == 3) x.g = std::nan("");
     ++ipm;
   };
@@ -61,13 +63,15 @@ void clp_takes_over(void **) {
   same_bits(r, run(p, o));
 }
 
-// Clp alone leads every start to a jammed packing: an answer that misses its tolerance by a little is no reason to give up.
+// Clp alone leads every start to a jammed packing: an answer that misses its tolerance by a little is no reason to give
+// up.
 void clp_alone(void **) {
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_CHAIN, o.lp_solver = JAM_LP_CLP;
   for (int seed = 1; seed <= 12; ++seed) {
     const CrunchResult r = run(start(40, 3, 0.3, seed), o);
-    assert_true(r.status == JAM_OK && r.report.jammed && r.report.lp_solver == JAM_LP_CLP && r.report.max_overlap < 1e-12);
+    assert_true(r.status == JAM_OK && r.report.jammed && r.report.lp_solver == JAM_LP_CLP &&
+                r.report.max_overlap < 1e-12);
   }
 }
 
@@ -86,11 +90,13 @@ void nobody_solves(void **) {
   o.max_lps = static_cast<int32_t>(r.report.lp_solves);
   const CrunchResult limited = run(p, o);
   assert_int_equal(limited.status, JAM_LIMIT);
-  assert_memory_equal(r.packing.position.data(), limited.packing.position.data(), r.packing.position.size() * sizeof(double));
+  assert_memory_equal(r.packing.position.data(), limited.packing.position.data(),
+                      r.packing.position.size() * sizeof(double));
   assert_true(closest_pair(r.packing).gap > -1e-13);
 }
 
-// A path that ends undecided: the chain starts again at the same point and its answer is the chain's own; the history too.
+// A path that ends undecided: the chain starts again at the same point and its answer is the chain's own; the history
+// too.
 void chain_takes_over(void **) {
   const Packing p = start(60, 3, 0.3, 4);
   jam_crunch_options o = default_crunch_options(), chain = o;
@@ -108,8 +114,8 @@ void chain_takes_over(void **) {
   assert_true(history.rows().front()[JAM_HISTORY_PHASE] == JAM_STEP_LP);
 }
 
-// Inside a crunch a refusal is followed by one more LP. When its network is refused too, its answer stays and the log says so;
-// when that one passes, the result is as good as any.
+// Inside a crunch a refusal is followed by one more LP. When its network is refused too, its answer stays and the log
+// says so; when that one passes, the result is as good as any.
 void one_more_lp(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options(), bare = o;
@@ -120,7 +126,8 @@ void one_more_lp(void **) {
     CrunchSeams seams;
     ContactNetwork given;
     seams.before_polish = [&](const Packing &, ContactNetwork &net) {
-      if (++asked > 2) return;  // what follows belongs to the chain, which is tried when the path's answer is not jammed
+      if (++asked > 2)
+        return;  // what follows belongs to the chain, which is tried when the path's answer is not jammed
       for (double &f : net.force) f = asked <= refusals ? -f : f;
       given = net;
     };
@@ -133,17 +140,20 @@ void one_more_lp(void **) {
     assert_true(log.find("polish refused: a force turns negative; one more LP") != std::string::npos);
     assert_true((log.find("the LP's answer stays") != std::string::npos) == (refusals == 2));
     assert_true(asked >= 2 && first.report.lp_solves == plain.report.lp_solves + 1);
-    assert_true(std::fabs(first.report.packing_fraction - plain.report.packing_fraction) < 1e-12 && first.report.contacts == plain.report.contacts);
+    assert_true(std::fabs(first.report.packing_fraction - plain.report.packing_fraction) < 1e-12 &&
+                first.report.contacts == plain.report.contacts);
     assert_true(first.report.jammed == (refusals == 1));  // the certificate sees negative forces
     if (refusals == 1) assert_true(first.report.force_residual < 1e-14);
-    if (refusals == 2) assert_memory_equal(first.contacts.force.data(), given.force.data(), given.size() * sizeof(double));
+    if (refusals == 2)
+      assert_memory_equal(first.contacts.force.data(), given.force.data(), given.size() * sizeof(double));
   }
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(two_threads_repeat), cmocka_unit_test(clp_takes_over), cmocka_unit_test(clp_alone), cmocka_unit_test(nobody_solves), cmocka_unit_test(chain_takes_over),
-                              cmocka_unit_test(one_more_lp)};
+  const CMUnitTest tests[] = {cmocka_unit_test(two_threads_repeat), cmocka_unit_test(clp_takes_over),
+                              cmocka_unit_test(clp_alone),          cmocka_unit_test(nobody_solves),
+                              cmocka_unit_test(chain_takes_over),   cmocka_unit_test(one_more_lp)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

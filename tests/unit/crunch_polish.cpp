@@ -1,7 +1,7 @@
 // The last digits of a crunch: networks that close, and those with a contact too many or too few.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -23,7 +23,8 @@ PolishEnd try_polish(const Packing &p, const ContactNetwork &net) {
   NewtonSystem system;
   const PolishEnd end = polish(q, changed, system, 1);
   if (end == PolishEnd::done) {
-    for (size_t k = 0; k < changed.size(); ++k) assert_true(changed.force[k] > 0.0 && std::fabs(changed.gap[k]) < 1e-14);
+    for (size_t k = 0; k < changed.size(); ++k)
+      assert_true(changed.force[k] > 0.0 && std::fabs(changed.gap[k]) < 1e-14);
     assert_true(closest_pair(q).gap > -1e-14);
   } else {
     assert_memory_equal(q.position.data(), p.position.data(), p.position.size() * sizeof(double));
@@ -50,10 +51,12 @@ void polish_refuses(void **) {
   int ends[6] = {0, 0, 0, 0, 0, 0};
   double v[3];
   for (size_t k = 0; k < near.size(); ++k) {
-    const double sigma = r.packing.diameter[near.i[k]], gap = std::sqrt(pair_vector(r.packing, near, k, v)) / sigma - 1.0;
+    const double sigma = r.packing.diameter[near.i[k]],
+                 gap = std::sqrt(pair_vector(r.packing, near, k, v)) / sigma - 1.0;
     if (gap < 1e-3 || !r.contacts.coordination[near.i[k]] || !r.contacts.coordination[near.j[k]]) continue;
     net = r.contacts;
-    const size_t place = std::lower_bound(net.pairs.i.begin(), net.pairs.i.end(), near.i[k]) - net.pairs.i.begin();  // of the same i: the list stays sorted
+    const size_t place = std::lower_bound(net.pairs.i.begin(), net.pairs.i.end(), near.i[k]) -
+                         net.pairs.i.begin();  // of the same i: the list stays sorted
     if (place >= net.size() || net.pairs.i[place] != near.i[k]) continue;
     net.pairs.j[place] = near.j[k];
     net.gap[place] = gap;
@@ -64,11 +67,12 @@ void polish_refuses(void **) {
     ++ends[static_cast<int>(try_polish(r.packing, net))];
   }
   print_message("done %d, open %d, negative %d, overlap %d\n", ends[0], ends[3], ends[4], ends[5]);
-  assert_true(ends[static_cast<int>(PolishEnd::open_contact)] > 0 && ends[static_cast<int>(PolishEnd::negative_force)] > 0);
+  assert_true(ends[static_cast<int>(PolishEnd::open_contact)] > 0 &&
+              ends[static_cast<int>(PolishEnd::negative_force)] > 0);
 }
 
-// A pair that does not touch but that the LP counts among the contacts, with next to no force: polish leaves it out. With a force that
-// counts it does not.
+// A pair that does not touch but that the LP counts among the contacts, with next to no force: polish leaves it out.
+// With a force that counts it does not.
 void idle_contact(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   const CrunchResult plain = run(p, default_crunch_options());
@@ -91,18 +95,20 @@ void idle_contact(void **) {
     Monitor monitor;
     monitor.begin();
     crunch(p, default_crunch_options(), monitor, nullptr, &seams);
-    assert_true(first.report.jammed && first.report.contacts == plain.report.contacts && first.report.force_residual < 1e-14);
+    assert_true(first.report.jammed && first.report.contacts == plain.report.contacts &&
+                first.report.force_residual < 1e-14);
     assert_true(std::fabs(first.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
-    assert_int_equal(first.report.lp_solves - plain.report.lp_solves, force > 1e-5);  // an LP more where the pair might carry
+    assert_int_equal(first.report.lp_solves - plain.report.lp_solves,
+                     force > 1e-5);  // an LP more where the pair might carry
   }
 }
 
-// A pair so near to contact that an LP counts it: all cannot close together. When it is open with the others closed it is left out,
-// when it would overlap then another contact is: either way no gap is left above rounding.
+// A pair so near to contact that an LP counts it: all cannot close together. When it is open with the others closed it
+// is left out, when it would overlap then another contact is: either way no gap is left above rounding.
 void too_many_to_close(void **) {
   int scenes = 0, others = 0, left = 0;
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN;  // the path's scenes change with it
+  o.method = JAM_CRUNCH_CHAIN;            // the path's scenes change with it
   for (int seed = 1; seed <= 24; ++seed)  // one pair of seed 11 is of the rare kind that is left
     for (const double wanted : {1e-11, -1e-11}) {
       CrunchResult r = run(start(40, 3, 0.2, seed), o);
@@ -113,14 +119,19 @@ void too_many_to_close(void **) {
       if (rate == 0.0) continue;
       if (wanted < 0.0) resize(r.packing, r.contacts, sphere, -2e-11 / rate);
       ContactNetwork net = r.contacts;
-      const auto at = [&](auto &v, size_t place, const auto &what) { v.insert(v.begin() + place, what.begin(), what.end()); };
+      const auto at = [&](auto &v, size_t place, const auto &what) {
+        v.insert(v.begin() + place, what.begin(), what.end());
+      };
       size_t place = 0;  // lists are sorted
-      while (place < net.size() && std::make_pair(net.pairs.i[place], net.pairs.j[place]) < std::make_pair(pair.i[0], pair.j[0])) ++place;
+      while (place < net.size() &&
+             std::make_pair(net.pairs.i[place], net.pairs.j[place]) < std::make_pair(pair.i[0], pair.j[0]))
+        ++place;
       std::vector<double> along(3);
       const double length = std::sqrt(pair_vector(r.packing, pair, 0, along.data()));
       for (double &v : along) v /= length;
       at(net.pairs.i, place, pair.i), at(net.pairs.j, place, pair.j), at(net.pairs.offset, 3 * place, pair.offset);
-      at(net.vector, 3 * place, along), at(net.gap, place, std::vector<double>{relative_gap(r.packing, pair)}), at(net.force, place, std::vector<double>{1e-4});
+      at(net.vector, 3 * place, along), at(net.gap, place, std::vector<double>{relative_gap(r.packing, pair)}),
+          at(net.force, place, std::vector<double>{1e-4});
       ++net.coordination[pair.i[0]], ++net.coordination[pair.j[0]];
       NewtonSystem system;
       Packing p = r.packing;
@@ -130,7 +141,8 @@ void too_many_to_close(void **) {
       assert_true(polish(p, net, system, 1, &monitor) == PolishEnd::done);
       assert_true((log.find("cannot all close") != std::string::npos) == (net.size() != r.contacts.size()));
       for (const double f : net.force) assert_true(f > 0.0);
-      if (net.size() != r.contacts.size()) {  // the one to leave out belongs to a sphere with none to spare: the gaps stay, in sight
+      if (net.size() !=
+          r.contacts.size()) {  // the one to leave out belongs to a sphere with none to spare: the gaps stay, in sight
         assert_true(closest_pair(p).gap > wanted);
         ++left;
         continue;
@@ -144,7 +156,8 @@ void too_many_to_close(void **) {
   assert_true(scenes - others >= 15 && others >= 15 && left >= 1 && left <= 2);
 }
 
-// An LP whose gain no longer counts ends the crunch if its contacts close: steps need not fall below a tolerance that rounding forbids.
+// An LP whose gain no longer counts ends the crunch if its contacts close: steps need not fall below a tolerance that
+// rounding forbids.
 void closing_ends_it(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
@@ -161,7 +174,7 @@ void closing_ends_it(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(polish_refuses), cmocka_unit_test(idle_contact), cmocka_unit_test(too_many_to_close),
-                              cmocka_unit_test(closing_ends_it)};
+  const CMUnitTest tests[] = {cmocka_unit_test(polish_refuses), cmocka_unit_test(idle_contact),
+                              cmocka_unit_test(too_many_to_close), cmocka_unit_test(closing_ends_it)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

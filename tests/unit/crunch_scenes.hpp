@@ -21,7 +21,8 @@ inline Packing start(int n, int dim, double phi, int64_t seed) {
   return make_packing(o, nullptr, 0, nullptr, 0);
 }
 
-inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchSeams *seams = nullptr, History *history = nullptr) {
+inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchSeams *seams = nullptr,
+                        History *history = nullptr) {
   Monitor monitor;
   monitor.begin();
   return crunch(p, o, monitor, history, seams);

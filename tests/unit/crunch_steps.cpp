@@ -1,7 +1,7 @@
 // No step may let two spheres meet that the neighbour list does not know: looked at over all pairs after every step.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -24,7 +24,8 @@ Packing start(int n, int dim, double phi, double ratio) {
   return make_packing(o, nullptr, 0, sizes.data(), sizes.size());
 }
 
-// Two spheres without a common row run into each other: followed in part only, and by a half at least where that is safe.
+// Two spheres without a common row run into each other: followed in part only, and by a half at least where that is
+// safe.
 void unlisted_pair(void **) {
   for (const double gap : {0.011, 0.02, 0.1, 0.15}) {
     Packing p;
@@ -66,10 +67,11 @@ struct Case {
   int n, dim;
   double phi, ratio;
 };
-const Case dilute[] = {{60, 2, 0.05, 1.0}, {60, 3, 0.02, 1.0}, {60, 3, 0.2, 1.0}, {50, 4, 0.01, 1.0}, {40, 5, 0.005, 1.0}, {60, 2, 0.1, 10.0}, {60, 3, 0.05, 10.0}, {5, 3, 0.05, 1.0}};
+const Case dilute[] = {{60, 2, 0.05, 1.0},  {60, 3, 0.02, 1.0}, {60, 3, 0.2, 1.0},   {50, 4, 0.01, 1.0},
+                       {40, 5, 0.005, 1.0}, {60, 2, 0.1, 10.0}, {60, 3, 0.05, 10.0}, {5, 3, 0.05, 1.0}};
 
-// The path bounds what all spheres travel between two lists; here every pair and image is looked at after each Newton step.
-// From a dilute start, where jam_crunch lets LPs go first, it need not get far, but it must stay safe.
+// The path bounds what all spheres travel between two lists; here every pair and image is looked at after each Newton
+// step. From a dilute start, where jam_crunch lets LPs go first, it need not get far, but it must stay safe.
 void path_from_low_density(void **) {
   for (const Case &c : dilute) {
     Packing p = start(c.n, c.dim, c.phi, c.ratio);
@@ -85,7 +87,8 @@ void path_from_low_density(void **) {
     Monitor monitor;
     monitor.begin();
     relinearise(p, control, system, monitor);
-    print_message("n %d d %d phi %g ratio %g: %d steps to phi %.3f, smallest gap %.1e\n", c.n, c.dim, c.phi, c.ratio, steps, packing_fraction(p), worst);
+    print_message("n %d d %d phi %g ratio %g: %d steps to phi %.3f, smallest gap %.1e\n", c.n, c.dim, c.phi, c.ratio,
+                  steps, packing_fraction(p), worst);
     assert_true(steps > 5 && worst > -1e-13);
     if (c.phi >= 0.2) assert_true(packing_fraction(p) > 2.0 * c.phi);
   }
@@ -131,7 +134,8 @@ void careless_options(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(unlisted_pair), cmocka_unit_test(pair_through_the_wall), cmocka_unit_test(path_from_low_density),
-                              cmocka_unit_test(chain_from_low_density), cmocka_unit_test(careless_options)};
+  const CMUnitTest tests[] = {cmocka_unit_test(unlisted_pair), cmocka_unit_test(pair_through_the_wall),
+                              cmocka_unit_test(path_from_low_density), cmocka_unit_test(chain_from_low_density),
+                              cmocka_unit_test(careless_options)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

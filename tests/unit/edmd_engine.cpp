@@ -113,9 +113,10 @@ struct Case {
 void agrees_with_naive_engine(void **) {
   // Small boxes (several images of one pair) among them.
   // From 40 spheres in three dimensions on cells alone hold, whether they are the choice at that density or not.
-  const Case cases[] = {{3, 40, 0.04, 1.0, 0.0, 60},  {3, 40, 0.06, 1.5, 0.05, 60},  {2, 40, 0.1, 2.0, 0.02, 60},  {4, 40, 0.004, 1.0, 0.01, 20},
-                        {3, 24, 0.25, 1.0, 0.0, 60}, {3, 24, 0.25, 1.0, 0.05, 60}, {2, 16, 0.35, 3.0, 0.02, 40}, {3, 2, 0.3, 1.0, 0.0, 10},
-                        {2, 2, 0.4, 1.0, 0.01, 10},  {3, 3, 0.3, 1.5, 0.02, 12},   {4, 10, 0.12, 1.0, 0.0, 25},  {5, 6, 0.05, 1.0, 0.01, 10}};
+  const Case cases[] = {{3, 40, 0.04, 1.0, 0.0, 60},   {3, 40, 0.06, 1.5, 0.05, 60}, {2, 40, 0.1, 2.0, 0.02, 60},
+                        {4, 40, 0.004, 1.0, 0.01, 20}, {3, 24, 0.25, 1.0, 0.0, 60},  {3, 24, 0.25, 1.0, 0.05, 60},
+                        {2, 16, 0.35, 3.0, 0.02, 40},  {3, 2, 0.3, 1.0, 0.0, 10},    {2, 2, 0.4, 1.0, 0.01, 10},
+                        {3, 3, 0.3, 1.5, 0.02, 12},    {4, 10, 0.12, 1.0, 0.0, 25},  {5, 6, 0.05, 1.0, 0.01, 10}};
   for (const Case &c : cases) {
     const Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 5);
     Packing q = start;
@@ -131,8 +132,10 @@ void agrees_with_naive_engine(void **) {
       assert_int_equal(engine->advance(c.collisions, monitor, 1e300), Halt::window);
       engine->write_state(p);
       const double distance = furthest(p, q);
-      if (engine->cells_alone() != (cells == 1 && c.n == 40)) print_error("d=%d n=%d fraction=%g\n", c.dim, c.n, c.fraction);
-      if (!(distance < 1e-7)) print_error("d=%d n=%d growth=%g cells=%d: %g\n", c.dim, c.n, c.growth, static_cast<int>(cells), distance);
+      if (engine->cells_alone() != (cells == 1 && c.n == 40))
+        print_error("d=%d n=%d fraction=%g\n", c.dim, c.n, c.fraction);
+      if (!(distance < 1e-7))
+        print_error("d=%d n=%d growth=%g cells=%d: %g\n", c.dim, c.n, c.growth, static_cast<int>(cells), distance);
       assert_true(distance < 1e-7);
       assert_true(std::fabs(diameter_mean(p) / diameter_mean(q) - 1.0) < 1e-9);
       assert_true(engine->cells_alone() == (cells == 1 && c.n == 40));
@@ -140,7 +143,8 @@ void agrees_with_naive_engine(void **) {
   }
 }
 
-// Dilute systems are on cells, dense ones on lists, and a compression goes over from one to the other. Both give one pressure.
+// Dilute systems are on cells, dense ones on lists, and a compression goes over from one to the other. Both give one
+// pressure.
 void engine_follows_the_density(void **) {
   Monitor monitor;
   monitor.begin();
@@ -164,7 +168,8 @@ void engine_follows_the_density(void **) {
       error += square;
       assert_true(engine->max_overlap < 1e-14);
     }
-    print_message("phi %g: p - 1 = %.4f on lists, %.4f on cells, error %.4f\n", fraction, pressure[0], pressure[1], std::sqrt(error));
+    print_message("phi %g: p - 1 = %.4f on lists, %.4f on cells, error %.4f\n", fraction, pressure[0], pressure[1],
+                  std::sqrt(error));
     assert_true(std::fabs(pressure[1] - pressure[0]) < 4.0 * std::sqrt(error) && std::sqrt(error) < 0.01 * pressure[0]);
   }
   EngineOptions growing;
@@ -180,8 +185,10 @@ void never_overlaps(void **) {
   struct {
     int dim, n;
     double fraction, ratio, growth, pressure;
-  } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4}, {2, 200, 0.4, 10.0, 0.1, 1e3}, {3, 2, 0.2, 1.0, 0.1, 1e6}, {3, 3, 0.1, 2.0, 0.1, 1e6},
-                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},   {6, 40, 0.01, 1.0, 0.3, 1e3}, {3, 200, 0.2, 1.0, 20.0, 1e3},
+  } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4}, {2, 200, 0.4, 10.0, 0.1, 1e3},
+                     {3, 2, 0.2, 1.0, 0.1, 1e6},     {3, 3, 0.1, 2.0, 0.1, 1e6},
+                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},
+                     {6, 40, 0.01, 1.0, 0.3, 1e3},   {3, 200, 0.2, 1.0, 20.0, 1e3},
                      {6, 64, 0.02, 1.4, 0.1, 1e13}};  // the last: pairs in contact through two images at once
   for (const auto &c : cases) {
     Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7);
@@ -190,7 +197,8 @@ void never_overlaps(void **) {
     jam_md_report report{};
     const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 20.0}, monitor, report);
     const double gap = closest_pair(p).gap;
-    if (status != JAM_OK || !(gap > -1e-14)) print_error("d=%d n=%d ratio=%g: status %d, p %g, gap %g\n", c.dim, c.n, c.ratio, status, report.pressure, gap);
+    if (status != JAM_OK || !(gap > -1e-14))
+      print_error("d=%d n=%d ratio=%g: status %d, p %g, gap %g\n", c.dim, c.n, c.ratio, status, report.pressure, gap);
     assert_int_equal(status, JAM_OK);
     assert_true(gap > -1e-14);
     assert_true(report.max_overlap < 1e-13);
@@ -198,8 +206,8 @@ void never_overlaps(void **) {
   }
 }
 
-// report.max_overlap looks at listed pairs at every event, so it sees what has healed by the end. Fast growth: many events in the
-// bucket at hand, whose order must hold (else overlaps of 1e-9 to 1e-3).
+// report.max_overlap looks at listed pairs at every event, so it sees what has healed by the end. Fast growth: many
+// events in the bucket at hand, whose order must hold (else overlaps of 1e-9 to 1e-3).
 void fast_growth_keeps_the_order_of_events(void **) {
   for (double growth : {1.0, 3.0, 30.0})
     for (int64_t seed = 1; seed < 4; ++seed) {
@@ -208,7 +216,8 @@ void fast_growth_keeps_the_order_of_events(void **) {
       monitor.begin();
       jam_md_report report{};
       const jam_status status = run_stage(p, {growth, 1e8, never, 1e3, 20.0}, monitor, report);
-      if (!(report.max_overlap < 1e-14)) print_error("growth %g seed %d: overlap %g\n", growth, static_cast<int>(seed), report.max_overlap);
+      if (!(report.max_overlap < 1e-14))
+        print_error("growth %g seed %d: overlap %g\n", growth, static_cast<int>(seed), report.max_overlap);
       assert_true(status == JAM_OK || report.stop_reason == JAM_STOP_COLLISIONS);
       assert_true(report.max_overlap < 1e-14);
     }
@@ -217,7 +226,8 @@ void fast_growth_keeps_the_order_of_events(void **) {
 // 0 and 1 overlap and part; 2 hits 1 from behind, which is the only event. No list is made in between.
 void an_overlap_between_lists_is_seen(void **) {
   Packing p = random_packing(2, 3, 0.02, 1.0, 1);
-  const double sigma = p.diameter[0], x[] = {0.5, 0.5 + sigma * (1.0 - 1e-5), 0.5 + sigma * (2.0 + 1e-3)}, v[] = {-1e-3, 0.0, -1.0};
+  const double sigma = p.diameter[0], x[] = {0.5, 0.5 + sigma * (1.0 - 1e-5), 0.5 + sigma * (2.0 + 1e-3)},
+               v[] = {-1e-3, 0.0, -1.0};
   for (int i = 0; i < 3; ++i) {
     p.position[2 * i] = x[i], p.velocity[2 * i] = v[i];
     p.position[2 * i + 1] = 0.5, p.velocity[2 * i + 1] = 0.0;
@@ -241,7 +251,8 @@ void few_spheres_meet_the_right_image(void **) {
         monitor.begin();
         jam_md_report report{};
         assert_int_equal(run_stage(p, nve(200.0), monitor, report), JAM_OK);
-        if (!(report.max_overlap < 1e-14)) print_error("d=%d n=%d fraction=%g: overlap %g\n", dim, n, fraction, report.max_overlap);
+        if (!(report.max_overlap < 1e-14))
+          print_error("d=%d n=%d fraction=%g: overlap %g\n", dim, n, fraction, report.max_overlap);
         assert_true(report.max_overlap < 1e-14);
       }
 }
@@ -257,7 +268,8 @@ void stops_inside_a_dense_fluid_without_overlap(void **) {
   }
 }
 
-// Pressure is measured from what a window adds, however much has gone before: growth ends for want of digits, and says so.
+// Pressure is measured from what a window adds, however much has gone before: growth ends for want of digits, and says
+// so.
 void ends_where_the_digits_end(void **) {
   Packing p = random_packing(3, 64, 0.2, 1.0, 1);
   Monitor monitor;
@@ -343,10 +355,16 @@ void calendar_keeps_order_when_two_change(void **) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(calendar_gives_events_in_order), cmocka_unit_test(agrees_with_naive_engine), cmocka_unit_test(engine_follows_the_density), cmocka_unit_test(never_overlaps),
-      cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap), cmocka_unit_test(same_bits_twice),
-      cmocka_unit_test(calendar_keeps_order_when_two_change), cmocka_unit_test(fast_growth_keeps_the_order_of_events),
-      cmocka_unit_test(few_spheres_meet_the_right_image), cmocka_unit_test(an_overlap_between_lists_is_seen),
+      cmocka_unit_test(calendar_gives_events_in_order),
+      cmocka_unit_test(agrees_with_naive_engine),
+      cmocka_unit_test(engine_follows_the_density),
+      cmocka_unit_test(never_overlaps),
+      cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap),
+      cmocka_unit_test(same_bits_twice),
+      cmocka_unit_test(calendar_keeps_order_when_two_change),
+      cmocka_unit_test(fast_growth_keeps_the_order_of_events),
+      cmocka_unit_test(few_spheres_meet_the_right_image),
+      cmocka_unit_test(an_overlap_between_lists_is_seen),
       cmocka_unit_test(ends_where_the_digits_end),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

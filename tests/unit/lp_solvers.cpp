@@ -1,7 +1,7 @@
 // The packing LP: our interior point against Clp, both against the LP's own residuals.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -34,7 +34,8 @@ void agree(const PackingLp &lp) {
   const LpSolution a = interior(lp), b = solve_lp_clp(lp, 1e-10);
   assert_true(a.solved && b.solved);
   const LpCheck check = check_lp(lp, a);
-  assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-3 && std::fabs(check.gap) < 1e-9);
+  assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-3 &&
+              std::fabs(check.gap) < 1e-9);
   if (!(std::fabs(a.g - b.g) < 1e-9)) fail_msg("interior point %.15g, Clp %.15g", a.g, b.g);
 }
 
@@ -71,7 +72,8 @@ void far_rows_bind(void **) {
   }
 }
 
-// A chain of LPs, each solved from the multipliers of the one before and from nothing; and from multipliers that mislead.
+// A chain of LPs, each solved from the multipliers of the one before and from nothing; and from multipliers that
+// mislead.
 void warm_starts(void **) {
   Packing p = start(80, 3, 0.3, 2);
   const double unit = diameter_mean(p);
@@ -108,11 +110,13 @@ void warm_starts(void **) {
     bound = std::min(0.3, std::max({5.0 * step, cold.g, 1e-6}));
   }
   assert_true(settled > 2 && 2 * warm_iterations < cold_iterations);
-  print_message("last LPs: %d iterations warm, %d cold; %d warm starts gave up\n", warm_iterations, cold_iterations, misled);
+  print_message("last LPs: %d iterations warm, %d cold; %d warm starts gave up\n", warm_iterations, cold_iterations,
+                misled);
   std::vector<double> y = {3.0, 0.0, 1.0};
   const std::vector<double> w = {1.0, 2.0, 1e-6};
   const double mu = centre_multipliers(y, w, 3.0);
-  assert_true(std::fabs(mu - 0.25 * (3.0 + 1e-6) / 3.0) < 1e-15);  // sum y w of the known ones, scaled to sum 1, over three
+  assert_true(std::fabs(mu - 0.25 * (3.0 + 1e-6) / 3.0) <
+              1e-15);  // sum y w of the known ones, scaled to sum 1, over three
   assert_true(y[0] == 0.75 && y[1] == mu / 2.0 && y[2] == mu / (10.0 * w[2]));  // the last is pulled up
   y.assign(3, 0.0);
   const double path = centre_multipliers(y, w, 3.0);
@@ -161,7 +165,8 @@ void degenerate_instances(void **) {
   agree(small);
 }
 
-// FCC in contact, with and without a vacancy: 18 rows a particle more than its motions need, every answer but g degenerate.
+// FCC in contact, with and without a vacancy: 18 rows a particle more than its motions need, every answer but g
+// degenerate.
 void fcc_instances(void **) {
   const double basis[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
   for (int vacancy = 0; vacancy < 2; ++vacancy)
@@ -249,8 +254,8 @@ void check_sees_errors(void **) {
   assert_true(check_lp(lp, bad).infeasibility > 0.009);
 }
 
-// A wide bound around a state whose contacts are all but closed: many rows that started as far cut the first steps. They join together
-// instead of a few at a time, and the LP is solved.
+// A wide bound around a state whose contacts are all but closed: many rows that started as far cut the first steps.
+// They join together instead of a few at a time, and the LP is solved.
 void far_rows_cut_steps(void **) {
   Packing p = start(1024, 3, 0.3, 1);
   jam_crunch_options o = default_crunch_options();
@@ -271,9 +276,11 @@ void far_rows_cut_steps(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances), cmocka_unit_test(far_rows_bind), cmocka_unit_test(far_rows_cut_steps), cmocka_unit_test(warm_starts), cmocka_unit_test(left_early),
-                              cmocka_unit_test(degenerate_instances),
-                              cmocka_unit_test(fcc_instances), cmocka_unit_test(vanishing_bound),
-                              cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances),    cmocka_unit_test(far_rows_bind),
+                              cmocka_unit_test(far_rows_cut_steps),  cmocka_unit_test(warm_starts),
+                              cmocka_unit_test(left_early),          cmocka_unit_test(degenerate_instances),
+                              cmocka_unit_test(fcc_instances),       cmocka_unit_test(vanishing_bound),
+                              cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance),
+                              cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -34,8 +34,8 @@ inline void resize(Packing &p, ContactNetwork &net, int32_t sphere, double chang
   for (size_t k = 0; k < net.size(); ++k) net.gap[k] = relative_gap(p, net.pairs, k);
 }
 
-// One sphere is made larger or smaller until the nearest pair that is no contact is `wanted` apart. Returns how fast it moved; 0 when
-// a force turns negative on the way.
+// One sphere is made larger or smaller until the nearest pair that is no contact is `wanted` apart. Returns how fast it
+// moved; 0 when a force turns negative on the way.
 inline double bring_together(Packing &p, ContactNetwork &net, PairList &pair, int32_t &sphere, double wanted) {
   for (size_t i = 0; i < p.n(); ++i)
     if (net.coordination[i] == 0) p.diameter[i] *= 0.1;  // rattlers are not in the way

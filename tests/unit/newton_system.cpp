@@ -1,7 +1,8 @@
-// Newton systems solved with the factor of other numbers: against a factorisation of their own, and where that takes too long.
+// Newton systems solved with the factor of other numbers: against a factorisation of their own, and where that takes
+// too long.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -70,9 +71,12 @@ Answer difference(const Answer &x, const Answer &y) {
 
 constexpr double right_side = 0.7;  // h
 
-// `own` has a factor of the weights w and with it the exact answer, `other` one of the scene's weights and follows w from nothing.
-void follow(Scene &scene, const std::vector<double> &w, NewtonSystem &own, NewtonSystem &other, Answer &exact, Answer &found) {
-  for (NewtonSystem *system : {&own, &other}) system->set_graph(scene.dim, scene.n, scene.pairs, 1), assert_false(system->has_factor());
+// `own` has a factor of the weights w and with it the exact answer, `other` one of the scene's weights and follows w
+// from nothing.
+void follow(Scene &scene, const std::vector<double> &w, NewtonSystem &own, NewtonSystem &other, Answer &exact,
+            Answer &found) {
+  for (NewtonSystem *system : {&own, &other})
+    system->set_graph(scene.dim, scene.n, scene.pairs, 1), assert_false(system->has_factor());
   assert_true(own.factorise(scene.a.data(), w.data(), scene.box.data()));
   assert_true(other.factorise(scene.a.data(), scene.weight.data(), scene.box.data()));
   exact.s.resize(scene.rhs.size()), found.s.assign(scene.rhs.size(), 0.0);
@@ -81,7 +85,8 @@ void follow(Scene &scene, const std::vector<double> &w, NewtonSystem &own, Newto
   assert_true(other.has_factor());
 }
 
-// The preconditioner's numbers differ by less than a factor of 2 but for one row, so the energy of the error that it sees is right to that.
+// The preconditioner's numbers differ by less than a factor of 2 but for one row, so the energy of the error that it
+// sees is right to that.
 void follows(int dim, double accuracy) {
   Scene scene(dim);
   const std::vector<double> w = scene.changed(0.5);
@@ -92,7 +97,8 @@ void follows(int dim, double accuracy) {
   const double whole = energy(own, scene, w, exact), rest = energy(own, scene, w, difference(exact, found));
   assert_true(rest < 4.0 * accuracy * accuracy * whole);
   if (accuracy > 0.01) assert_true(rest > 1e-12 * whole);  // no more than was asked for
-  // From its own answer one solve sees that nothing is left to do; other right-hand sides cost as much as their difference is large.
+  // From its own answer one solve sees that nothing is left to do; other right-hand sides cost as much as their
+  // difference is large.
   const int before = other.near_solves;
   assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 2.0 * accuracy, 200));
   assert_true(other.near_solves <= before + 1);
@@ -102,7 +108,8 @@ void agrees(void **) {
   for (const int dim : {2, 3, 5}) follows(dim, 0.1), follows(dim, 1e-7);
 }
 
-// A sphere that was loose when the factor was made and is held now: the factor overrates what pushes it by nine orders of magnitude.
+// A sphere that was loose when the factor was made and is held now: the factor overrates what pushes it by nine orders
+// of magnitude.
 void met_its_cage(void **) {
   Scene scene(3);
   const std::vector<double> w = scene.changed(2.0);
@@ -127,7 +134,8 @@ void limit(void **) {
   assert_false(system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-9, 4));
   assert_true(system.near_solves <= 5);
   assert_true(energy(own, scene, w, difference(exact, found)) < 0.9 * energy(own, scene, w, exact));
-  assert_true(system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-6, 500));  // goes on from there
+  assert_true(
+      system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-6, 500));  // goes on from there
 }
 
 // A factor serves its own pairs only.
@@ -146,6 +154,7 @@ void other_pairs(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(agrees), cmocka_unit_test(met_its_cage), cmocka_unit_test(limit), cmocka_unit_test(other_pairs)};
+  const CMUnitTest tests[] = {cmocka_unit_test(agrees), cmocka_unit_test(met_its_cage), cmocka_unit_test(limit),
+                              cmocka_unit_test(other_pairs)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,7 +1,7 @@
 // Sums over all spheres: as exact for very many as for one.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -14,8 +14,8 @@ using namespace jam;
 
 namespace {
 
-// Of n equal spheres the mean diameter is the diameter, and the packing fraction is n times that of one. Diameters without a short
-// binary form, in numbers where sums in double lose three digits.
+// Of n equal spheres the mean diameter is the diameter, and the packing fraction is n times that of one. Diameters
+// without a short binary form, in numbers where sums in double lose three digits.
 void sums_of_many(void **) {
   for (const int dim : {2, 3, 5})
     for (const size_t n : {1000u, 65536u, 300007u})

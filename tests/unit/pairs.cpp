@@ -1,7 +1,7 @@
 // Pair lists: cells against brute force over all images, small boxes, wrapping.
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 extern "C" {
 #include <cmocka.h>
@@ -30,13 +30,15 @@ void cells_equal_brute_force(void **) {
       assert_true(a.i == b.i && a.j == b.j && a.offset == b.offset);
       std::vector<double> own(p.n());
       for (size_t k = 0; k < own.size(); ++k) own[k] = reach * static_cast<double>(k % 4);
-      const PairList c = find_pairs(p, own, slope), d = find_pairs_brute(p, own, slope), all = find_pairs(p, 3.0 * reach, slope);
+      const PairList c = find_pairs(p, own, slope), d = find_pairs_brute(p, own, slope),
+                     all = find_pairs(p, 3.0 * reach, slope);
       assert_true(c.i == d.i && c.j == d.j && c.offset == d.offset);
       size_t expected = 0;
       double r[JAM_MAX_DIM];
       for (size_t k = 0; k < all.size(); ++k) {
         const size_t i = all.i[k], j = all.j[k];
-        expected += std::sqrt(pair_vector(p, all, k, r)) - slope * 0.5 * (p.diameter[i] + p.diameter[j]) < std::max(own[i], own[j]);
+        expected += std::sqrt(pair_vector(p, all, k, r)) - slope * 0.5 * (p.diameter[i] + p.diameter[j]) <
+                    std::max(own[i], own[j]);
       }
       assert_true(c.size() == expected && expected > 0 && expected < all.size());
     }
@@ -100,6 +102,7 @@ void closest(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force), cmocka_unit_test(own_images),
-                              cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(values_carried_over), cmocka_unit_test(closest)};
+                              cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(values_carried_over),
+                              cmocka_unit_test(closest)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -23,7 +23,9 @@ from .system import Contacts, Modes, System
 
 __version__ = raw.jam_version()
 if raw.jam_abi_version() != JAM_ABI:
-    raise ImportError(f"jam was built for ABI {JAM_ABI} of libjam, the library that was found has {raw.jam_abi_version()}")
+    raise ImportError(
+        f"jam was built for ABI {JAM_ABI} of libjam, the library that was found has {raw.jam_abi_version()}"
+    )
 
 _LAZY = ("plot", "files", "cli")
 
@@ -31,6 +33,7 @@ _LAZY = ("plot", "files", "cli")
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
         import importlib
+
         return importlib.import_module("." + name, __name__)
     raise AttributeError(f"module 'jam' has no attribute {name!r}")
 

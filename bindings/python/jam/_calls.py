@@ -115,7 +115,9 @@ def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str,
         elif len(owners) == 1:
             members[owners[0]][key] = value
         else:
-            raise TypeError(f"{name}: unknown option {key!r}; there are {', '.join(plain + [k for s in structs.values() for k in OPTIONS[s]])}")
+            raise TypeError(
+                f"{name}: unknown option {key!r}; there are {', '.join(plain + [k for s in structs.values() for k in OPTIONS[s]])}"
+            )
     given.update({s: options(kind, members[s]) for s, kind in structs.items()})
     optional = {a[0] for a in inputs if a[1] == "array_in"}
     if missing := set(plain) - optional - set(given):

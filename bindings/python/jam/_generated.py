@@ -131,8 +131,8 @@ class StepPhase(IntEnum):
 
 
 class HistoryColumn(IntEnum):
-    """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean
-    diameters after the step. NaN where a column has no meaning. @since 0.1"""
+    """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
+    mean diameters after the step. NaN where a column has no meaning. @since 0.1"""
     PHASE = 0  # a jam_step_phase
     GAIN = 1  # sqrt(Gamma) - 1: relative growth of the diameters in this step
     PHI = 2  # packing fraction after the step

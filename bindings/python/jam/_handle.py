@@ -77,6 +77,7 @@ class Base(Methods):
             if len(self.trace) < TRACE_LENGTH:
                 self.trace.append(record)
             return bool(user(record)) if user else False
+
         return on_progress
 
     @contextmanager

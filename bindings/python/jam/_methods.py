@@ -17,17 +17,17 @@ class Methods:
         raise NotImplementedError
 
     def checkpoint_write(self, path: str) -> None:
-        """Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
-        or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
-        goes on from it makes the same bits as one that never stopped there. Threads: const.
-        Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
+        """Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
+        stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
+        renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+        JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
 
     def observe(self, *, collisions: int | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
-        """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
-        Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
-        present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
-        Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+        """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
+        dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
+        show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
+        it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
 
         Options:
         collisions: 1: collisions of each sphere, and collisions and momentum of each pair; default 0
@@ -46,26 +46,26 @@ class Methods:
         return self.call('observe_stop', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
-        """Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
-        its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
-        length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"""
+        """Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
+        before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
+        NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"""
         return self.call('observed_series')
 
     def observed_spheres(self) -> ObservedSpheresResult:
-        """Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
-        0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+        length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_spheres')
 
     def observed_pairs(self) -> ObservedPairsResult:
         """Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
-        sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
-        be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
+        may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_pairs')
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
-        h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
-        0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+        limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+        with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_gaps')
 
     def observed_correlation(self) -> ObservedCorrelationResult:
@@ -74,9 +74,9 @@ class Methods:
         return self.call('observed_correlation')
 
     def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None) -> Estimate:
-        """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
-        JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-        JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+        """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
+        same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+        JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
 
         Options:
         lp_solver: jam_lp_solver, default IPM (optimizer)
@@ -94,19 +94,21 @@ class Methods:
         return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps)
 
     def crunch_history(self, column: int | str) -> np.ndarray:
-        """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
-        same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+        """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
+        from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+        @since 0.1"""
         return self.call('crunch_history', column)
 
     def crunch_step_displacements(self) -> np.ndarray:
-        """The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
-        only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
-        from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+        """The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
+        and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
+        followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+        JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
         return self.call('crunch_step_displacements')
 
     def crunch_step_contacts(self) -> np.ndarray:
-        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
-        no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"""
+        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
+        steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"""
         return self.call('crunch_step_contacts')
 
     def crunch_step_vectors(self) -> np.ndarray:
@@ -115,16 +117,18 @@ class Methods:
 
     def crunch_step_duals(self) -> np.ndarray:
         """Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-        sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1"""
+        sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
+        0.1"""
         return self.call('crunch_step_duals')
 
     def contact_vectors(self) -> np.ndarray:
-        """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1"""
+        """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
+        0.1"""
         return self.call('contact_vectors')
 
     def contact_gaps(self) -> np.ndarray:
-        """Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of the weakest
-        may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
+        """Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
+        the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
         Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_gaps')
 
@@ -134,12 +138,13 @@ class Methods:
         return self.call('hessian_map')
 
     def contacts_from_geometry(self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None) -> GeometryReport:
-        """Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
-        Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
-        null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one state of self-stress,
-        more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several states of self-stress: the
-        non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces, or no contacts). Errors: JAM_E_NULL,
-        JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+        """Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
+        moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
+        are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
+        state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
+        states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
+        or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
+        Threads: alone. @since 0.1
 
         Options:
         tolerance: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
@@ -147,17 +152,17 @@ class Methods:
         return self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
 
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
-        """Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
-        enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
-        gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
-        Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        """Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
+        jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
+        (m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
+        needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
         return self.call('contact_candidates', window)
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
-        """States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
-        from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
-        Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
-        of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
+        """States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+        (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
+        with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
+        = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('stress_states', progress=progress)
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
@@ -181,18 +186,19 @@ class Methods:
         return self.call('contact_dots', weighted)
 
     def class_values(self, quantity: int | str, which: int | str) -> np.ndarray:
-        """Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
-        jam_contacts, JAM_E_ARGUMENT. @since 0.1"""
+        """Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
+        Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1"""
         return self.call('class_values', quantity, which)
 
     def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> np.ndarray:
-        """Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
-        there. Threads: const. Errors: as jam_class_values. @since 0.1"""
+        """Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
+        values there. Threads: const. Errors: as jam_class_values. @since 0.1"""
         return self.call('histogram', quantity, which, low, high, bins)
 
     def pair_correlation(self, kind: Any, a: int, b: int, r_max: float, bins: int) -> np.ndarray:
-        """g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
-        diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1"""
+        """g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
+        mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
+        @since 0.1"""
         return self.call('pair_correlation', kind, a, b, r_max, bins)
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
@@ -202,8 +208,8 @@ class Methods:
         return self.call('structure_factor', q_max, progress=progress)
 
     def bond_order(self, l: int, cutoff: float) -> np.ndarray:
-        """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
-        (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"""
+        """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
+        3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"""
         return self.call('bond_order', l, cutoff)
 
     def crystal_score(self) -> float:
@@ -212,30 +218,31 @@ class Methods:
         return self.call('crystal_score')
 
     def local_fraction(self) -> np.ndarray:
-        """Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
-        JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"""
+        """Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
+        JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"""
         return self.call('local_fraction')
 
     def floppy_mode(self, contact: int, *, progress: Progressing = None) -> np.ndarray:
-        """Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
-        common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+        """Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
+        a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
         (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-        weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
-        order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
-        are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F). Arrays may be
-        NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
+        """The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
+        localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
+        at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
+        second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
+        force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
+        jam_floppy_mode. Threads: alone. @since 0.1"""
         return self.call('floppy_modes', progress=progress)
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
-        """Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
-        omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-        and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
-        well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-        JAM_E_TOO_FEW. Threads: alone. @since 0.1
+        """Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
+        computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
+        `points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
+        is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
+        Threads: alone. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
@@ -248,8 +255,8 @@ class Methods:
         return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
     def cumulative_spectrum(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> CumulativeSpectrumResult:
-        """Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
-        error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+        """Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
+        standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
@@ -262,8 +269,8 @@ class Methods:
         return self.call('cumulative_spectrum', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
     def project(self, vector: Any = None, u: Any = None) -> np.ndarray:
-        """Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
-        modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
+        """Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
+        all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
         return self.call('project', vector, u)
 
     def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
@@ -276,8 +283,8 @@ class Methods:
         return self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
 
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
-        """Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
-        unstable. Threads: alone. @since 0.1
+        """Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
+        the network unstable. Threads: alone. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
@@ -286,8 +293,8 @@ class Methods:
         return self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
 
     def compare(self, other: Any) -> CompareResult:
-        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
-        nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
+        other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
         Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
         return self.call('compare', other)
 

@@ -38,8 +38,9 @@ class Network(Base):
         """Pairs, unit vectors, gaps and forces of the contacts, as copies."""
         if self._carried:
             return self._carried[1]
-        return Contacts(self.call("contacts"), self.call("contact_vectors"),
-                        self.call("contact_gaps"), self.call("forces"))
+        return Contacts(
+            self.call("contacts"), self.call("contact_vectors"), self.call("contact_gaps"), self.call("forces")
+        )
 
     @property
     def forces(self) -> np.ndarray:
@@ -70,6 +71,7 @@ class Network(Base):
         stiffness: 'harmonic', 'power' (with alpha) or 'hard'. options: alpha, prestress.
         """
         from scipy.sparse import csr_matrix
+
         chosen = _calls.options("jam_hessian_options", dict(options, stiffness=stiffness))
         size = self.dim * len(self.call("hessian_map"))
         count = raw.jam_hessian(self.handle, chosen, None, None, None)[1]
@@ -77,8 +79,17 @@ class Network(Base):
         raw.jam_hessian(self.handle, chosen, start, column, value)
         return csr_matrix((value, column, start), shape=(size, size))
 
-    def modes(self, k: int = 10, which: int | str = "lowest", stiffness: int | str = "harmonic", *, progress: Any = None,
-              alpha: float | None = None, prestress: float | None = None, **options: Any) -> Modes:
+    def modes(
+        self,
+        k: int = 10,
+        which: int | str = "lowest",
+        stiffness: int | str = "harmonic",
+        *,
+        progress: Any = None,
+        alpha: float | None = None,
+        prestress: float | None = None,
+        **options: Any,
+    ) -> Modes:
         """Vibrational modes of the network. k: how many. which: 'lowest', 'highest', 'near' (with frequency), 'all'.
 
         progress: as in crunch. options: frequency, tolerance, memory_limit.
@@ -87,7 +98,11 @@ class Network(Base):
         h = _calls.options("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
         o = _calls.options("jam_modes_options", dict(options, which=which, count=k))
         spheres = self.call("hessian_map")
-        m = min(k, self.dim * len(spheres)) if _calls.as_enum(which, "ModesWhich") != ModesWhich.ALL else self.dim * len(spheres)
+        m = (
+            min(k, self.dim * len(spheres))
+            if _calls.as_enum(which, "ModesWhich") != ModesWhich.ALL
+            else self.dim * len(spheres)
+        )
         values, vectors = np.empty(m), np.empty((m, len(spheres), self.dim))
         participation = np.empty(m)
         with self._reporting(progress):

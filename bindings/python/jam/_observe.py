@@ -85,11 +85,15 @@ class Observing(Base):
 
     def _stepper(self, on_step: Callable[[Step], Any], user: Callable | None) -> Callable:
         """A progress callable that hands each finished step of a crunch to on_step; a true answer of either stops the call."""
+
         def on_progress(p: Any) -> bool:
             stop = bool(user(p)) if user else False
             try:
-                step = Step(*(self.call("crunch_step_" + name) for name in ("displacements", "contacts", "vectors", "duals")))
+                step = Step(
+                    *(self.call("crunch_step_" + name) for name in ("displacements", "contacts", "vectors", "duals"))
+                )
             except errors.StateError:  # amid a step
                 return stop
             return bool(on_step(step)) or stop
+
         return on_progress

@@ -36,6 +36,7 @@ class Line:
         if self._on:
             try:
                 from tqdm.auto import tqdm
+
                 self._bar = tqdm(total=1.0, bar_format="{desc} |{bar}|", leave=True)
             except ImportError:
                 pass

@@ -28,7 +28,9 @@ def take_diameters(text: str) -> tuple[str, Any]:
     if not colon or word not in ("lognormal", "bidisperse"):
         return "file", text
     if not 0 < float(number) < math.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} must be lognormal:S or bidisperse:R with a finite number > 0, or a file")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} must be lognormal:S or bidisperse:R with a finite number > 0, or a file"
+        )
     return word, float(number)
 
 
@@ -51,14 +53,25 @@ def _diameters(o: argparse.Namespace, n: int) -> np.ndarray | None:
     if kind == "bidisperse":
         return None if value == 1 else np.where(np.arange(n) < n // 2, 1.0, value)
     width = math.sqrt(math.log1p(value * value))
-    return np.array([math.exp(width * math.sqrt(-2 * math.log(_uniform(o.seed, 2 * k)))
-                              * math.cos(6.283185307179586 * _uniform(o.seed, 2 * k + 1))) for k in range(n)])
+    return np.array(
+        [
+            math.exp(
+                width
+                * math.sqrt(-2 * math.log(_uniform(o.seed, 2 * k)))
+                * math.cos(6.283185307179586 * _uniform(o.seed, 2 * k + 1))
+            )
+            for k in range(n)
+        ]
+    )
 
 
 def start(o: argparse.Namespace) -> System:
     if o.resume:
         return System.from_checkpoint(o.resume)
-    model = {"model": "mk" if o.model == "mk" or o.zeta is not None or o.plant is not None else "euclid", "mk_zeta": o.zeta}
+    model = {
+        "model": "mk" if o.model == "mk" or o.zeta is not None or o.plant is not None else "euclid",
+        "mk_zeta": o.zeta,
+    }
     if o.input:
         return System.read(o.input, seed=o.seed, box=o.box, overlap="shrink" if o.shrink else "refuse", **model)
     sizes = _diameters(o, 1024 if o.n is None else o.n)

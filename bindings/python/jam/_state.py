@@ -24,7 +24,9 @@ class State(Base):
     dim = property(lambda self: self._constant("dim"), doc="Dimension d.")
     box = property(lambda self: self._constant("box"), doc="Side of the cube.")
     seed = property(lambda self: self._constant("seed"), doc="Seed recorded at creation.")
-    packing_fraction = property(lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the box.")
+    packing_fraction = property(
+        lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the box."
+    )
     pressure = property(lambda self: self.info.pressure, doc="Reduced pressure last measured by MD, nan before.")
 
     def _constant(self, name: str) -> Any:

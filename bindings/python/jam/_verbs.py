@@ -26,11 +26,21 @@ class Verbs(Observing):
 
     def run(self, collisions_per_particle: float | None = None, *, progress: Any = None, **options: Any) -> MdReport:
         """Event-driven NVE dynamics. Returns an MdReport; report.status > 0 says that it stopped early."""
-        return self._verb("jam_run", "jam_run_options", "jam_md_report", progress,
-                          dict(options, collisions_per_particle=collisions_per_particle))
+        return self._verb(
+            "jam_run",
+            "jam_run_options",
+            "jam_md_report",
+            progress,
+            dict(options, collisions_per_particle=collisions_per_particle),
+        )
 
-    def compress(self, stages: Iterable[Mapping[str, float] | Sequence[float]] | None = None, *, progress: Any = None,
-                 **options: Any) -> MdReport:
+    def compress(
+        self,
+        stages: Iterable[Mapping[str, float] | Sequence[float]] | None = None,
+        *,
+        progress: Any = None,
+        **options: Any,
+    ) -> MdReport:
         """Lubachevsky-Stillinger compression. Without arguments: the two-stage protocol that avoids crystals.
 
         stages: a sequence of {option: value} or (growth_rate, pressure), run one after the other, each on top of
@@ -57,7 +67,13 @@ class Verbs(Observing):
         if on_step is not None:
             user = reporter(progress)
             try:
-                return self._verb("jam_crunch", "jam_crunch_options", "jam_report", self._stepper(on_step, user), {**options, "steps": 1})
+                return self._verb(
+                    "jam_crunch",
+                    "jam_crunch_options",
+                    "jam_report",
+                    self._stepper(on_step, user),
+                    {**options, "steps": 1},
+                )
             finally:
                 if hasattr(user, "close"):
                     user.close()
@@ -77,4 +93,6 @@ class Verbs(Observing):
 for _verb, _struct in (("run", "run"), ("compress", "compress"), ("crunch", "crunch")):
     getattr(Verbs, _verb).__doc__ += (
         "\n\n        progress: True for a bar, or a callable(Progress) whose true answer stops the call.\n        Options:\n    "
-        + _calls.describe(f"jam_{_struct}_options").replace("\n", "\n    ") + "\n        ")
+        + _calls.describe(f"jam_{_struct}_options").replace("\n", "\n    ")
+        + "\n        "
+    )

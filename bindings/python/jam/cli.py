@@ -48,42 +48,81 @@ def _stage(text: str) -> tuple[float, float | None]:
 
 
 def parser() -> argparse.ArgumentParser:
-    p = argparse.ArgumentParser(prog="python3 -m jam", description="Makes a jammed packing of hard spheres: random start, "
-                                "event-driven molecular dynamics with growth, then iterated linear programming.",
-                                epilog="Example: python3 -m jam --n 512 --dim 2 --diameters-ratio 1.4 --output p.xyz --plot p.png. "
-                                "Exit status: 0 done; 1 stopped early or not jammed, the state reached is written; 2 wrong command "
-                                "line; 3 request or input refused; 4 an output cannot be written.")
+    p = argparse.ArgumentParser(
+        prog="python3 -m jam",
+        description="Makes a jammed packing of hard spheres: random start, "
+        "event-driven molecular dynamics with growth, then iterated linear programming.",
+        epilog="Example: python3 -m jam --n 512 --dim 2 --diameters-ratio 1.4 --output p.xyz --plot p.png. "
+        "Exit status: 0 done; 1 stopped early or not jammed, the state reached is written; 2 wrong command "
+        "line; 3 request or input refused; 4 an output cannot be written.",
+    )
     p.add_argument("--n", type=int, help="spheres (1024)")
     p.add_argument("--dim", type=int, default=3, help="dimension, 2..8 (3)")
-    p.add_argument("--phi0", type=_positive, help="packing fraction of the random start (0.2; halved per dimension above 3)")
-    p.add_argument("--diameters-ratio", type=_positive, default=1.0, metavar="R", help="half of the spheres are R times as large (1)")
-    p.add_argument("--diameters", type=take_diameters, metavar="WHAT", help="bidisperse:R as above; lognormal:S with S the standard "
-                   "deviation over the mean; or a file of diameters, of which the ratios count")
-    p.add_argument("--model", choices=["euclid", "mk"], default="euclid", help="distance: Euclidean (default) or Mari-Kurchan")
+    p.add_argument(
+        "--phi0", type=_positive, help="packing fraction of the random start (0.2; halved per dimension above 3)"
+    )
+    p.add_argument(
+        "--diameters-ratio",
+        type=_positive,
+        default=1.0,
+        metavar="R",
+        help="half of the spheres are R times as large (1)",
+    )
+    p.add_argument(
+        "--diameters",
+        type=take_diameters,
+        metavar="WHAT",
+        help="bidisperse:R as above; lognormal:S with S the standard "
+        "deviation over the mean; or a file of diameters, of which the ratios count",
+    )
+    p.add_argument(
+        "--model", choices=["euclid", "mk"], default="euclid", help="distance: Euclidean (default) or Mari-Kurchan"
+    )
     p.add_argument("--zeta", type=_not_negative, metavar="Z", help="strength of the Mari-Kurchan shifts (infinite)")
-    p.add_argument("--plant", type=_positive, metavar="F", help="Mari-Kurchan start, planted in equilibrium at packing fraction F")
+    p.add_argument(
+        "--plant", type=_positive, metavar="F", help="Mari-Kurchan start, planted in equilibrium at packing fraction F"
+    )
     p.add_argument("--seed", type=int, default=1)
-    p.add_argument("--input", metavar="FILE", help="start from a file; MD is then off unless --growth or --nve is given")
+    p.add_argument(
+        "--input", metavar="FILE", help="start from a file; MD is then off unless --growth or --nve is given"
+    )
     p.add_argument("--box", type=_positive, default=1.0, help="side of the box for a plain file that names none (1)")
     p.add_argument("--shrink", action="store_true", help="shrink overlapping spheres of the file to contact")
-    p.add_argument("--nve", type=_not_negative, default=0.0, metavar="C", help="first C collisions per particle without growth (0)")
-    p.add_argument("--growth", type=_stage, action="append", metavar="RATE[:P]", help="a stage; repeatable. Default 1e-2:500, then 3e-3")
+    p.add_argument(
+        "--nve", type=_not_negative, default=0.0, metavar="C", help="first C collisions per particle without growth (0)"
+    )
+    p.add_argument(
+        "--growth",
+        type=_stage,
+        action="append",
+        metavar="RATE[:P]",
+        help="a stage; repeatable. Default 1e-2:500, then 3e-3",
+    )
     p.add_argument("--pressure", type=_pressure, default=1e7, metavar="P", help="target of stages without :P (1e7)")
     p.add_argument("--no-md", action="store_true")
     p.add_argument("--checkpoint", metavar="FILE", help="state of the dynamics, every minute and where they stop")
-    p.add_argument("--resume", metavar="FILE", help="go on from a checkpoint, to the same bits: the stage that was cut off, then those "
-                   "stages whose pressure lies beyond")
+    p.add_argument(
+        "--resume",
+        metavar="FILE",
+        help="go on from a checkpoint, to the same bits: the stage that was cut off, then those "
+        "stages whose pressure lies beyond",
+    )
     p.add_argument("--no-crunch", action="store_true")
     p.add_argument("--lp", choices=["ipm", "clp"], default="ipm")
     p.add_argument("--threads", type=int, choices=[1, 2], default=1)
     p.add_argument("--wall-time", type=_positive, metavar="SECONDS", help="limit for the whole run")
     p.add_argument("--output", metavar="FILE", help="the packing; extended XYZ if the name ends in .xyz, else plain")
     p.add_argument("--contacts", metavar="FILE.csv")
-    p.add_argument("--spectrum", metavar="FILE.csv", help="lowest modes of the harmonic Hessian: omega^2, omega, participation")
+    p.add_argument(
+        "--spectrum", metavar="FILE.csv", help="lowest modes of the harmonic Hessian: omega^2, omega, participation"
+    )
     p.add_argument("--modes", type=_whole, metavar="K", help="how many --spectrum writes (100); 0: all")
     p.add_argument("--gaps", metavar="FILE.csv", help="gaps h < 1 of pairs that are no contacts, sorted")
-    p.add_argument("--structure", metavar="FILE.csv", help="a line a sphere: contacts, class, sums of contact vectors and forces, Q6, "
-                   "local packing fraction")
+    p.add_argument(
+        "--structure",
+        metavar="FILE.csv",
+        help="a line a sphere: contacts, class, sums of contact vectors and forces, Q6, " "local packing fraction",
+    )
     p.add_argument("--report", metavar="FILE|-", help="figures and certificate as JSON")
     p.add_argument("--vtk", metavar="PREFIX", help="PREFIX.vtp and PREFIX-forces.vtp for ParaView")
     p.add_argument("--plot", metavar="PICTURE", help="spheres, force network, forces and the way there, by matplotlib")
@@ -107,7 +146,9 @@ class _Work:
         o, out = self.o, self.out
         while True:
             try:
-                md = getattr(self.system, verb)(progress=not o.quiet, wall_time=min(60.0, self.left()) if o.checkpoint else self.left(), **options)
+                md = getattr(self.system, verb)(
+                    progress=not o.quiet, wall_time=min(60.0, self.left()) if o.checkpoint else self.left(), **options
+                )
             finally:
                 if o.checkpoint:
                     self.system.checkpoint_write(o.checkpoint)
@@ -123,7 +164,7 @@ class _Work:
         o = self.o
         steps = [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 and not o.resume else []
         if not o.no_md and (o.growth or not o.input):
-            chosen = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][:2 if o.pressure > 500 else 1]
+            chosen = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][: 2 if o.pressure > 500 else 1]
             steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in chosen]
         if o.resume:  # what the checkpoint was in the middle of; then the stages that lead beyond its pressure
             paused = {Phase.RUN: "run", Phase.COMPRESS: "compress"}.get(self.system.info.paused)
@@ -149,15 +190,41 @@ class _Work:
 
 def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
     i, r = system.info, out["crunch"]
-    made = {"n": i.n, "dim": i.dim, "seed": i.seed, "packing_fraction": i.packing_fraction, "diameter_mean": i.diameter_mean,
-            "pressure": out["pressure"], "collisions": out["collisions"],
-            "collisions_per_second": out["collisions"] / out["seconds_md"] if out["seconds_md"] else None}
-    for key in ("lp_solves", "factorisations", "contacts", "rattlers", "bucklers", "one_ss", "excess_contacts", "max_overlap",
-                "force_residual", "gamma_residual", "min_force", "min_gap", "duality_gap", "gain"):
+    made = {
+        "n": i.n,
+        "dim": i.dim,
+        "seed": i.seed,
+        "packing_fraction": i.packing_fraction,
+        "diameter_mean": i.diameter_mean,
+        "pressure": out["pressure"],
+        "collisions": out["collisions"],
+        "collisions_per_second": out["collisions"] / out["seconds_md"] if out["seconds_md"] else None,
+    }
+    for key in (
+        "lp_solves",
+        "factorisations",
+        "contacts",
+        "rattlers",
+        "bucklers",
+        "one_ss",
+        "excess_contacts",
+        "max_overlap",
+        "force_residual",
+        "gamma_residual",
+        "min_force",
+        "min_gap",
+        "duality_gap",
+        "gain",
+    ):
         made[key] = getattr(r, key) if r else None
     made["jammed"] = bool(r.jammed) if r else None
-    made |= {"stop_reason": out["stop_reason"], "md_stop_reason": out["md_stop_reason"], "seconds_md": out["seconds_md"],
-             "seconds_crunch": r.seconds if r else 0.0, "version": raw.jam_version()}
+    made |= {
+        "stop_reason": out["stop_reason"],
+        "md_stop_reason": out["md_stop_reason"],
+        "seconds_md": out["seconds_md"],
+        "seconds_crunch": r.seconds if r else 0.0,
+        "version": raw.jam_version(),
+    }
     return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in made.items()}
 
 
@@ -187,14 +254,20 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
                 file.write(text)
     if o.plot:
         from . import plot
-        (plot.summary(system) if crunched and out["crunch"].contacts else plot.packing(system).figure).savefig(o.plot, dpi=150)
+
+        (plot.summary(system) if crunched and out["crunch"].contacts else plot.packing(system).figure).savefig(
+            o.plot, dpi=150
+        )
     if not o.quiet and o.report != "-":
         print(out["crunch"] if crunched else system.info)
 
 
 def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     """The files that will be written: each its own, none over the input, none without the crunch that it shows."""
-    chosen = {k: getattr(o, k) for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk", "checkpoint")}
+    chosen = {
+        k: getattr(o, k)
+        for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk", "checkpoint")
+    }
     chosen = {k: path for k, path in chosen.items() if path and path != "-"}
     for key, path in chosen.items():
         for other in chosen:
@@ -222,7 +295,14 @@ def main(arguments: list[str] | None = None) -> int:
         if not os.access(folder, os.W_OK):
             print(f"jam: {path}: the folder cannot be written", file=sys.stderr)
             return OUTPUT
-    out: dict[str, Any] = {"collisions": 0, "seconds_md": 0.0, "pressure": None, "crunch": None, "stop_reason": "none", "md_stop_reason": "none"}
+    out: dict[str, Any] = {
+        "collisions": 0,
+        "seconds_md": 0.0,
+        "pressure": None,
+        "crunch": None,
+        "stop_reason": "none",
+        "md_stop_reason": "none",
+    }
     code = DONE
     try:
         system = start(o)

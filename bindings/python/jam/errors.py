@@ -14,17 +14,29 @@ class JamError(Exception):
 
 
 _BUILTIN = {
-    "ARGUMENT": (ValueError,), "DIMENSION": (ValueError,), "NONFINITE": (ValueError,), "OVERLAP": (ValueError,),
-    "UNPLACEABLE": (ValueError,), "TOO_FEW": (ValueError,), "FORMAT": (ValueError,), "IO": (OSError,),
-    "MEMORY": (MemoryError,), "UNSUPPORTED": (NotImplementedError,), "STATE": (RuntimeError,), "BUSY": (RuntimeError,),
+    "ARGUMENT": (ValueError,),
+    "DIMENSION": (ValueError,),
+    "NONFINITE": (ValueError,),
+    "OVERLAP": (ValueError,),
+    "UNPLACEABLE": (ValueError,),
+    "TOO_FEW": (ValueError,),
+    "FORMAT": (ValueError,),
+    "IO": (OSError,),
+    "MEMORY": (MemoryError,),
+    "UNSUPPORTED": (NotImplementedError,),
+    "STATE": (RuntimeError,),
+    "BUSY": (RuntimeError,),
 }
 _BY_STATUS: dict[int, type[JamError]] = {}
 for _code in StatusCode:
     if _code < 0:
         _word = _code.name.removeprefix("E_")
         _name = "".join(w.capitalize() for w in _word.split("_")) + "Error"
-        _class = type(_name, (JamError, *_BUILTIN.get(_word, ())), {"status": _code, "__module__": __name__,
-                                                                     "__doc__": f"Status JAM_{_code.name}."})
+        _class = type(
+            _name,
+            (JamError, *_BUILTIN.get(_word, ())),
+            {"status": _code, "__module__": __name__, "__doc__": f"Status JAM_{_code.name}."},
+        )
         globals()[_name] = _BY_STATUS[int(_code)] = _class
 
 

@@ -62,7 +62,9 @@ def _padded(x: np.ndarray) -> np.ndarray:
 
 def _data(file: Any, name: str, values: np.ndarray, components: int = 1) -> None:
     whole = np.issubdtype(values.dtype, np.integer)
-    file.write(f'<DataArray type="{"Int64" if whole else "Float64"}" Name="{name}" NumberOfComponents="{components}" format="ascii">\n')
+    file.write(
+        f'<DataArray type="{"Int64" if whole else "Float64"}" Name="{name}" NumberOfComponents="{components}" format="ascii">\n'
+    )
     np.savetxt(file, values.reshape(-1, components), fmt="%d" if whole else "%.17g")
     file.write("</DataArray>\n")
 
@@ -70,9 +72,11 @@ def _data(file: Any, name: str, values: np.ndarray, components: int = 1) -> None
 def _polydata(path: Any, points: np.ndarray, cells: str, size: int, point_data: dict, cell_data: dict) -> None:
     count = len(points) // size
     with _replacing(path) as file:
-        file.write('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
-                   f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{count if cells == "Verts" else 0}" '
-                   f'NumberOfLines="{count if cells == "Lines" else 0}" NumberOfStrips="0" NumberOfPolys="0">\n<Points>\n')
+        file.write(
+            '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
+            f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{count if cells == "Verts" else 0}" '
+            f'NumberOfLines="{count if cells == "Lines" else 0}" NumberOfStrips="0" NumberOfPolys="0">\n<Points>\n'
+        )
         _data(file, "Points", points, 3)
         file.write(f"</Points>\n<{cells}>\n")
         _data(file, "connectivity", np.arange(len(points)))
@@ -104,8 +108,14 @@ def write_vtk_network(system: System, path: str | os.PathLike) -> None:
     """
     ends, index = half_bonds(system)
     contacts = system.contacts
-    _polydata(path, _padded(ends).reshape(-1, 3), "Lines", 2, {"force": np.repeat(contacts.forces[index], 2)},
-              {"force": contacts.forces[index], "gap": contacts.gaps[index], "contact": index})
+    _polydata(
+        path,
+        _padded(ends).reshape(-1, 3),
+        "Lines",
+        2,
+        {"force": np.repeat(contacts.forces[index], 2)},
+        {"force": contacts.forces[index], "gap": contacts.gaps[index], "contact": index},
+    )
 
 
 def _axes(d: int) -> list[str]:
@@ -126,16 +136,26 @@ def write_contacts_csv(system: System, path: str | os.PathLike) -> None:
     c = system.contacts
     rows = np.hstack([c.pairs, c.vectors, c.gaps[:, None], c.forces[:, None]])
     with _replacing(path) as file:
-        np.savetxt(file, rows, fmt=["%d", "%d"] + ["%.17g"] * (rows.shape[1] - 2), delimiter=",",
-                   header=",".join(["i", "j"] + [f"n{k + 1}" for k in range(system.dim)] + ["gap", "force"]), comments="")
+        np.savetxt(
+            file,
+            rows,
+            fmt=["%d", "%d"] + ["%.17g"] * (rows.shape[1] - 2),
+            delimiter=",",
+            header=",".join(["i", "j"] + [f"n{k + 1}" for k in range(system.dim)] + ["gap", "force"]),
+            comments="",
+        )
 
 
 def write_spectrum_csv(modes: Modes, path: str | os.PathLike) -> None:
     """One line a mode that converged: number, lambda = omega^2, omega, participation."""
-    values = modes.values[:np.count_nonzero(np.isfinite(modes.values))]
-    rows = np.column_stack([np.arange(len(values)), values, modes.frequencies[:len(values)], modes.participation[:len(values)]])
+    values = modes.values[: np.count_nonzero(np.isfinite(modes.values))]
+    rows = np.column_stack(
+        [np.arange(len(values)), values, modes.frequencies[: len(values)], modes.participation[: len(values)]]
+    )
     with _replacing(path) as file:
-        np.savetxt(file, rows, fmt=["%d"] + ["%.17g"] * 3, delimiter=",", header="mode,lambda,omega,participation", comments="")
+        np.savetxt(
+            file, rows, fmt=["%d"] + ["%.17g"] * 3, delimiter=",", header="mode,lambda,omega,participation", comments=""
+        )
 
 
 def write_gaps_csv(system: System, path: str | os.PathLike, h_max: float = 1.0) -> None:
@@ -143,8 +163,14 @@ def write_gaps_csv(system: System, path: str | os.PathLike, h_max: float = 1.0) 
     gaps, rattlers = system.gaps(h_max, False), system.rattlers
     stable = ~rattlers[gaps.pair].any(1)
     with _replacing(path) as file:
-        np.savetxt(file, np.column_stack([gaps.pair, gaps.gap, stable]), fmt=["%d", "%d", "%.17g", "%d"], delimiter=",",
-                   header="i,j,gap,stable", comments="")
+        np.savetxt(
+            file,
+            np.column_stack([gaps.pair, gaps.gap, stable]),
+            fmt=["%d", "%d", "%.17g", "%d"],
+            delimiter=",",
+            header="i,j,gap,stable",
+            comments="",
+        )
 
 
 def write_structure_csv(system: System, path: str | os.PathLike) -> None:

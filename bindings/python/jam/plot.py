@@ -29,11 +29,13 @@ def _axes(ax: Any, square: bool = False) -> Any:
     if pyplot is not None:
         return pyplot.subplots(figsize=size, layout="constrained")[1]
     from matplotlib.figure import Figure
+
     return Figure(figsize=size, layout="constrained").subplots()
 
 
 def _colours(system: System) -> np.ndarray:
     from matplotlib.colors import to_rgb
+
     colours = np.tile(to_rgb(COLOURS["sphere"]), (system.n, 1))
     try:
         colours[system.bucklers] = to_rgb(COLOURS["buckler"])
@@ -54,11 +56,22 @@ def _project(x: np.ndarray, box: float, view: tuple[float, float]) -> tuple[np.n
 
 def _circles(ax: Any, centres: np.ndarray, diameters: Any, colours: Any, **more: Any) -> None:
     from matplotlib.collections import EllipseCollection
+
     if not len(centres):
         return  # matplotlib would draw one circle of the size of the axes
     diameters = np.broadcast_to(diameters, len(centres))
-    ax.add_collection(EllipseCollection(diameters, diameters, np.zeros(len(centres)), units="xy", offsets=centres,
-                                        offset_transform=ax.transData, facecolors=colours, **more))
+    ax.add_collection(
+        EllipseCollection(
+            diameters,
+            diameters,
+            np.zeros(len(centres)),
+            units="xy",
+            offsets=centres,
+            offset_transform=ax.transData,
+            facecolors=colours,
+            **more,
+        )
+    )
 
 
 def _cube(ax: Any, box: float, view: tuple[float, float], front: bool) -> None:
@@ -91,16 +104,26 @@ def _drawable(system: System) -> int:
 
 def _legend(ax: Any, system: System) -> None:
     from matplotlib.lines import Line2D
+
     try:
         report = system.report
     except StateError:
         return
-    marks = [Line2D([], [], ls="", marker="o", ms=8, color=COLOURS[k], label=f"{n} {k}{'' if n == 1 else 's'}")
-             for k, n in (("sphere", report.stable - report.bucklers), ("buckler", report.bucklers), ("rattler", report.rattlers)) if n]
+    marks = [
+        Line2D([], [], ls="", marker="o", ms=8, color=COLOURS[k], label=f"{n} {k}{'' if n == 1 else 's'}")
+        for k, n in (
+            ("sphere", report.stable - report.bucklers),
+            ("buckler", report.bucklers),
+            ("rattler", report.rattlers),
+        )
+        if n
+    ]
     ax.legend(handles=marks, loc="upper center", bbox_to_anchor=(0.5, -0.01), ncols=3, frameon=False, fontsize=9)
 
 
-def packing(system: System, ax: Any = None, *, forces: bool = False, view: tuple[float, float] = VIEW, legend: bool = True) -> Any:
+def packing(
+    system: System, ax: Any = None, *, forces: bool = False, view: tuple[float, float] = VIEW, legend: bool = True
+) -> Any:
     """The spheres, bucklers (d + 1 contacts) and rattlers coloured; with forces=True (d = 2) the network over them."""
     dim, ax, box = _drawable(system), _axes(ax, True), system.box
     x, s, colours = system.positions, system.diameters, _colours(system)
@@ -114,13 +137,27 @@ def packing(system: System, ax: Any = None, *, forces: bool = False, view: tuple
     else:
         flat, depth = _project(x, box, view)
         order = np.argsort(depth)
-        tone = (0.62 + 0.38 * (depth[order, None] + 1) / 2)
+        tone = 0.62 + 0.38 * (depth[order, None] + 1) / 2
         shaded = 1 - (1 - colours[order]) * tone
         _cube(ax, box, view, False)
         for k, sphere in enumerate(order):  # far to near, each with a highlight
-            _circles(ax, flat[[sphere]], s[sphere], shaded[[k]], edgecolors=[shaded[k] * 0.55], linewidths=0.35, zorder=2 + k * 1e-6)
-            _circles(ax, flat[[sphere]] + s[sphere] * np.array([-0.14, 0.16]), 0.3 * s[sphere], [1 - (1 - shaded[k]) * 0.55],
-                     edgecolors="none", zorder=2 + (k + 0.5) * 1e-6)
+            _circles(
+                ax,
+                flat[[sphere]],
+                s[sphere],
+                shaded[[k]],
+                edgecolors=[shaded[k] * 0.55],
+                linewidths=0.35,
+                zorder=2 + k * 1e-6,
+            )
+            _circles(
+                ax,
+                flat[[sphere]] + s[sphere] * np.array([-0.14, 0.16]),
+                0.3 * s[sphere],
+                [1 - (1 - shaded[k]) * 0.55],
+                edgecolors="none",
+                zorder=2 + (k + 0.5) * 1e-6,
+            )
         _cube(ax, box, view, True)
     _frame(ax, box, dim)
     if legend:
@@ -128,10 +165,18 @@ def packing(system: System, ax: Any = None, *, forces: bool = False, view: tuple
     return ax
 
 
-def network(system: System, ax: Any = None, *, view: tuple[float, float] = VIEW, legend: bool = True, width: float | None = None,
-            colour: str | None = None) -> Any:
+def network(
+    system: System,
+    ax: Any = None,
+    *,
+    view: tuple[float, float] = VIEW,
+    legend: bool = True,
+    width: float | None = None,
+    colour: str | None = None,
+) -> Any:
     """The force network: each contact a line whose width grows with its force. width: points at the mean force."""
     from matplotlib.collections import LineCollection
+
     dim, ax, box = _drawable(system), _axes(ax, True), system.box
     ends, index = half_bonds(system)
     force = system.forces[index]
@@ -140,18 +185,33 @@ def network(system: System, ax: Any = None, *, view: tuple[float, float] = VIEW,
         for shift in [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]:
             moved = ends + np.multiply(shift, box)
             seen = ((moved > 0) & (moved < box)).any(1).all(1)
-            ax.add_collection(LineCollection(moved[seen], linewidths=width * force[seen], colors=colour or COLOURS["force"],
-                                             capstyle="round", zorder=3))
+            ax.add_collection(
+                LineCollection(
+                    moved[seen],
+                    linewidths=width * force[seen],
+                    colors=colour or COLOURS["force"],
+                    capstyle="round",
+                    zorder=3,
+                )
+            )
     else:
         from matplotlib.colors import to_rgb
+
         width = width or 0.07 * 240 * float(system.diameters.mean()) / box
         flat, depth = _project(ends, box, view)
         depth = depth.mean(1)
         order = np.argsort(depth)
-        tone = (0.2 + 0.8 * (depth[order, None] + 1) / 2)
+        tone = 0.2 + 0.8 * (depth[order, None] + 1) / 2
         _cube(ax, box, view, False)
-        ax.add_collection(LineCollection(flat[order], linewidths=width * force[order], capstyle="round", zorder=3,
-                                         colors=1 - (1 - np.array(to_rgb(colour or COLOURS["force"]))) * tone))
+        ax.add_collection(
+            LineCollection(
+                flat[order],
+                linewidths=width * force[order],
+                capstyle="round",
+                zorder=3,
+                colors=1 - (1 - np.array(to_rgb(colour or COLOURS["force"]))) * tone,
+            )
+        )
         _cube(ax, box, view, True)
     _frame(ax, box, dim)
     if legend:
@@ -161,9 +221,17 @@ def network(system: System, ax: Any = None, *, view: tuple[float, float] = VIEW,
 
 def trace(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
     """Reduced pressure against packing fraction, from the progress records of compress and run."""
-    records = [p for p in (system.trace if isinstance(system, System) else system) if not math.isnan(p.pressure) and p.collisions > 0]
+    records = [
+        p
+        for p in (system.trace if isinstance(system, System) else system)
+        if not math.isnan(p.pressure) and p.collisions > 0
+    ]
     ax = _axes(ax)
-    ax.semilogy([p.packing_fraction for p in records], [p.pressure for p in records], **{"marker": ".", "ms": 4, "lw": 1, **style})
+    ax.semilogy(
+        [p.packing_fraction for p in records],
+        [p.pressure for p in records],
+        **{"marker": ".", "ms": 4, "lw": 1, **style},
+    )
     ax.set(xlabel=r"packing fraction $\varphi$", ylabel=r"reduced pressure $p$")
     return ax
 
@@ -207,7 +275,14 @@ def cdf(values: Any, ax: Any = None, *, slopes: Sequence[float] = (), label: str
     anchor = float(np.interp(middle, x, c))
     for k, slope in enumerate(slopes):
         t = np.geomspace(low, x[len(x) // 2], 2)
-        ax.loglog(t, anchor * (t / middle) ** slope, ls=("--", ":", "-.")[k % 3], color="0.4", lw=1, label=f"slope {slope:.4g}")
+        ax.loglog(
+            t,
+            anchor * (t / middle) ** slope,
+            ls=("--", ":", "-.")[k % 3],
+            color="0.4",
+            lw=1,
+            label=f"slope {slope:.4g}",
+        )
     ax.set(xlabel="$x$", ylabel="cdf", ylim=(0.5 / len(x), 1.5))
     if slopes or label:
         ax.legend(frameon=False)
@@ -228,13 +303,17 @@ def density_of_states(modes: Modes | Any, ax: Any = None, *, bins: int | None = 
 def summary(system: System) -> Any:
     """One figure of a crunched packing: spheres, network, forces, and how it was reached. Returns the Figure."""
     from matplotlib.figure import Figure
+
     figure = Figure(figsize=(11, 8.2), layout="constrained")
     axes = figure.subplots(2, 2)
     packing(system, axes[0, 0])
     network(system, axes[0, 1])
     try:
         crossing = system.bucklers[system.contacts.pairs].any(1)
-        for chosen, label, slope, colour in ((~crossing, "extended forces", 1.42311, "#4c78a8"), (crossing, "forces at bucklers", 1.17462, "#f2a541")):
+        for chosen, label, slope, colour in (
+            (~crossing, "extended forces", 1.42311, "#4c78a8"),
+            (crossing, "forces at bucklers", 1.17462, "#f2a541"),
+        ):
             if chosen.sum() > 10:
                 cdf(system.forces[chosen], axes[1, 0], slopes=[slope], label=label, color=colour)
         axes[1, 0].set(xlabel="force / mean force")

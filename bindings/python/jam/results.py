@@ -81,4 +81,6 @@ class Modes:
 
     def __repr__(self) -> str:
         w = self.frequencies
-        return f"Modes({len(self)} modes of {len(self.spheres)} spheres" + (f", omega {w[0]:.4g}..{w[-1]:.4g})" if len(w) else ")")
+        return f"Modes({len(self)} modes of {len(self.spheres)} spheres" + (
+            f", omega {w[0]:.4g}..{w[-1]:.4g})" if len(w) else ")"
+        )

@@ -26,8 +26,16 @@ class System(State, Verbs, Network):
 
     # ---- making
     @classmethod
-    def random(cls, n: int = 1024, dim: int = 3, seed: int = 1, *, packing_fraction: float = 0.2,
-               diameters: Any = None, **options: Any) -> "System":
+    def random(
+        cls,
+        n: int = 1024,
+        dim: int = 3,
+        seed: int = 1,
+        *,
+        packing_fraction: float = 0.2,
+        diameters: Any = None,
+        **options: Any,
+    ) -> "System":
         """Random sequential start.
 
         n: number of spheres. dim: 2..8. seed: of every random stream. packing_fraction: of the start.

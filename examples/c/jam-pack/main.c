@@ -55,15 +55,18 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-/* With --checkpoint a stage runs in slices of a minute: they cost nothing, and a killed job goes on from the last one. */
+/* With --checkpoint a stage runs in slices of a minute: they cost nothing, and a killed job goes on from the last one.
+ */
 static double slice(const options *o, double deadline) {
   const double left = deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3;
   return o->checkpoint && left > 60 ? 60 : left;
 }
 
-static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status, const jam_md_report *md) {
+static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status,
+                   const jam_md_report *md) {
   if (o->checkpoint && status >= 0 && jam_checkpoint_write(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
-  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 && !interrupted;
+  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 &&
+         !interrupted;
 }
 
 static jam_status run_nve(jam_system *sys, const options *o, int32_t resume, double deadline, outcome *result) {
@@ -131,8 +134,11 @@ static void keep(const jam_system *sys, const char *path) {
   if (path && (stat(path, &there) || S_ISREG(there.st_mode))) jam_write(sys, path, JAM_FORMAT_AUTO);
 }
 
-/* Molecular dynamics may end by precision or by stalling, and the crunch goes on from there; limits and Ctrl-C end the job. */
-static int ends_job(jam_status status) { return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || interrupted; }
+/* Molecular dynamics may end by precision or by stalling, and the crunch goes on from there; limits and Ctrl-C end the
+ * job. */
+static int ends_job(jam_status status) {
+  return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || interrupted;
+}
 
 static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *result) {
   const double deadline = t->begin + o->wall_time;
@@ -141,8 +147,10 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   int k;
 #define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
   t->stage = name;
-  if (o->resume) status = finish_paused(sys, o, t, deadline, result);
-  else if (o->nve > 0) status = run_nve(sys, o, 0, deadline, result);
+  if (o->resume)
+    status = finish_paused(sys, o, t, deadline, result);
+  else if (o->nve > 0)
+    status = run_nve(sys, o, 0, deadline, result);
   t->stage = name;
   for (k = 0; k < o->stage_count && !ends_job(status); ++k) {
     if (o->resume && o->stages[k].pressure <= result->pressure) continue;
@@ -182,8 +190,8 @@ int main(int argc, char **argv) {
   int bad;
   const int parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
-  if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report) || check_writable(o.spectrum) ||
-      check_writable(o.gaps) || check_writable(o.structure))
+  if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report) ||
+      check_writable(o.spectrum) || check_writable(o.gaps) || check_writable(o.structure))
     return EXIT_OUTPUT;
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);
@@ -194,9 +202,12 @@ int main(int argc, char **argv) {
   if (!interrupted) status = work(sys, &o, &t, &result);
   running = NULL;
   if (!o.quiet && isatty(STDERR_FILENO)) fputs("\r\033[K", stderr);
-  if (status < 0) complain("%s", jam_last_error());
-  else if (interrupted) complain("interrupted; writing the state reached");
-  else if (status > 0) complain("stopped early: %s", jam_status_string(status));
+  if (status < 0)
+    complain("%s", jam_last_error());
+  else if (interrupted)
+    complain("interrupted; writing the state reached");
+  else if (status > 0)
+    complain("stopped early: %s", jam_status_string(status));
   bad = write_all(sys, &o, &result);
   jam_destroy(sys);
   if (bad) return EXIT_OUTPUT;

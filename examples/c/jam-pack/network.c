@@ -27,8 +27,10 @@ static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
   if (!lambda) return no_memory(path);
   bad = jam_modes(sys, NULL, &o, lambda, m, NULL, 0, lambda + m, m, NULL);
   if (bad < 0 || bad == JAM_CANCELLED) {
-    if (bad < 0) refused(path);
-    else complain("cannot write %s: interrupted", path);
+    if (bad < 0)
+      refused(path);
+    else
+      complain("cannot write %s: interrupted", path);
     bad = -1;
   } else if ((bad = open_output(&out, path)) == 0) {
     fputs("mode,lambda,omega,participation\n", out.file);
@@ -49,8 +51,10 @@ static int write_gaps(const jam_system *sys, const int32_t *z, const char *path)
   if (jam_gaps(sys, 1.0, 0, NULL, 0, NULL, 0, &m) < 0) return refused(path);
   gap = malloc((m + 1) * sizeof *gap);
   pair = malloc((2 * m + 1) * sizeof *pair);
-  if (!gap || !pair) bad = no_memory(path);
-  else if (jam_gaps(sys, 1.0, 0, gap, m, pair, 2 * m, NULL) < 0) bad = refused(path);
+  if (!gap || !pair)
+    bad = no_memory(path);
+  else if (jam_gaps(sys, 1.0, 0, gap, m, pair, 2 * m, NULL) < 0)
+    bad = refused(path);
   else if ((bad = open_output(&out, path)) == 0) {
     fputs("i,j,gap,stable\n", out.file);
     for (k = 0; k < m; ++k) {
@@ -74,15 +78,18 @@ static int write_structure(const jam_system *sys, const jam_info *info, const in
   int bad, has_phi;
   if (!c) return no_memory(path);
   has_phi = jam_local_fraction(sys, phi, n, NULL) >= 0;
-  if (jam_sphere_structure(sys, 0, c, d * n, s, n, NULL) < 0 || jam_sphere_structure(sys, 1, NULL, 0, fs, n, NULL) < 0 ||
-      jam_bond_order(sys, 6, 1.2, q, n, NULL) < 0)
+  if (jam_sphere_structure(sys, 0, c, d * n, s, n, NULL) < 0 ||
+      jam_sphere_structure(sys, 1, NULL, 0, fs, n, NULL) < 0 || jam_bond_order(sys, 6, 1.2, q, n, NULL) < 0)
     bad = refused(path);
   else if ((bad = open_output(&out, path)) == 0) {
     fputs("sphere,z,class", out.file);
     for (x = 0; x < d; ++x) fprintf(out.file, ",c%zu", x + 1);
     fputs(",s,fs,q6,phi\n", out.file);
     for (i = 0; i < n; ++i) {
-      fprintf(out.file, "%zu,%d,%s", i, (int)z[i], z[i] == 0 ? "rattler" : z[i] == info->dim + 1 ? "buckler" : "stable");
+      fprintf(out.file, "%zu,%d,%s", i, (int)z[i],
+              z[i] == 0               ? "rattler"
+              : z[i] == info->dim + 1 ? "buckler"
+                                      : "stable");
       for (x = 0; x < d; ++x) fprintf(out.file, ",%.17g", c[d * i + x]);
       fprintf(out.file, ",%.17g,%.17g,%.17g,", s[i], fs[i], q[i]);
       if (has_phi) fprintf(out.file, "%.17g", phi[i]);

@@ -102,7 +102,8 @@ static int take_stage(const char *value, options *o) {
   if (take_number("--growth", rate, &s->growth, 0)) return -1;
   s->pressure = 0;
   if (colon && take_number("the pressure of --growth", colon + 1, &s->pressure, 0)) return -1;
-  if (colon && !(s->pressure > 1)) return bad_value("the pressure of --growth", colon + 1, "larger than 1, an ideal gas");
+  if (colon && !(s->pressure > 1))
+    return bad_value("the pressure of --growth", colon + 1, "larger than 1, an ideal gas");
   o->stage_count++;
   return 0;
 }
@@ -110,40 +111,73 @@ static int take_stage(const char *value, options *o) {
 static int take_value(const char *name, const char *value, options *o) {
   int64_t k = 0;
   int status = 0;
-  if (!strcmp(name, "--n")) { status = take_integer(name, value, 1, INT32_MAX, &o->n); o->n_given = 1; }
-  else if (!strcmp(name, "--seed")) status = take_integer(name, value, INT64_MIN, INT64_MAX, &o->seed);
-  else if (!strcmp(name, "--dim")) { status = take_integer(name, value, 2, JAM_MAX_DIM, &k); o->dim = (int32_t)k; }
-  else if (!strcmp(name, "--threads")) { status = take_integer(name, value, 1, 2, &k); o->threads = (int32_t)k; }
-  else if (!strcmp(name, "--phi0")) status = take_number(name, value, &o->phi0, 0);
-  else if (!strcmp(name, "--diameters-ratio")) status = take_number(name, value, &o->ratio, 0);
+  if (!strcmp(name, "--n")) {
+    status = take_integer(name, value, 1, INT32_MAX, &o->n);
+    o->n_given = 1;
+  } else if (!strcmp(name, "--seed"))
+    status = take_integer(name, value, INT64_MIN, INT64_MAX, &o->seed);
+  else if (!strcmp(name, "--dim")) {
+    status = take_integer(name, value, 2, JAM_MAX_DIM, &k);
+    o->dim = (int32_t)k;
+  } else if (!strcmp(name, "--threads")) {
+    status = take_integer(name, value, 1, 2, &k);
+    o->threads = (int32_t)k;
+  } else if (!strcmp(name, "--phi0"))
+    status = take_number(name, value, &o->phi0, 0);
+  else if (!strcmp(name, "--diameters-ratio"))
+    status = take_number(name, value, &o->ratio, 0);
   else if (!strcmp(name, "--diameters")) {
-    if (take_diameters(value, o)) status = bad_value(name, value, "lognormal:S or bidisperse:R with a finite number > 0, or a file");
+    if (take_diameters(value, o))
+      status = bad_value(name, value, "lognormal:S or bidisperse:R with a finite number > 0, or a file");
   } else if (!strcmp(name, "--model")) {
-    if (!strcmp(value, "mk")) o->model = JAM_MODEL_MK;
-    else if (strcmp(value, "euclid")) status = bad_value(name, value, "euclid or mk");
-  } else if (!strcmp(name, "--zeta")) { status = take_number(name, value, &o->zeta, 1); o->model = JAM_MODEL_MK; }
-  else if (!strcmp(name, "--plant")) { status = take_number(name, value, &o->phi0, 0); o->model = JAM_MODEL_MK; }
-  else if (!strcmp(name, "--checkpoint")) o->checkpoint = value;
-  else if (!strcmp(name, "--resume")) o->resume = value;
-  else if (!strcmp(name, "--nve")) status = take_number(name, value, &o->nve, 1);
-  else if (!strcmp(name, "--box")) status = take_number(name, value, &o->box, 0);
-  else if (!strcmp(name, "--wall-time")) status = take_number(name, value, &o->wall_time, 0);
-  else if (!strcmp(name, "--growth")) status = take_stage(value, o);
+    if (!strcmp(value, "mk"))
+      o->model = JAM_MODEL_MK;
+    else if (strcmp(value, "euclid"))
+      status = bad_value(name, value, "euclid or mk");
+  } else if (!strcmp(name, "--zeta")) {
+    status = take_number(name, value, &o->zeta, 1);
+    o->model = JAM_MODEL_MK;
+  } else if (!strcmp(name, "--plant")) {
+    status = take_number(name, value, &o->phi0, 0);
+    o->model = JAM_MODEL_MK;
+  } else if (!strcmp(name, "--checkpoint"))
+    o->checkpoint = value;
+  else if (!strcmp(name, "--resume"))
+    o->resume = value;
+  else if (!strcmp(name, "--nve"))
+    status = take_number(name, value, &o->nve, 1);
+  else if (!strcmp(name, "--box"))
+    status = take_number(name, value, &o->box, 0);
+  else if (!strcmp(name, "--wall-time"))
+    status = take_number(name, value, &o->wall_time, 0);
+  else if (!strcmp(name, "--growth"))
+    status = take_stage(value, o);
   else if (!strcmp(name, "--pressure")) {
     status = take_number(name, value, &o->pressure, 0);
     if (!status && !(o->pressure > 1)) status = bad_value(name, value, "larger than 1, an ideal gas");
   } else if (!strcmp(name, "--lp")) {
-    if (!strcmp(value, "ipm")) o->lp_solver = JAM_LP_IPM;
-    else if (!strcmp(value, "clp")) o->lp_solver = JAM_LP_CLP;
-    else status = bad_value(name, value, "ipm or clp");
-  } else if (!strcmp(name, "--input")) o->input = value;
-  else if (!strcmp(name, "--output")) o->output = value;
-  else if (!strcmp(name, "--contacts")) o->contacts = value;
-  else if (!strcmp(name, "--report")) o->report = value;
-  else if (!strcmp(name, "--modes")) status = take_integer(name, value, 0, INT32_MAX, &o->modes);
-  else if (!strcmp(name, "--spectrum")) o->spectrum = value;
-  else if (!strcmp(name, "--gaps")) o->gaps = value;
-  else if (!strcmp(name, "--structure")) o->structure = value;
+    if (!strcmp(value, "ipm"))
+      o->lp_solver = JAM_LP_IPM;
+    else if (!strcmp(value, "clp"))
+      o->lp_solver = JAM_LP_CLP;
+    else
+      status = bad_value(name, value, "ipm or clp");
+  } else if (!strcmp(name, "--input"))
+    o->input = value;
+  else if (!strcmp(name, "--output"))
+    o->output = value;
+  else if (!strcmp(name, "--contacts"))
+    o->contacts = value;
+  else if (!strcmp(name, "--report"))
+    o->report = value;
+  else if (!strcmp(name, "--modes"))
+    status = take_integer(name, value, 0, INT32_MAX, &o->modes);
+  else if (!strcmp(name, "--spectrum"))
+    o->spectrum = value;
+  else if (!strcmp(name, "--gaps"))
+    o->gaps = value;
+  else if (!strcmp(name, "--structure"))
+    o->structure = value;
   else {
     complain("unknown option '%s'", name);
     status = -1;
@@ -153,11 +187,16 @@ static int take_value(const char *name, const char *value, options *o) {
 
 /* Returns 1 when arg is a switch, which is then set. */
 static int take_switch(const char *arg, options *o) {
-  if (!strcmp(arg, "--no-md")) o->no_md = 1;
-  else if (!strcmp(arg, "--no-crunch")) o->no_crunch = 1;
-  else if (!strcmp(arg, "--quiet")) o->quiet = 1;
-  else if (!strcmp(arg, "--shrink")) o->shrink = 1;
-  else return 0;
+  if (!strcmp(arg, "--no-md"))
+    o->no_md = 1;
+  else if (!strcmp(arg, "--no-crunch"))
+    o->no_crunch = 1;
+  else if (!strcmp(arg, "--quiet"))
+    o->quiet = 1;
+  else if (!strcmp(arg, "--shrink"))
+    o->shrink = 1;
+  else
+    return 0;
   return 1;
 }
 
@@ -203,7 +242,8 @@ static int settle(options *o) {
     complain("--resume and --input are two starts");
     return -1;
   }
-  if (o->checkpoint && (same(o->checkpoint, o->output) || same(o->checkpoint, o->contacts) || same(o->checkpoint, o->report))) {
+  if (o->checkpoint &&
+      (same(o->checkpoint, o->output) || same(o->checkpoint, o->contacts) || same(o->checkpoint, o->report))) {
     complain("--checkpoint would be overwritten by another output");
     return -1;
   }
@@ -242,9 +282,12 @@ int parse_options(int argc, char **argv, options *o) {
     }
     if (take_switch(argv[k], o)) continue;
     snprintf(name, sizeof name, "%.*s", value ? (int)(value - argv[k]) : 31, argv[k]);
-    if (strncmp(argv[k], "--", 2)) complain("unexpected argument '%s'", argv[k]);
-    else if (!value && k + 1 == argc) complain("option '%s' is unknown or lacks its value", argv[k]);
-    else if (!take_value(name, value ? value + 1 : argv[++k], o)) continue;
+    if (strncmp(argv[k], "--", 2))
+      complain("unexpected argument '%s'", argv[k]);
+    else if (!value && k + 1 == argc)
+      complain("option '%s' is unknown or lacks its value", argv[k]);
+    else if (!take_value(name, value ? value + 1 : argv[++k], o))
+      continue;
     fputs("Try 'jam-pack --help'.\n", stderr);
     return 1 + EXIT_USAGE;
   }

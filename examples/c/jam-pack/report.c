@@ -91,13 +91,17 @@ int close_output(output *out) {
 
 /* JSON has no NaN and no infinity. */
 static void put_number(FILE *f, const char *key, double x) {
-  if (isfinite(x)) fprintf(f, "  \"%s\": %.17g,\n", key, x);
-  else fprintf(f, "  \"%s\": null,\n", key);
+  if (isfinite(x))
+    fprintf(f, "  \"%s\": %.17g,\n", key, x);
+  else
+    fprintf(f, "  \"%s\": null,\n", key);
 }
 
 static void put_count(FILE *f, const char *key, int64_t x, int known) {
-  if (known) fprintf(f, "  \"%s\": %lld,\n", key, (long long)x);
-  else fprintf(f, "  \"%s\": null,\n", key);
+  if (known)
+    fprintf(f, "  \"%s\": %lld,\n", key, (long long)x);
+  else
+    fprintf(f, "  \"%s\": null,\n", key);
 }
 
 int write_report(const outcome *result, const char *path) {
@@ -133,8 +137,10 @@ int write_report(const outcome *result, const char *path) {
   put_number(f, "min_gap", certified ? r->min_gap : NAN);
   put_number(f, "duality_gap", certified ? r->duality_gap : NAN);
   put_number(f, "gain", crunched ? r->gain : NAN);
-  if (crunched) fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
-  else fputs("  \"jammed\": null,\n", f);
+  if (crunched)
+    fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
+  else
+    fputs("  \"jammed\": null,\n", f);
   fprintf(f, "  \"stop_reason\": \"%s\",\n", jam_stop_string(crunched ? r->stop_reason : result->md_stop));
   fprintf(f, "  \"md_stop_reason\": \"%s\",\n", jam_stop_string(result->md_stop));
   put_number(f, "seconds_md", result->seconds_md);
@@ -143,8 +149,8 @@ int write_report(const outcome *result, const char *path) {
   return close_output(&out);
 }
 
-static void put_contacts(FILE *f, int32_t dim, size_t count, const int32_t *pair, const double *vector, const double *gap,
-                         const double *force) {
+static void put_contacts(FILE *f, int32_t dim, size_t count, const int32_t *pair, const double *vector,
+                         const double *gap, const double *force) {
   size_t k;
   int32_t c;
   fputs("i,j", f);
@@ -168,13 +174,15 @@ int write_contacts(const jam_system *sys, const char *path) {
     pair = malloc((pairs + 1) * sizeof *pair);
     number = malloc((vectors + 2 * count + 1) * sizeof *number);
     bad = !pair || !number || jam_contacts(sys, pair, pairs, NULL) < 0 ||
-          jam_contact_vectors(sys, number, vectors, NULL) < 0 || jam_contact_gaps(sys, number + vectors, count, NULL) < 0 ||
+          jam_contact_vectors(sys, number, vectors, NULL) < 0 ||
+          jam_contact_gaps(sys, number + vectors, count, NULL) < 0 ||
           jam_forces(sys, number + vectors + count, count, NULL) < 0;
   }
   if (bad) {
     complain("cannot write %s: %s", path, pair && !number ? "out of memory" : jam_last_error());
   } else if (open_output(&out, path) == 0) {
-    put_contacts(out.file, count ? (int32_t)(vectors / count) : 0, count, pair, number, number + vectors, number + vectors + count);
+    put_contacts(out.file, count ? (int32_t)(vectors / count) : 0, count, pair, number, number + vectors,
+                 number + vectors + count);
     bad = close_output(&out);
   } else {
     bad = -1;
@@ -198,6 +206,6 @@ void print_summary(const outcome *result) {
   if (r->contacts == 0) return;
   printf("  network   %lld contacts (isostatic %+lld), %lld rattlers, %lld bucklers\n", (long long)r->contacts,
          (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
-  printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n", r->max_overlap,
-         r->force_residual, r->min_force, r->min_gap);
+  printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n",
+         r->max_overlap, r->force_residual, r->min_force, r->min_gap);
 }

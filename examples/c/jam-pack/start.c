@@ -69,8 +69,11 @@ static int make_diameters(const options *o, double **out, int64_t *n) {
     return -1;
   }
   for (k = 0; k < *n; ++k) {
-    if (width > 0) (*out)[k] = exp(width * sqrt(-2 * log(uniform(o->seed, 2 * k))) * cos(6.283185307179586 * uniform(o->seed, 2 * k + 1)));
-    else (*out)[k] = k < *n / 2 ? 1 : o->ratio;
+    if (width > 0)
+      (*out)[k] =
+          exp(width * sqrt(-2 * log(uniform(o->seed, 2 * k))) * cos(6.283185307179586 * uniform(o->seed, 2 * k + 1)));
+    else
+      (*out)[k] = k < *n / 2 ? 1 : o->ratio;
   }
   return 0;
 }
@@ -85,8 +88,10 @@ int start(const options *o, jam_system **sys) {
   create.model = o->model;
   create.mk_zeta = o->zeta;
   create.n = o->n;
-  if (o->resume) status = jam_checkpoint_read(o->resume, sys);
-  else if (o->input) status = jam_read(o->input, &create, sys);
+  if (o->resume)
+    status = jam_checkpoint_read(o->resume, sys);
+  else if (o->input)
+    status = jam_read(o->input, &create, sys);
   else {
     if (make_diameters(o, &diameters, &create.n)) return -1;
     create.dim = o->dim;
@@ -110,7 +115,9 @@ int take_diameters(const char *value, options *o) {
   }
   x = strtod(colon + 1, &end);
   if (end == colon + 1 || *end || !isfinite(x) || x <= 0) return -1;
-  if (value[0] == 'l') o->lognormal = x;
-  else o->ratio = x;
+  if (value[0] == 'l')
+    o->lognormal = x;
+  else
+    o->ratio = x;
   return 0;
 }

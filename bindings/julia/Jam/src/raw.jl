@@ -297,11 +297,12 @@ mutable struct jam_glass
 end
 
 """
-Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of CALiPPSO.jl
-(Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others, sqrGamma0, thresholds_bounds
-and ratio_sl_update are not needed (radius and bound follow phi and the last step), zero_force neither (a pair is a contact when
-its force exceeds its gap, both relative), overlaps are looked for after every step (tol_overlap, interval_overlaps_check), the
-progress callback prints (verbose, monitor_step), jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
+Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
+CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others,
+sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
+zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
+every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
+jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
 """
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
@@ -674,8 +675,8 @@ JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) u
 or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
 none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_run(sys, o, report)
     return ccall((:jam_run, libjam), Int32, (Ptr{Cvoid}, Ref{jam_run_options}, Ref{jam_md_report}), sys, _ref(jam_run_options, o), _ref(jam_md_report, report))
@@ -686,27 +687,27 @@ Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs 
 that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call ends
-with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3). Threads:
-alone. @since 0.1
+JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
+ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+Threads: alone. @since 0.1
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
 end
 
 """
-Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that stopped early
-or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and renamed. A run that
-goes on from it makes the same bits as one that never stopped there. Threads: const.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
+stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
+renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_write(sys, path)
     return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """
-Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged),
-JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
+damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_read(path, out)
     return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)
@@ -720,10 +721,10 @@ function jam_observe_options_init(o, size)
 end
 
 """
-From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is dropped.
-Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views show the
-present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on it there.
-Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
+dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
+show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
+it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
 """
 function jam_observe(sys, o)
     return ccall((:jam_observe, libjam), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
@@ -737,17 +738,17 @@ function jam_observe_stop(sys)
 end
 
 """
-Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample before and
-its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be NULL with
-length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
+before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
+NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
 """
 function jam_observed_series(sys, time, time_len, collisions, collisions_len, fraction, fraction_len, pressure, pressure_len, error, error_len, msd, msd_len, needed)
     return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(time), time_len, _ptr(collisions), collisions_len, _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ptr(error), error_len, _ptr(msd), msd_len, _ref(Csize_t, needed))
 end
 
 """
-Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with length
-0. Threads: const. Errors: as jam_observed_series. @since 0.1
+Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, needed)
     return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, needed))
@@ -755,17 +756,17 @@ end
 
 """
 Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
-sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays may
-be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
+may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, needed)
     return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, needed))
 end
 
 """
-Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its limit at
-h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL with length
-0. Threads: const. Errors: as jam_observed_series. @since 0.1
+Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, needed)
     return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
@@ -815,9 +816,9 @@ function jam_crunch(sys, o, report)
 end
 
 """
-Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the same at
-JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
+same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
 """
 function jam_crunch_estimate(sys, o, estimated)
     return ccall((:jam_crunch_estimate, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
@@ -831,25 +832,27 @@ function jam_report_get(sys, report)
 end
 
 """
-One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain from the
-same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
+from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+@since 0.1
 """
 function jam_crunch_history(sys, column, out, out_len, needed)
     return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1, and
-only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images followed: their sum over the steps leads
-from the start to the end. Threads: the callback's. Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
+and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
+followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+JAM_E_BUFFER, JAM_E_STATE. @since 0.1
 """
 function jam_crunch_step_displacements(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_displacements, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for steps that are
-no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
+Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
+steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
 """
 function jam_crunch_step_contacts(sys, iout, iout_len, needed)
     return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
@@ -864,7 +867,8 @@ end
 
 """
 Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since 0.1
+sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
+0.1
 """
 function jam_crunch_step_duals(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_duals, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -879,15 +883,16 @@ function jam_contacts(sys, iout, iout_len, needed)
 end
 
 """
-Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since 0.1
+Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
+0.1
 """
 function jam_contact_vectors(sys, out, out_len, needed)
     return ccall((:jam_contact_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of the weakest
-may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
+Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
+the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
 Errors: as jam_contacts. @since 0.1
 """
 function jam_contact_gaps(sys, out, out_len, needed)
@@ -895,9 +900,9 @@ function jam_contact_gaps(sys, out, out_len, needed)
 end
 
 """
-Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state of self-stress
-needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's. Threads: const.
-Errors: as jam_contacts. @since 0.1
+Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state
+of self-stress needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's.
+Threads: const. Errors: as jam_contacts. @since 0.1
 """
 function jam_forces(sys, out, out_len, needed)
     return ccall((:jam_forces, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -934,7 +939,8 @@ end
 
 """
 Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
-Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since 0.1
+Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
+0.1
 """
 function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed)
     return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, needed))
@@ -958,32 +964,33 @@ function jam_geometry_options_init(o, size)
 end
 
 """
-Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere moves.
-Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces are the
-null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one state of self-stress,
-more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several states of self-stress: the
-non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces, or no contacts). Errors: JAM_E_NULL,
-JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
+moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
+are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
+state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
+states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
+or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
+Threads: alone. @since 0.1
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
 end
 
 """
-Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options) jump and
-enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump (m): ratio of
-gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network needed.
-Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
+jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
+(m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
+needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
 """
 function jam_contact_candidates(sys, window, limit, limit_len, jump, jump_len, contacts, contacts_len, excess, excess_len, needed)
     return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, window, _ptr(limit), limit_len, _ptr(jump), jump_len, _ptr(contacts), contacts_len, _ptr(excess), excess_len, _ref(Csize_t, needed))
 end
 
 """
-States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T (never
-from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL with length 0.
-Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m = 0 or no force
-of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
+States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+(never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
+with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
+= 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
 """
 function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed)
     return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, needed))
@@ -1022,24 +1029,25 @@ function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, neede
 end
 
 """
-Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const. Errors: as
-jam_contacts, JAM_E_ARGUMENT. @since 0.1
+Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
+Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1
 """
 function jam_class_values(sys, quantity, which, out, out_len, needed)
     return ccall((:jam_class_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of values
-there. Threads: const. Errors: as jam_class_values. @since 0.1
+Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
+values there. Threads: const. Errors: as jam_class_values. @since 0.1
 """
 function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed)
     return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max mean
-diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY. @since 0.1
+g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
+mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
+@since 0.1
 """
 function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed)
     return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Int32, Int32, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(kind), kind_len, a, b, r_max, bins, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1055,8 +1063,8 @@ function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed)
 end
 
 """
-Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0, 3]
-(1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
+Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
+3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
 """
 function jam_bond_order(sys, l, cutoff, out, out_len, needed)
     return ccall((:jam_bond_order, libjam), Int32, (Ptr{Cvoid}, Int32, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, l, cutoff, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1071,16 +1079,16 @@ function jam_crystal_score(sys, score)
 end
 
 """
-Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors: JAM_E_NULL,
-JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
+Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
+JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
 """
 function jam_local_fraction(sys, out, out_len, needed)
     return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take a
-common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
+Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
+a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
 (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
 """
 function jam_floppy_mode(sys, contact, out, out_len, needed)
@@ -1088,11 +1096,12 @@ function jam_floppy_mode(sys, contact, out, out_len, needed)
 end
 
 """
-The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when localised;
-weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening at which to first
-order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to second order the diameters
-are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F). Arrays may be
-NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
+localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
+at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
+second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
+force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
+jam_floppy_mode. Threads: alone. @since 0.1
 """
 function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, s_star_len, stability, stability_len, needed)
     return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(median), median_len, _ptr(weight), weight_len, _ptr(s_plus), s_plus_len, _ptr(s_star), s_star_len, _ptr(stability), stability_len, _ref(Csize_t, needed))
@@ -1106,27 +1115,27 @@ function jam_dos_options_init(o, size)
 end
 
 """
-Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are computed.
-omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each `points` long
-and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and is resolved less
-well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-JAM_E_TOO_FEW. Threads: alone. @since 0.1
+Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
+computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
+`points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
+is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
+Threads: alone. @since 0.1
 """
 function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed)
     return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
 end
 
 """
-Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its standard
-error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
+Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
+standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
 """
 function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, needed)
     return ccall((:jam_cumulative_spectrum, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(cumulative), cumulative_len, _ptr(error), error_len, _ref(Csize_t, needed))
 end
 
 """
-Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over all d N'
-modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
+all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
 """
 function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
     return ccall((:jam_project, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1140,16 +1149,16 @@ function jam_curvature(sys, h, u, u_len, value)
 end
 
 """
-Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes the network
-unstable. Threads: alone. @since 0.1
+Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
+the network unstable. Threads: alone. @since 0.1
 """
 function jam_moduli_get(sys, h, moduli)
     return ccall((:jam_moduli_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli, moduli))
 end
 
 """
-Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to other,
-nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
+Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
+other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
 Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
 """
 function jam_compare(sys, other, comparison, out, out_len, needed)

@@ -95,8 +95,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_LP_CLP = 1
 
   ! jam_crunch_method: Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1
-  integer(c_int32_t), parameter :: JAM_CRUNCH_RELINEARISE = 0
-  integer(c_int32_t), parameter :: JAM_CRUNCH_CHAIN = 1
+  integer(c_int32_t), parameter :: JAM_CRUNCH_BARRIER_PATH = 0
+  integer(c_int32_t), parameter :: JAM_CRUNCH_SEQUENTIAL_LP = 1
 
   ! jam_step_phase: What kind of step a row of the history is. @since 0.1
   integer(c_int32_t), parameter :: JAM_STEP_PATH = 1
@@ -362,7 +362,7 @@ module jam
     integer(c_int32_t) :: struct_size = 0
     ! jam_lp_solver, default IPM (optimizer)
     integer(c_int32_t) :: lp_solver = 0
-    ! jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
+    ! jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
     integer(c_int32_t) :: method = 0
     ! 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     integer(c_int32_t) :: polish = 0
@@ -398,7 +398,7 @@ module jam
     integer(c_int32_t) :: stop_reason = 0
     ! jam_lp_solver that gave the last LP
     integer(c_int32_t) :: lp_solver = 0
-    ! jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it
+    ! jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it
     integer(c_int32_t) :: method = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
@@ -415,8 +415,8 @@ module jam
     ! stable spheres with exactly d+1 contacts
     integer(c_int64_t) :: bucklers = 0
     ! d (N' - 1) + 1: contacts of a single state of self-stress
-    integer(c_int64_t) :: one_ss = 0
-    ! contacts - one_ss: 0 isostatic, > 0 hyperstatic
+    integer(c_int64_t) :: isostatic_contacts = 0
+    ! contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     integer(c_int64_t) :: excess_contacts = 0
     ! LPs solved in full
     integer(c_int64_t) :: lp_solves = 0

@@ -462,10 +462,10 @@ typedef enum jam_lp_solver {
 
 /* Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1 */
 typedef enum jam_crunch_method {
-  JAM_CRUNCH_RELINEARISE =
+  JAM_CRUNCH_BARRIER_PATH =
       0,               /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
                         * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
-  JAM_CRUNCH_CHAIN = 1 /* the published chain of LPs alone */
+  JAM_CRUNCH_SEQUENTIAL_LP = 1 /* the published chain of LPs alone */
 } jam_crunch_method;
 
 /* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
@@ -477,7 +477,7 @@ typedef enum jam_crunch_method {
 typedef struct jam_crunch_options {
   uint32_t struct_size; /* sizeof(jam_crunch_options) */
   int32_t lp_solver;    /* jam_lp_solver, default IPM (optimizer) */
-  int32_t method;       /* jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does */
+  int32_t method;       /* jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does */
   int32_t polish; /* 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs
                    * below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer
                    * (tol_mechanical_equilibrium: the extra LP past it) */
@@ -500,7 +500,7 @@ typedef struct jam_report {
   int32_t jammed;       /* 1: converged to a rigid network that carries balanced forces */
   int32_t stop_reason;  /* jam_stop_reason */
   int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
-  int32_t method; /* jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it */
+  int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it */
   int32_t reserved;        /* 0 */
   double packing_fraction; /* phi_J when jammed */
   double diameter_mean;    /* unit of box */
@@ -508,8 +508,8 @@ typedef struct jam_report {
   int64_t rattlers;        /* removed again and again until every sphere left has d+1 contacts */
   int64_t stable;          /* n - rattlers = N' */
   int64_t bucklers;        /* stable spheres with exactly d+1 contacts */
-  int64_t one_ss;          /* d (N' - 1) + 1: contacts of a single state of self-stress */
-  int64_t excess_contacts; /* contacts - one_ss: 0 isostatic, > 0 hyperstatic */
+  int64_t isostatic_contacts;          /* d (N' - 1) + 1: contacts of a single state of self-stress */
+  int64_t excess_contacts; /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
   int64_t lp_solves;       /* LPs solved in full */
   int64_t factorisations;  /* Cholesky factorisations */
   double gain;             /* sqrt(Gamma) - 1 of the last LP */

@@ -45,7 +45,8 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   return g;
 }
 
-StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch, bool lengths_only) {
+StructureFactor structure_factor(const Packing &p, double q_max, const CancellationPoint &cancel_point,
+                                 bool lengths_only) {
   const int d = p.dim;
   const double unit = diameter_mean(p), step = 2.0 * M_PI / p.box;
   if (!(q_max > 0.0 && std::isfinite(q_max)))
@@ -73,7 +74,7 @@ StructureFactor structure_factor(const Packing &p, double q_max, const Watch &wa
   auto descend = [&](auto &&self, int c, int64_t n2, bool positive) -> void {
     if (c == d) {
       if (!positive) return;
-      watch(done, static_cast<double>(done) / vectors);
+      cancel_point(done, static_cast<double>(done) / vectors);
       ++done;
       double x = 0.0, y = 0.0;
       for (size_t i = 0; i < n; ++i) x += re[d][i], y += im[d][i];

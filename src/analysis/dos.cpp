@@ -29,7 +29,7 @@ double dot(const std::vector<double> &x, const std::vector<double> &y) {
 }
 
 // Upper bound of the spectrum: the smaller of Gershgorin's and a power estimate with its residual added.
-double largest_eigenvalue(const StableGraph &g, const BlockMatrix &h) {
+double largest_eigenvalue(const RigidityMatrix &g, const BlockMatrix &h) {
   std::vector<double> x(h.rows()), y(h.rows());
   Rng rng(5, Stream::analysis_start);
   for (double &v : x) v = rng.normal();
@@ -48,7 +48,7 @@ double largest_eigenvalue(const StableGraph &g, const BlockMatrix &h) {
 }
 
 // Lower bound of the spectrum: S~^T S~ has none below 0, and the pre-stress part takes no more than 2 max_i sum_j t_ij.
-double smallest_eigenvalue(const StableGraph &g, const ContactWeights &w) {
+double smallest_eigenvalue(const RigidityMatrix &g, const ContactWeights &w) {
   std::vector<double> sum(g.nodes, 0.0);
   for (size_t k = 0; k < w.transverse.size(); ++k) {
     sum[g.a[k]] += w.transverse[k];
@@ -66,7 +66,7 @@ struct Interval {
 
 // mu_m = <v| T_m(x) |v>, m < moments, by two moments a product: T_{2m} = 2 T_m T_m - 1, T_{2m+1} = 2 T_{m+1} T_m - T_1.
 void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std::vector<double> &mu,
-                const std::function<void()> &watch) {
+                const std::function<void()> &cancel_point) {
   const size_t n = v.size();
   const double scale = 2.0 / (span.high - span.low), shift = (span.high + span.low) / (span.high - span.low);
   auto apply = [&](const std::vector<double> &x, std::vector<double> &y) {
@@ -78,7 +78,7 @@ void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std:
   mu[0] = dot(v, v);
   if (mu.size() > 1) mu[1] = dot(v, now);
   for (size_t m = 1; 2 * m < mu.size(); ++m) {
-    watch();
+    cancel_point();
     mu[2 * m] = 2.0 * dot(now, now) - mu[0];
     apply(now, next);
     for (size_t k = 0; k < n; ++k) next[k] = 2.0 * next[k] - before[k];
@@ -153,8 +153,8 @@ struct Average {
 
 }  // namespace
 
-DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o,
-                                  const Watch &watch) {
+DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o,
+                                  const CancellationPoint &cancel_point) {
   if (o.moments < 8 || o.moments > 1000000) fail(JAM_E_ARGUMENT, "moments is %d, it must be in 8..1e6", o.moments);
   if (o.vectors < 2 || o.vectors > 100000) fail(JAM_E_ARGUMENT, "vectors is %d, it must be in 2..1e5", o.vectors);
   if (o.points < 1 || o.points > 10000000) fail(JAM_E_ARGUMENT, "points is %d, it must be in 1..1e7", o.points);
@@ -173,7 +173,7 @@ DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w,
     Rng rng(o.seed, Stream::analysis_start, static_cast<uint64_t>(r) << 32);
     for (double &x : v) x = rng.bits() & 1 ? 1.0 : -1.0;
     remove_translation(g.dim, g.nodes, v.data());
-    moments_of(h, span, v, mu, [&] { watch(r, static_cast<double>(r) / o.vectors); });
+    moments_of(h, span, v, mu, [&] { cancel_point(r, static_cast<double>(r) / o.vectors); });
     // Each vector over its own length: the integral is 1 for every one of them.
     for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];
     for (size_t k = 0; k < points; ++k) {

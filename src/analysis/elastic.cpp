@@ -13,9 +13,9 @@ namespace {
 // Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: as it stands, and
 // with the spheres relaxing. The relaxed one is summed over what is left of each du, so nothing cancels.
 struct Strained {
-  const StableGraph &g;
+  const RigidityMatrix &g;
   const ContactWeights &w;
-  const PinnedSolver &solver;
+  const GroundedSolver &solver;
 
   double transverse(size_t k) const { return w.transverse.empty() ? 0.0 : w.transverse[k]; }
   // Block k of the Hessian times x: stiffness k along n, -t across.
@@ -57,12 +57,13 @@ struct Strained {
 
 // With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round, G = E'' / V. Bulk:
 // K = V d^2 E / dV^2 = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
-jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w, const Watch &watch) {
+jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                          const CancellationPoint &cancel_point) {
   jam_moduli m{};
   const int d = p.dim;
   const size_t width = static_cast<size_t>(d);
   const double volume = std::pow(p.box, d), directions = d * (d - 1);
-  const PinnedSolver solver(g, w);
+  const GroundedSolver solver(g, w);
   if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.hessian().norm_bound())
     fail(JAM_E_STATE,
          "with this pre-stress the Hessian has negative eigenvalues: the network is unstable and has no moduli");
@@ -83,7 +84,7 @@ jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactW
     for (int b = 0; b < a; ++b) {
       double plane = 0.0;
       for (const auto &[x, y] : {std::pair<int, int>(a, b), std::pair<int, int>(b, a)}) {
-        watch();
+        cancel_point();
         std::fill(du.begin(), du.end(), 0.0);
         for (size_t k = 0; k < g.contacts(); ++k) du[k * width + x] = g.distance[k] * g.normal[k * width + y];
         strained.relax(du, affine, relaxed);

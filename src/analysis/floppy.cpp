@@ -5,7 +5,8 @@
 #include <limits>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
-#include "lp/blas.hpp"
+#include "core/pair_rule.hpp"
+#include "linalg/blas.hpp"
 
 namespace jam {
 
@@ -13,9 +14,10 @@ void FloppyModes::resize(size_t m) {
   for (auto *x : {&median, &weight, &s_plus, &s_star, &stability}) x->resize(m);
 }
 
-FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch)
-    : g_(g), space_(g, watch) {
-  const StressStates s = find_stress(g, space_, false, watch);
+FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
+                           const CancellationPoint &cancel_point)
+    : g_(g), space_(g, cancel_point) {
+  const StressStates s = find_stress(g, space_, false, cancel_point);
   if (s.dimension != 1 || s.zero_modes != g.dim)
     fail(JAM_E_STATE,
          "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
@@ -24,15 +26,14 @@ FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, cons
   const size_t n = g.unknowns();
   for (size_t k = 0; k < g.contacts(); ++k) force_sigma_ += force_[k] * g.sigma[k];
   uniform_.assign(n, 0.0);
-  balance(g, g.sigma.data(), uniform_.data());
+  apply_equilibrium(g, g.sigma.data(), uniform_.data());
   space_.solver().solve(uniform_.data(), 1);
   const PairList all = pairs_without_contacts(p, &network, 1.0, true);
   std::vector<double> r(p.dim);
   for (size_t k = 0; k < all.size(); ++k) {
     const int32_t a = g.node[all.i[k]], b = g.node[all.j[k]];
     if (a == b) continue;
-    const double length = std::sqrt(pair_vector(p, all, k, r.data())),
-                 sigma = 0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]]);
+    const double length = std::sqrt(pair_vector(p, all, k, r.data())), sigma = contact_distance(p, all.i[k], all.j[k]);
     i_.push_back(a);
     j_.push_back(b);
     for (double x : r) normal_.push_back(x / length);
@@ -95,16 +96,16 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   out.stability[l] = out.s_star[l] / s_plus;
 }
 
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g,
-                             const Watch &watch) {
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
+                             const CancellationPoint &cancel_point) {
   const BlasSingleThread single;
-  const FloppySolver solver(p, network, g, watch);
+  const FloppySolver solver(p, network, g, cancel_point);
   const size_t m = g.contacts(), n = g.unknowns(), block = 64;
   FloppyModes out;
   out.resize(m);
   std::vector<double> dr;
   for (size_t first = 0; first < m; first += block) {
-    watch(static_cast<int64_t>(first), static_cast<double>(first) / static_cast<double>(m));
+    cancel_point(static_cast<int64_t>(first), static_cast<double>(first) / static_cast<double>(m));
     const int count = static_cast<int>(std::min(block, m - first));
     solver.fields(first, count, dr);
     for (int q = 0; q < count; ++q) solver.measure(first + q, &dr[q * n], out);

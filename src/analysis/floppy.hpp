@@ -1,7 +1,7 @@
 // Floppy modes: what moves when one contact of a packing with a single state of self-stress opens.
 #pragma once
 #include <vector>
-#include "analysis/stress.hpp"
+#include "network/self_stress.hpp"
 
 namespace jam {
 
@@ -20,7 +20,8 @@ struct FloppyModes {
 class FloppySolver {
  public:
   // JAM_E_STATE unless there is exactly one state of self-stress and only translations cost nothing.
-  FloppySolver(const Packing &p, const ContactNetwork &network, const StableGraph &g, const Watch &watch = Watch());
+  FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
+               const CancellationPoint &cancel_point = CancellationPoint());
   // dr (count, nodes, dim) of contacts first .. first + count - 1.
   void fields(size_t first, int count, std::vector<double> &dr) const;
   double inflation(size_t contact) const { return -force_[contact] / force_sigma_; }
@@ -28,7 +29,7 @@ class FloppySolver {
   void measure(size_t l, const double *dr, FloppyModes &out) const;
 
  private:
-  const StableGraph &g_;
+  const RigidityMatrix &g_;
   NullSpace space_;
   std::vector<double> force_;
   double force_sigma_ = 0.0;
@@ -39,7 +40,7 @@ class FloppySolver {
 };
 
 // All contacts, in blocks.
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const StableGraph &g,
-                             const Watch &watch = Watch());
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
+                             const CancellationPoint &cancel_point = CancellationPoint());
 
 }  // namespace jam

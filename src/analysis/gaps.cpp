@@ -5,6 +5,7 @@
 #include <numeric>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
+#include "core/pair_rule.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -55,8 +56,7 @@ Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool s
   std::vector<double> r(p.dim);
   std::vector<std::pair<double, size_t>> found(all.size());
   for (size_t k = 0; k < all.size(); ++k)
-    found[k] = {
-        std::sqrt(pair_vector(p, all, k, r.data())) / (0.5 * (p.diameter[all.i[k]] + p.diameter[all.j[k]])) - 1.0, k};
+    found[k] = {std::sqrt(pair_vector(p, all, k, r.data())) / contact_distance(p, all.i[k], all.j[k]) - 1.0, k};
   std::sort(found.begin(), found.end());
   Gaps out;
   for (const auto &[h, k] : found) {

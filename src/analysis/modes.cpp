@@ -9,11 +9,11 @@
 #include <Spectra/SymEigsSolver.h>
 #include <Eigen/SparseCholesky>
 
-#include "analysis/factor.hpp"
-#include "analysis/watch.hpp"
+#include "core/cancellation.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "lp/blas.hpp"
+#include "linalg/blas.hpp"
+#include "linalg/shifted_factor.hpp"
 
 namespace jam {
 
@@ -28,7 +28,7 @@ jam_modes_options default_modes_options() {
   return o;
 }
 
-void check_modes_options(const jam_modes_options &o, const StableGraph &g) {
+void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g) {
   if (o.which < JAM_MODES_LOWEST || o.which > JAM_MODES_ALL)
     fail(JAM_E_ARGUMENT, "which is %d, not a jam_modes_which", o.which);
   if (o.which != JAM_MODES_ALL && o.count < 1)
@@ -51,12 +51,12 @@ namespace {
 class Operator {
  public:
   using Scalar = double;
-  Operator(const StableGraph &g, std::function<void(const double *, double *)> apply, Monitor &monitor)
-      : g_(g), apply_(std::move(apply)), watch_(monitor), work_(g.unknowns()) {}
+  Operator(const RigidityMatrix &g, std::function<void(const double *, double *)> apply, Monitor &monitor)
+      : g_(g), apply_(std::move(apply)), cancel_point_(monitor), work_(g.unknowns()) {}
   Eigen::Index rows() const { return static_cast<Eigen::Index>(g_.unknowns()); }
   Eigen::Index cols() const { return rows(); }
   void perform_op(const double *x, double *y) const {
-    watch_(++count_);
+    cancel_point_(++count_);
     std::copy(x, x + g_.unknowns(), work_.begin());
     project(work_.data());
     apply_(work_.data(), y);
@@ -74,9 +74,9 @@ class Operator {
     const Eigen::VectorXd along = f.transpose() * v;
     v.noalias() -= f * along;
   }
-  const StableGraph &g_;
+  const RigidityMatrix &g_;
   std::function<void(const double *, double *)> apply_;
-  Watch watch_;
+  CancellationPoint cancel_point_;
   mutable std::vector<double> work_;
   mutable int64_t count_ = 0;
 };
@@ -96,7 +96,7 @@ Found lanczos(Operator &op, int64_t count, Spectra::SortRule rule, double tolera
   try {
     solver.init(start.data());
     solver.compute(rule, iterations, tolerance, rule);
-  } catch (const Stopped &) {
+  } catch (const Cancelled &) {
     throw;
   } catch (const std::exception &e) {
     fail(JAM_E_SOLVER, "Lanczos: %s", e.what());
@@ -132,7 +132,7 @@ bool search(Operator &op, int64_t count, Spectra::SortRule rule, double toleranc
 }
 
 // Keeps the `count` best, makes them orthonormal and gives them their Rayleigh quotients.
-void harvest(const StableGraph &g, const ContactWeights &w, Operator &op, std::vector<double> theta, bool magnitude,
+void harvest(const RigidityMatrix &g, const ContactWeights &w, Operator &op, std::vector<double> theta, bool magnitude,
              int64_t count, Modes &out) {
   const size_t n = g.unknowns();
   std::vector<size_t> order(theta.size());
@@ -186,7 +186,7 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
 }
 
 // What dense work found, cut to what was asked: the d translations go first.
-void select(const StableGraph &g, const jam_modes_options &o, Modes &m) {
+void select(const RigidityMatrix &g, const jam_modes_options &o, Modes &m) {
   const size_t n = g.unknowns();
   std::vector<size_t> keep;
   // Translations may be mixed with other zero modes: take them out of the vectors and drop what is left of least
@@ -230,7 +230,7 @@ void select(const StableGraph &g, const jam_modes_options &o, Modes &m) {
   m = std::move(cut);
 }
 
-jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o,
+jam_status few_modes(const RigidityMatrix &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o,
                      Monitor &monitor, Modes &out) {
   const size_t n = g.unknowns();
   std::vector<double> theta;
@@ -272,7 +272,7 @@ jam_status few_modes(const StableGraph &g, const ContactWeights &w, const BlockM
 
 }  // namespace
 
-jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
+jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
                       Modes &out) {
   const BlasSingleThread single;
   check_modes_options(o, g);
@@ -290,7 +290,7 @@ jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_m
   } else {
     try {
       status = few_modes(g, w, h, o, monitor, out);
-    } catch (const Stopped &) {
+    } catch (const Cancelled &) {
       out = Modes();
       status = JAM_CANCELLED;
     }

@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 #include <vector>
-#include "analysis/hessian.hpp"
 #include "core/monitor.hpp"
+#include "network/hessian.hpp"
 
 namespace jam {
 
@@ -15,9 +15,9 @@ struct Modes {
 
 jam_modes_options default_modes_options();
 // JAM_E_ARGUMENT, JAM_E_MEMORY (with the estimate) before any work.
-void check_modes_options(const jam_modes_options &o, const StableGraph &g);
+void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g);
 // Returns JAM_OK, JAM_CANCELLED (nothing given) or JAM_NOT_CONVERGED (the modes that converged).
-jam_status find_modes(const StableGraph &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
+jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const jam_modes_options &o, Monitor &monitor,
                       Modes &out);
 
 // All eigenvalues (and vectors) of a dense symmetric matrix given column-major in a, which is overwritten by the

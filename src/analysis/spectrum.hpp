@@ -1,7 +1,7 @@
 // What follows from a Hessian without its modes: density of states, elastic moduli. And comparing packings.
 #pragma once
 #include <vector>
-#include "analysis/stress.hpp"
+#include "network/self_stress.hpp"
 
 namespace jam {
 
@@ -13,12 +13,12 @@ struct DensityOfStates {
   double step = 0.0;                                 // width of a bin
 };
 // Kernel polynomial method (Weisse et al., Rev. Mod. Phys. 78, 275 (2006)).
-DensityOfStates density_of_states(const StableGraph &g, const ContactWeights &w, const jam_dos_options &o,
-                                  const Watch &watch = Watch());
+DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o,
+                                  const CancellationPoint &cancel_point = CancellationPoint());
 
 // JAM_E_STATE when pre-stress makes the network unstable.
-jam_moduli elastic_moduli(const Packing &p, const StableGraph &g, const ContactWeights &w,
-                          const Watch &watch = Watch());
+jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                          const CancellationPoint &cancel_point = CancellationPoint());
 
 // displacement (n, d) from a to b without its mean over spheres stable in both.
 jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, const Packing &b, const ContactNetwork *nb,

@@ -1,9 +1,9 @@
 // Structure of a packing: gaps, classes of contacts, vectors of a sphere's contacts, correlations, bond order.
 #pragma once
 #include <vector>
-#include "analysis/watch.hpp"
-#include "core/contacts.hpp"
+#include "core/cancellation.hpp"
 #include "core/packing.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 
@@ -48,7 +48,8 @@ struct StructureFactor {
   std::vector<double> q, s;  // one value for each length of an allowed wave vector 2 pi n / L, ascending
 };
 // lengths_only: q is right, s is not.
-StructureFactor structure_factor(const Packing &p, double q_max, const Watch &watch = Watch(),
+StructureFactor structure_factor(const Packing &p, double q_max,
+                                 const CancellationPoint &cancel_point = CancellationPoint(),
                                  bool lengths_only = false);
 
 // Q_l of every sphere from all neighbours with |r| < cutoff sigma_ij.

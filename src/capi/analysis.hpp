@@ -2,10 +2,10 @@
 #pragma once
 #include <cmath>
 #include <limits>
-#include "analysis/graph.hpp"
-#include "analysis/hessian.hpp"
-#include "analysis/watch.hpp"
 #include "capi/guard.hpp"
+#include "core/cancellation.hpp"
+#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 
 namespace jam {
 
@@ -13,13 +13,13 @@ inline void need_network(const jam_system *sys) {
   if (!sys->has_report)
     fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
 }
-// A verb whose work is left by Stopped when the monitor says so; nothing has been written then.
+// A verb whose work is left by Cancelled when the monitor says so; nothing has been written then.
 template <class F>
-jam_status guard_watched(jam_system *sys, F &&f) noexcept {
+jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
   return guard_verb(sys, [&]() -> jam_status {
     try {
-      return f(Watch(sys->monitor));
-    } catch (const Stopped &) {
+      return f(CancellationPoint(sys->monitor));
+    } catch (const Cancelled &) {
       return JAM_CANCELLED;
     }
   });

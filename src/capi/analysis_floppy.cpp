@@ -7,15 +7,15 @@ using namespace jam;
 extern "C" {
 
 jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed) {
-  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
     need_network(sys);
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     if (contact < 0 || static_cast<size_t>(contact) >= g.contacts())
       fail(JAM_E_ARGUMENT, "contact is %lld, it must be in 0..%zu", static_cast<long long>(contact),
            g.contacts() ? g.contacts() - 1 : 0);
     std::vector<double> dr(g.unknowns());
     if (out && out_len >= dr.size())
-      FloppySolver(sys->packing, sys->contacts, g, watch).fields(static_cast<size_t>(contact), 1, dr);
+      FloppySolver(sys->packing, sys->contacts, g, cancel_point).fields(static_cast<size_t>(contact), 1, dr);
     return give_array(dr.data(), dr.size(), out, out_len, needed);
   });
 }
@@ -23,9 +23,9 @@ jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t
 jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight, size_t weight_len,
                             double *s_plus, size_t s_plus_len, double *s_star, size_t s_star_len, double *stability,
                             size_t stability_len, size_t *needed) {
-  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
     need_network(sys);
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const size_t m = g.contacts();
     const bool none = !median && !weight && !s_plus && !s_star && !stability;
     if (!needed && none) fail(JAM_E_NULL, "needed is NULL and there is no output array");
@@ -37,7 +37,7 @@ jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, 
     check_output(stability, stability_len, m, "stability");
     if (m == 0) return JAM_NOT_JAMMED;
     if (none) return JAM_OK;
-    const FloppyModes f = all_floppy_modes(sys->packing, sys->contacts, g, watch);
+    const FloppyModes f = all_floppy_modes(sys->packing, sys->contacts, g, cancel_point);
     put_output(f.median, median, m);
     put_output(f.weight, weight, m);
     put_output(f.s_plus, s_plus, m);

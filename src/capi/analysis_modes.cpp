@@ -17,7 +17,7 @@ jam_status jam_modes_options_init(jam_modes_options *o, size_t size) {
 jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     return give_array(g.sphere.data(), g.sphere.size(), iout, iout_len, needed);
   });
 }
@@ -27,7 +27,7 @@ jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int3
   return guard_const(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need_network(sys);
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const CsrMatrix csr = to_csr(make_hessian(g, contact_weights(g, diameter_mean(sys->packing), options)));
     if (needed) *needed = csr.value.size();
     if (!needed && !row_start && !column && !value) fail(JAM_E_NULL, "needed is NULL and there is no output array");
@@ -49,7 +49,7 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     jam_modes_options full = default_modes_options();
     take_options(o, full);
     need_network(sys);
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     check_modes_options(full, g);
     const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.dim));
     const size_t m = full.which == JAM_MODES_ALL ? n : std::min<size_t>(internal, static_cast<size_t>(full.count));

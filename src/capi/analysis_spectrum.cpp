@@ -19,7 +19,7 @@ struct SpectralArrays {
 // Density of states or its integral: omega stands in the middle or at the upper end of a bin.
 jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                          const SpectralArrays &out, bool cumulative, size_t *needed) {
-  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     jam_dos_options full = default_dos_options();
     take_options(o, full);
@@ -33,8 +33,9 @@ jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const ja
     check_output(out.value, out.value_len, points, cumulative ? "cumulative" : "density");
     check_output(out.error, out.error_len, points, "error");
     if (!out.omega && !out.value && !out.error) return JAM_OK;
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
-    DensityOfStates dos = density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full, watch);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
+    DensityOfStates dos =
+        density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full, cancel_point);
     if (cumulative)
       for (double &x : dos.omega) x += 0.5 * dos.step;
     put_output(dos.omega, out.omega, points);
@@ -71,7 +72,7 @@ jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, co
     need(value, "value");
     check_array_in(u, u_len, "u");
     need_network(sys);
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     if (u_len != g.unknowns()) fail(JAM_E_ARGUMENT, "u_len is %zu, it must be d N' = %zu", u_len, g.unknowns());
     *value = curvature(g, contact_weights(g, diameter_mean(sys->packing), options), u);
     return JAM_OK;
@@ -84,7 +85,7 @@ jam_status jam_project(const jam_system *sys, const double *vector, size_t vecto
     check_array_in(vector, vector_len, "vector");
     check_array_in(u, u_len, "u");
     need_network(sys);
-    const size_t n = make_graph(sys->packing, sys->contacts).unknowns();
+    const size_t n = make_rigidity_matrix(sys->packing, sys->contacts).unknowns();
     if (u_len != n) fail(JAM_E_ARGUMENT, "u_len is %zu, it must be d N' = %zu", u_len, n);
     if (vector_len % std::max<size_t>(n, 1) != 0)
       fail(JAM_E_ARGUMENT, "vector_len is %zu, no multiple of d N' = %zu", vector_len, n);
@@ -96,14 +97,14 @@ jam_status jam_project(const jam_system *sys, const double *vector, size_t vecto
 }
 
 jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli) {
-  return guard_watched(sys, [&](const Watch &watch) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need(moduli, "moduli");
     check_out_struct(moduli, "moduli");
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
-    const StableGraph g = make_graph(sys->packing, sys->contacts);
-    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), watch),
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
+    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), cancel_point),
                 moduli);
     return JAM_OK;
   });

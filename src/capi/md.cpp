@@ -4,7 +4,7 @@
 
 #include "capi/guard.hpp"
 #include "core/create.hpp"
-#include "edmd/glass.hpp"
+#include "dynamics/equation_of_state.hpp"
 #include "io/checkpoint.hpp"
 
 using namespace jam;

@@ -2,12 +2,12 @@
 #pragma once
 #include <atomic>
 #include <memory>
-#include "core/contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
-#include "edmd/md.hpp"
+#include "dynamics/md.hpp"
 #include "jam/jam.h"
+#include "network/contact_network.hpp"
 
 struct jam_system {
   jam::Packing packing;          // the view buffers; their addresses stay for the life of the handle

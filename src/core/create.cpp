@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/mk.hpp"
+#include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
 
@@ -67,10 +67,8 @@ class GrowingCells {
     next_[i] = head_[cell];
     head_[cell] = i;
   }
-  // True when a sphere of diameter sigma at x overlaps one that is there (nearest images).
-  bool blocked(const double *x, double sigma) const {
-    return side_ == 1 ? in_cell(0, x, sigma) : visit(p_.dim - 1, 0, x, sigma);
-  }
+  // True when sphere i at x would overlap one that is there (nearest images).
+  bool blocked(const double *x, int32_t i) const { return side_ == 1 ? in_cell(0, x, i) : visit(p_.dim - 1, 0, x, i); }
 
  private:
   int64_t index(double x) const {
@@ -81,15 +79,15 @@ class GrowingCells {
     for (int c = p_.dim - 1; c >= 0; --c) cell = cell * side_ + index(x[c]);
     return cell;
   }
-  bool visit(int c, int64_t cell, const double *x, double sigma) const {
-    if (c < 0) return in_cell(cell, x, sigma);
+  bool visit(int c, int64_t cell, const double *x, int32_t i) const {
+    if (c < 0) return in_cell(cell, x, i);
     for (int64_t step = -1; step <= 1; ++step)
-      if (visit(c - 1, cell * side_ + (index(x[c]) + step + side_) % side_, x, sigma)) return true;
+      if (visit(c - 1, cell * side_ + (index(x[c]) + step + side_) % side_, x, i)) return true;
     return false;
   }
-  bool in_cell(int64_t cell, const double *x, double sigma) const {
+  bool in_cell(int64_t cell, const double *x, int32_t i) const {
     for (int32_t j = head_[cell]; j >= 0; j = next_[j]) {
-      const double touch = 0.5 * (sigma + p_.diameter[j]);
+      const double touch = contact_distance(p_, i, j);
       double r2 = 0.0;
       for (int c = 0; c < p_.dim; ++c) {
         double dx = x[c] - p_.position[static_cast<size_t>(j) * p_.dim + c];
@@ -130,7 +128,7 @@ void place_at_random(Packing &p) {
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
-  GrowingCells cells(p, diameter_max(p));
+  GrowingCells cells(p, contact_distance_max(p));
   Rng rng(p.seed, Stream::rsa_positions);
   double placed = 0.0;
   const int64_t most_tries = 200000;  // a sphere: well below saturation one of some hundred points is free
@@ -144,7 +142,7 @@ void place_at_random(Packing &p) {
         fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f",
              placed, packing_fraction(p));
       for (int c = 0; c < d; ++c) x[c] = wrap(p.box * rng.uniform(), p.box);
-    } while (cells.blocked(x, p.diameter[i]));
+    } while (cells.blocked(x, i));
     cells.add(i);
     placed += unit_sphere_volume(d) * std::pow(p.diameter[i] / p.box, d);
   }
@@ -161,7 +159,7 @@ void plant(Packing &p) {
   double shift[JAM_MAX_DIM];
   for (int32_t i = 0; i < n; ++i)
     for (int32_t j = i + 1; j < n; ++j) {
-      const double touch = 0.5 * (p.diameter[i] + p.diameter[j]) / p.box;
+      const double touch = contact_distance(p, i, j) / p.box;
       int32_t attempt = 0;
       for (;; ++attempt) {
         if (attempt == most)

@@ -21,10 +21,11 @@ struct Packing {
   int32_t model = JAM_MODEL_EUCLID;
   int32_t masses = JAM_MASSES_EQUAL;
   double mk_zeta = std::numeric_limits<double>::infinity();
-  std::vector<MkRedrawn> mk_redrawn;                           // sorted; all other pairs have attempt 0 (core/mk.hpp)
-  std::vector<double> position;                                // (n, dim), in [0, box)
-  std::vector<double> diameter;                                // n
-  std::vector<double> velocity;                                // (n, dim), kT/m = 1; all zero until MD draws them
+  double non_additivity = 0.0;        // Delta of a non-additive mixture (core/pair_rule.hpp)
+  std::vector<MkRedrawn> mk_redrawn;  // sorted; all other pairs have attempt 0 (core/pair_rule.hpp)
+  std::vector<double> position;       // (n, dim), in [0, box)
+  std::vector<double> diameter;       // n
+  std::vector<double> velocity;       // (n, dim), kT/m = 1; all zero until MD draws them
   double pressure = std::numeric_limits<double>::quiet_NaN();  // last measured by MD
   bool has_velocity = false;
 

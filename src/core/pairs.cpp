@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/mk.hpp"
+#include "core/pair_rule.hpp"
 
 namespace jam {
 namespace {
@@ -86,9 +86,9 @@ struct Cutoff {
   double reach, slope;
   const double *own = nullptr;
 
-  double most() const { return reach + slope * diameter_max(p); }
+  double most() const { return reach + slope * contact_distance_max(p); }
   double of(int32_t i, int32_t j) const {
-    return (own ? std::max(own[i], own[j]) : reach) + slope * 0.5 * (p.diameter[i] + p.diameter[j]);
+    return (own ? std::max(own[i], own[j]) : reach) + slope * contact_distance(p, i, j);
   }
 };
 
@@ -241,7 +241,7 @@ ClosestPair closest_pair(const Packing &p) {
     ClosestPair best{std::numeric_limits<double>::infinity(), -1, -1};
     double r[JAM_MAX_DIM];
     for (size_t k = 0; k < pairs.size(); ++k) {
-      const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
+      const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
       const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
       if (gap < best.gap) best = {gap, pairs.i[k], pairs.j[k]};
     }

@@ -1,4 +1,5 @@
 #include "crunch/barrier.hpp"
+#include "core/pair_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ bool Barrier::measure(const Packing &p) {
   lp = make_lp(p, pairs, unit);
   sigma2_.resize(lp.rows());
   for (size_t k = 0; k < lp.rows(); ++k) {
-    const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]) / unit;
+    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]) / unit;
     sigma2_[k] = sigma * sigma;
     if (!(lp.c[k] > 0.0)) return false;
   }

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/contact_set.hpp"
+#include "core/pair_rule.hpp"
 #include "crunch/gap_rows.hpp"
 #include "lp/small_lp.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 namespace {
@@ -46,8 +47,7 @@ class SmallLp {
         undecided_(all.size(), 0),
         wanted_(all.size()) {
     const double unit = diameter_mean(p);
-    for (size_t k = 0; k < all.size(); ++k)
-      sigma_[k] = 0.5 * (p.diameter[all.pairs.i[k]] + p.diameter[all.pairs.j[k]]) / unit;
+    for (size_t k = 0; k < all.size(); ++k) sigma_[k] = contact_distance(p, all.pairs.i[k], all.pairs.j[k]) / unit;
   }
 
   bool solve(Vertex &out) {

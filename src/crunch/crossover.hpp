@@ -2,11 +2,11 @@
 // cannot tell which are closed: a force of 1e-7 across a gap of 1e-8 is below its tolerance. All others it can, so they
 // are held as they are and the few are settled by a small LP of their own.
 #pragma once
-#include "core/contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/gap_rows.hpp"
 #include "lp/newton_system.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "crunch/chain.hpp"
+#include "crunch/sequential_lp.hpp"
 
 namespace jam {
 
@@ -26,18 +26,18 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   History own;
   History &steps = history ? *history : own;
   const CrunchSeams none;
-  CrunchResult result = Chain(start, o, monitor, steps, seams ? *seams : none).run();
+  CrunchResult result = SequentialLp(start, o, monitor, steps, seams ? *seams : none).run();
   if (seams && seams->attempt) seams->attempt(result);
   const bool gave_up = result.status == JAM_NOT_CONVERGED || result.status == JAM_NOT_JAMMED;
-  if (!gave_up || o.method != JAM_CRUNCH_RELINEARISE || monitor.interrupted()) return result;
+  if (!gave_up || o.method != JAM_CRUNCH_BARRIER_PATH || monitor.interrupted()) return result;
   // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain
   // takes another way from the same start; its answer counts if it is a jammed packing.
   monitor.log(JAM_LOG_WARNING, "the barrier path ended at an undecided contact; the chain of LPs starts again");
   jam_crunch_options chain = o;
-  chain.method = JAM_CRUNCH_CHAIN;
+  chain.method = JAM_CRUNCH_SEQUENTIAL_LP;
   History again;
   std::swap(again, steps);  // callbacks look at `steps`
-  CrunchResult second = Chain(start, chain, monitor, steps, seams ? *seams : none).run();
+  CrunchResult second = SequentialLp(start, chain, monitor, steps, seams ? *seams : none).run();
   second.report.lp_solves += result.report.lp_solves;
   second.report.factorisations += result.report.factorisations;
   if (second.report.jammed) return second;

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "core/contacts.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
+#include "network/certificate.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 
@@ -81,8 +82,5 @@ PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int
 // Where a network has more contacts than one state of self-stress and the weakest carries less than 1e-5 of the mean
 // force, that pair only touches as far as an LP can tell: takes it out. False when there is none.
 bool drop_idle_contact(ContactNetwork &contacts, int dim);
-
-// certificate.cpp: everything in the report that follows from packing and contacts alone.
-void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);
 
 }  // namespace jam

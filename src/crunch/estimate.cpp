@@ -3,12 +3,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
-#include "crunch/cages.hpp"
 #include "crunch/crunch.hpp"
-#include "lp/blas.hpp"
-#include "lp/block_cholesky.hpp"
-#include "lp/near_rows.hpp"
+#include "crunch/neighbour_selection.hpp"
+#include "linalg/blas.hpp"
+#include "linalg/block_cholesky.hpp"
+#include "lp/working_set.hpp"
 
 namespace jam {
 namespace {
@@ -30,15 +31,16 @@ PairList longest_list(const Packing &p, const jam_crunch_options &o) {
   const double chain = 2.2 * (o.step_bound > 0.0           ? o.step_bound
                               : contact_gap(p) > close_gap ? chain_bound
                                                            : 0.1 + 0.6 * free);
-  double reach = unit * (o.method == JAM_CRUNCH_CHAIN ? chain
-                         : o.step_bound > 0.0         ? std::max(chain, 0.15 + 1.5 * free)
-                                                      : 0.15 + 1.5 * free);
+  double reach = unit * (o.method == JAM_CRUNCH_SEQUENTIAL_LP ? chain
+                         : o.step_bound > 0.0                 ? std::max(chain, 0.15 + 1.5 * free)
+                                                              : 0.15 + 1.5 * free);
   if (o.neighbour_radius > 0.0) reach = std::max(0.0, o.neighbour_radius * unit - diameter_max(p));
   // How far the diameters grow before the list gets shorter: the chain and mixtures keep theirs, the path of equal
   // spheres shortens it early.
-  const double part = o.method == JAM_CRUNCH_CHAIN || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
+  const double part = o.method == JAM_CRUNCH_SEQUENTIAL_LP || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
   const double grown = std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
-  PairList pairs = o.method == JAM_CRUNCH_CHAIN ? find_pairs(p, reach, grown) : caged_pairs(p, reach, grown);
+  PairList pairs =
+      o.method == JAM_CRUNCH_SEQUENTIAL_LP ? find_pairs(p, reach, grown) : select_neighbours(p, reach, grown);
   const double enough =
       std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
   for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < enough; ++k) {
@@ -64,7 +66,7 @@ std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
   std::vector<double> gap(pairs.size());
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < gap.size(); ++k)
-    gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / (0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]])) - 1.0;
+    gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, pairs.i[k], pairs.j[k]) - 1.0;
   return gap;
 }
 
@@ -113,7 +115,7 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
                edges = static_cast<double>(listed.i.size());
   const BlockCholesky::Sizes most = listed.measure(p, o.threads);
   const BlockCholesky::Sizes usual =
-      o.method == JAM_CRUNCH_CHAIN ? most : coupled_edges(p, pairs).measure(p, o.threads);
+      o.method == JAM_CRUNCH_SEQUENTIAL_LP ? most : coupled_edges(p, pairs).measure(p, o.threads);
 
   jam_estimate e{};
   e.pairs = static_cast<int64_t>(rows);
@@ -125,7 +127,7 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   const double lists = 3.0 * rows * (8.0 + 8.0 * d),
                tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(most.factor) / (d * d);
   e.bytes = e.factor_bytes + blocks + vectors + lists + tables;
-  e.factorisations = o.method == JAM_CRUNCH_CHAIN ? 3.0 * steps_dense : steps_dense;
+  e.factorisations = o.method == JAM_CRUNCH_SEQUENTIAL_LP ? 3.0 * steps_dense : steps_dense;
   if (free_spacing(p) > 0.05) e.factorisations = steps_dilute;
   // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
   // times.

@@ -1,4 +1,5 @@
 #include "crunch/gap_rows.hpp"
+#include "core/pair_rule.hpp"
 
 #include <algorithm>
 
@@ -15,7 +16,7 @@ std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net) {
   const double unit = diameter_mean(p);
   std::vector<double> a(net.vector);
   for (size_t k = 0; k < net.size(); ++k) {
-    const double scale = unit / (0.5 * (p.diameter[net.pairs.i[k]] + p.diameter[net.pairs.j[k]]));
+    const double scale = unit / contact_distance(p, net.pairs.i[k], net.pairs.j[k]);
     for (int c = 0; c < p.dim; ++c) a[k * p.dim + c] *= scale;
   }
   return a;

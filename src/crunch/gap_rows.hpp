@@ -3,9 +3,9 @@
 #pragma once
 #include <vector>
 
-#include "core/contacts.hpp"
 #include "core/packing.hpp"
 #include "lp/newton_system.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 

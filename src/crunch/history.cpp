@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/pair_rule.hpp"
 #include "crunch/crunch.hpp"
 
 namespace jam {
@@ -74,7 +75,7 @@ void History::take_network(const Packing &p, const PackingLp &lp, const LpSoluti
   for (size_t k = 0; k < on.size(); ++k) {
     if (!on[k] || !(answer.y[k] > 0.0))
       continue;  // a contact without force, which Clp's vertices may have, is not in the balance
-    const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
+    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
     pair_vector(p, pairs, k, r);
     step_.pair.push_back(pairs.i[k]), step_.pair.push_back(pairs.j[k]);
     step_.vector.insert(step_.vector.end(), r, r + p.dim);

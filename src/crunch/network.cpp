@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pair_rule.hpp"
 #include "crunch/crunch.hpp"
 
 namespace jam {
@@ -81,7 +82,7 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
     out.pairs.j.push_back(j);
     out.pairs.offset.insert(out.pairs.offset.end(), &pairs.offset[k * d], &pairs.offset[k * d] + d);
     const double r2 = pair_vector(p, pairs, k, r);
-    const double length = std::sqrt(r2), sigma = 0.5 * (p.diameter[i] + p.diameter[j]);
+    const double length = std::sqrt(r2), sigma = contact_distance(p, i, j);
     for (int c = 0; c < d; ++c) out.vector.push_back(r[c] / length);
     out.gap.push_back(length / sigma - 1.0);
     out.force.push_back(x.y[k] / (sigma * sigma) * length);

@@ -10,7 +10,7 @@ jam_crunch_options default_crunch_options() {
   jam_crunch_options o{};
   o.struct_size = sizeof o;
   o.lp_solver = JAM_LP_IPM;
-  o.method = JAM_CRUNCH_RELINEARISE;
+  o.method = JAM_CRUNCH_BARRIER_PATH;
   o.polish = 1;
   o.max_lps = 1000;
   o.threads = 1;
@@ -24,7 +24,7 @@ jam_crunch_options default_crunch_options() {
 void check_options(const Packing &p, const jam_crunch_options &o) {
   if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP)
     fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
-  if (o.method != JAM_CRUNCH_RELINEARISE && o.method != JAM_CRUNCH_CHAIN)
+  if (o.method != JAM_CRUNCH_BARRIER_PATH && o.method != JAM_CRUNCH_SEQUENTIAL_LP)
     fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
   if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
   if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lp/near_rows.hpp"
+#include "lp/working_set.hpp"
 
 namespace jam {
 namespace {
@@ -81,14 +81,14 @@ bool PathMatrix::follow(double part, double balance) {
 }
 
 bool PathMatrix::solve(const double *rhs, double h, double *ds, double *dg) {
-  if (following_) return system_.solve_near(rhs, h, ds, dg, accuracy, most_);
+  if (following_) return system_.solve_pcg(rhs, h, ds, dg, accuracy, most_);
   system_.solve(rhs, h, ds, dg, 1);
   return true;
 }
 
 void PathMatrix::found() {
   if (!following_) return;
-  price_ = system_.near_solves;
+  price_ = system_.pcg_solves;
   most_ *= 2;
 }
 

@@ -32,7 +32,7 @@ class PathMatrix {
   // y / c of every row.
   const std::vector<double> &weight() const { return weight_; }
   bool following() const { return following_; }
-  int solves() const { return following_ ? system_.near_solves : 0; }
+  int solves() const { return following_ ? system_.pcg_solves : 0; }
   size_t near() const { return near_.size(); }
 
  private:

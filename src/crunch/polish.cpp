@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/contact_set.hpp"
 #include "crunch/crossover.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/gap_rows.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 namespace {

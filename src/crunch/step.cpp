@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pair_rule.hpp"
 #include "crunch/crunch.hpp"
 
 namespace jam {
@@ -41,7 +42,7 @@ double closest_approach(const LpSolution &x, int dim, double unit) {
 // every pair and image is looked at and alpha halved until none overlaps: at low density, where reach follows the free
 // spacing, no pair can meet unseen.
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x, double unit) {
-  const double growth = (std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0) * diameter_max(p);
+  const double growth = (std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0) * contact_distance_max(p);
   PairList shifted = pairs;
   Packing q = moved(p, shifted, x, 1.0, unit);
   double alpha = 1.0;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/monitor.hpp"
-#include "lp/near_rows.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
+#include "lp/working_set.hpp"
 
 namespace jam {
 
@@ -69,7 +69,7 @@ class InteriorPoint {
   NewtonSystem &system_;
   const PackingLp *lp_ = nullptr;  // the near rows of *whole_
   const PackingLp *whole_ = nullptr;
-  NearRows split_;
+  WorkingSet split_;
   IpmControl control_;
   bool box_ = false;
   size_t rows_ = 0, unknowns_ = 0;

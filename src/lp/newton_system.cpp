@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/monitor.hpp"
-#include "lp/row_products.hpp"
+#include "linalg/pair_products.hpp"
 
 namespace jam {
 namespace {
@@ -172,7 +172,7 @@ void NewtonSystem::follow(const double *a, const double *weight, const double *b
   transpose_times(a, weight, now_column_.data());
   now_delta_ = std::accumulate(weight, weight + pair_i_.size(), 0.0);
   energy_ = 0.0;
-  near_solves = 0;
+  pcg_solves = 0;
 }
 
 // The matrix that is left when dg is eliminated: A^T D A + diag(box) - q q^T / delta.
@@ -188,7 +188,7 @@ void NewtonSystem::times(const double *s, double *out) {
 // 56 (2002)): below the bound when the last three gained no more. The preconditioned residual alone would not do, nor
 // as a measure of the first solution: a rattler that met its cage since the factorisation makes it a million times too
 // large. It must be small, though: then nothing is unseen.
-bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
+bool NewtonSystem::solve_pcg(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
   constexpr int last = 3;
   const double t0 = now_seconds();
   const size_t unknowns = column_.size();
@@ -196,9 +196,9 @@ bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *d
   for (size_t k = 0; k < unknowns; ++k) residual_[k] = rhs[k] + now_column_[k] * (h / now_delta_) - residual_[k];
   double product = 0.0, gained[last] = {}, energy = 0.0, unused;
   bool done = false;
-  for (int step = 0; near_solves < most; ++step) {
+  for (int step = 0; pcg_solves < most; ++step) {
     solve_once(residual_.data(), 0.0, correction_.data(), &unused);
-    ++near_solves;
+    ++pcg_solves;
     const double before = product, whole = std::max(energy, energy_);
     product = dot(residual_, correction_.data());
     done = product <= accuracy * (step < last ? accuracy : 1.0) * whole &&

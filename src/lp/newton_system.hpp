@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/pairs.hpp"
-#include "lp/block_cholesky.hpp"
+#include "linalg/block_cholesky.hpp"
 
 namespace jam {
 
@@ -24,13 +24,13 @@ class NewtonSystem {
   // is above 1e-9 of the right-hand side.
   void solve(const double *rhs, double h, double *ds, double *dg, int refine = 1);
 
-  // The same system with other numbers, without a factorisation: solve_near() goes by conjugate gradients with the
+  // The same system with other numbers, without a factorisation: solve_pcg() goes by conjugate gradients with the
   // factor at hand as preconditioner. Where steps are short few weights change much. The pairs must be those of the
   // last factorise(). Keeps a and weight.
   void follow(const double *a, const double *weight, const double *box);
   // Solves from the guess in ds until the energy of the error is some `accuracy` squared of that of the first solution
   // since follow(). False after `most` triangular solves since follow(); ds, dg are then the best so far.
-  bool solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most);
+  bool solve_pcg(const double *rhs, double h, double *ds, double *dg, double accuracy, int most);
   // How many triangular solves cost as much as a factorisation, from the numbers of both alone: 5 at N = 4096, 70 at
   // 65536.
   int solves_worth() const;
@@ -41,7 +41,7 @@ class NewtonSystem {
   // out += sum_k y_k a_k on i, minus on j (out is zeroed first)
   void transpose_times(const double *a, const double *y, double *out) const;
 
-  int factorisations = 0, near_solves = 0;  // near_solves: since follow()
+  int factorisations = 0, pcg_solves = 0;  // pcg_solves: since follow()
   double seconds_factor = 0.0, seconds_assemble = 0.0, seconds_solve = 0.0;
   const BlockCholesky &cholesky() const { return cholesky_; }
 

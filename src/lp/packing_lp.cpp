@@ -1,4 +1,5 @@
 #include "lp/packing_lp.hpp"
+#include "core/pair_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit) {
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < pairs.size(); ++k) {
     const double r2 = pair_vector(p, pairs, k, r);
-    const double sigma = 0.5 * (p.diameter[pairs.i[k]] + p.diameter[pairs.j[k]]);
+    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
     const double length = std::sqrt(r2);
     lp.c[k] = (length - sigma) * (length + sigma) / (sigma * sigma);
     const double scale = pairs.i[k] == pairs.j[k] ? 0.0 : 2.0 * sigma_unit / (sigma * sigma);

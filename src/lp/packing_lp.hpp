@@ -12,7 +12,7 @@
 
 #include "core/monitor.hpp"
 #include "core/pairs.hpp"
-#include "lp/row_products.hpp"
+#include "linalg/pair_products.hpp"
 
 namespace jam {
 

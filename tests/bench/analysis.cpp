@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "analysis/floppy.hpp"
-#include "analysis/geometry.hpp"
 #include "analysis/modes.hpp"
 #include "analysis/spectrum.hpp"
 #include "analysis/structure.hpp"
 #include "capi/system.hpp"
+#include "network/contacts_from_geometry.hpp"
 
 using namespace jam;
 
@@ -49,7 +49,7 @@ double peak_mb() {
   return static_cast<double>(u.ru_maxrss) / 1024.0;
 }
 
-Modes modes_of(const StableGraph &g, int32_t which, int64_t count, double tolerance) {
+Modes modes_of(const RigidityMatrix &g, int32_t which, int64_t count, double tolerance) {
   jam_modes_options o = default_modes_options();
   o.which = which;
   o.count = count;
@@ -132,7 +132,7 @@ RawCrunch crunch_without_polish(const char *file) {
 
 // Fields of 256 contacts in blocks of 64 and one by one, and the largest change of a contact length that should not be,
 // over the largest displacement: S dr = e_l + gamma sigma.
-void floppy_blocks(const Packing &p, const ContactNetwork &net, const StableGraph &g) {
+void floppy_blocks(const Packing &p, const ContactNetwork &net, const RigidityMatrix &g) {
   const FloppySolver solver(p, net, g);
   const size_t m = std::min<size_t>(256, g.contacts()), n = g.unknowns();
   std::vector<double> dr, s(g.contacts());
@@ -145,7 +145,7 @@ void floppy_blocks(const Packing &p, const ContactNetwork &net, const StableGrap
   double worst = 0.0;
   for (size_t l = 0; l < m; ++l) {
     solver.fields(l, 1, dr);
-    stretch(g, dr.data(), s.data());
+    apply_compatibility(g, dr.data(), s.data());
     double size = 0.0;
     for (size_t q = 0; q < n; ++q) size = std::max(size, std::fabs(dr[q]));
     for (size_t k = 0; k < s.size(); ++k)
@@ -172,7 +172,7 @@ int main(int argc, char **argv) {
   const std::unique_ptr<jam_system, void (*)(jam_system *)> owner(sys, jam_destroy);
   const Packing &p = sys->packing;
   const ContactNetwork &net = sys->contacts;
-  const StableGraph g = make_graph(p, net);
+  const RigidityMatrix g = make_rigidity_matrix(p, net);
   std::printf("{\n  \"n\": %zu, \"dim\": %d, \"contacts\": %zu, \"excess\": %lld,\n", p.n(), p.dim, net.size(),
               static_cast<long long>(report.excess_contacts));
   show("crunch", crunch);
@@ -265,7 +265,7 @@ int main(int argc, char **argv) {
   Packing big;
   ContactNetwork many;
   tile(p, net, big, many);
-  const StableGraph wide = make_graph(big, many);
+  const RigidityMatrix wide = make_rigidity_matrix(big, many);
   std::printf("  \"tiled_n\": %zu,\n", big.n());
   show("tiled_lowest_100", timed(1, [&] { modes_of(wide, JAM_MODES_LOWEST, 100, 1e-10); }));
   show("tiled_forces", timed(1, [&] {

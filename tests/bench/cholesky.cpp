@@ -15,8 +15,8 @@
 #include <dmumps_c.h>
 #endif
 #include "core/rng.hpp"
-#include "lp/blas.hpp"
-#include "lp/block_cholesky.hpp"
+#include "linalg/blas.hpp"
+#include "linalg/block_cholesky.hpp"
 
 using namespace jam;
 
@@ -211,8 +211,8 @@ MumpsTimes time_mumps(const Points &p, const Pairs &e, const std::vector<double>
   m.icntl[0] = m.icntl[1] = m.icntl[2] = -1, m.icntl[3] = 0;
   // The METIS order of the particle graph, given by hand: not every MUMPS is built with METIS. Half as much memory
   // again.
-  const auto order =
-      order_nodes(make_graph(static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size()), Ordering::metis);
+  const auto order = order_nodes(
+      make_rigidity_matrix(static_cast<int32_t>(p.size()), e.i.data(), e.j.data(), e.i.size()), Ordering::metis);
   std::vector<int> place(3 * order.size());
   for (size_t k = 0; k < place.size(); ++k) place[3 * order[k / 3] + k % 3] = static_cast<int>(k) + 1;
   m.icntl[6] = 1, m.perm_in = place.data(), m.icntl[13] = 50;

@@ -47,7 +47,7 @@ def draw(rows, picture):
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 4), sharey=True)
     for axis, name in zip(axes, STATES):
-        for colour, method in (("C0", "relinearise"), ("C1", "chain")):
+        for colour, method in (("C0", "barrier_path"), ("C1", "sequential_lp")):
             for r in rows:
                 if r["state"] == name and r["method"] == method:
                     axis.loglog(
@@ -75,7 +75,7 @@ def main():
     rows = []
     for name, (n, stages) in STATES.items():
         start, _ = grown(n, args.seed, stages, args.states)
-        rows += [run(start, name, method) for method in ("relinearise", "chain")]
+        rows += [run(start, name, method) for method in ("barrier_path", "sequential_lp")]
     json.dump(rows, open(args.out, "w"), indent=0)
     for r in rows:
         print(

@@ -115,17 +115,17 @@ int main(int argc, char **argv) {
     o.step_tolerance = std::max(1e-9, tolerance * 1e3);
     for (int polish = 0; polish < 2; ++polish) {
       o.polish = polish;
-      o.method = JAM_CRUNCH_RELINEARISE;
-      row("relinearise", p, o, runs, reference);
-      o.method = JAM_CRUNCH_CHAIN;
-      row("chain", p, o, runs, reference);
+      o.method = JAM_CRUNCH_BARRIER_PATH;
+      row("barrier_path", p, o, runs, reference);
+      o.method = JAM_CRUNCH_SEQUENTIAL_LP;
+      row("sequential_lp", p, o, runs, reference);
     }
   }
   if (argc > 3 && !std::strcmp(argv[3], "clp")) {
     o = default_crunch_options();
     o.lp_solver = JAM_LP_CLP;
     o.gain_tolerance = 1e-9, o.step_tolerance = 1e-6, o.polish = 0;
-    row("relinearise, last LPs by Clp", p, o, 1, reference);
+    row("barrier_path, last LPs by Clp", p, o, 1, reference);
   }
   std::printf("\n  ]");
   if (argc > 3 && !std::strcmp(argv[3], "clp")) {

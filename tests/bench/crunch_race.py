@@ -13,11 +13,11 @@ import matplotlib.pyplot as plt
 
 data = json.load(open(sys.argv[1]))
 style = {
-    ("relinearise", 0): ("o", "C0", "barrier path, last LPs by interior point"),
-    ("relinearise", 1): ("*", "C0", "the same, polished"),
-    ("chain", 0): ("s", "C1", "chain of LPs, interior point"),
-    ("chain", 1): ("P", "C1", "the same, polished"),
-    ("relinearise, last LPs by Clp", 0): ("D", "C3", "barrier path, last LPs by Clp"),
+    ("barrier_path", 0): ("o", "C0", "barrier path, last LPs by interior point"),
+    ("barrier_path", 1): ("*", "C0", "the same, polished"),
+    ("sequential_lp", 0): ("s", "C1", "chain of LPs, interior point"),
+    ("sequential_lp", 1): ("P", "C1", "the same, polished"),
+    ("barrier_path, last LPs by Clp", 0): ("D", "C3", "barrier path, last LPs by Clp"),
 }
 figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
 for key, (marker, colour, label) in style.items():

@@ -112,7 +112,7 @@ def study(args):
     starts = [("phi", f) for f in (0.05, 0.2, 0.4, 0.6, 0.8, 0.95)] + [("p", p) for p in (1e1, 1e3, 1e6, 1e9, 1e12)]
     sizes = {2: (128, 1.4), 3: (128, 1.0), 4: (96, 1.0), 5: (64, 1.0)}
     for dim, method, start, seed in itertools.product(
-        sizes, ("relinearise", "chain"), starts, range(1, args.seeds + 1)
+        sizes, ("barrier_path", "sequential_lp"), starts, range(1, args.seeds + 1)
     ):
         n, ratio = int(sizes[dim][0] * args.scale), sizes[dim][1]
         row = run(dim, n, sizes_of(ratio, n, seed), start, method, seed, args.limit)
@@ -124,7 +124,7 @@ def study(args):
     for kind, n, dim, seed in itertools.product(kinds, (4, 8, 32, 128, 512), (2, 3), range(1, args.seeds + 1)):
         if n > 128 * args.scale:
             continue
-        row = run(dim, n, sizes_of(kind, n, seed), ("phi", 0.3), "relinearise", seed, args.limit)
+        row = run(dim, n, sizes_of(kind, n, seed), ("phi", 0.3), "barrier_path", seed, args.limit)
         rows.append(
             dict(map="sizes", dim=dim, n=n, sizes=kind if isinstance(kind, str) else f"1:{kind:g}", seed=seed, **row)
         )
@@ -181,7 +181,7 @@ def draw(data, picture):
                     )
                 ]
                 if name == "density" and any(r.get("used", r["method"]) != r["method"] for r in cell):
-                    notes.append("LPs alone" if all(r.get("used") == "chain" for r in cell) else "some by LPs")
+                    notes.append("LPs alone" if all(r.get("used") == "sequential_lp" for r in cell) else "some by LPs")
                 work = [r["factorisations"] for r in cell if "factorisations" in r]
                 notes += [f"{np.median(work):.0f}"] if work else []
                 axis.text(b + 0.5, a + 0.5, "\n".join(n for n in notes if n), ha="center", va="center", fontsize=6)

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/create.hpp"
-#include "edmd/engine.hpp"
-#include "edmd/md.hpp"
+#include "dynamics/engine.hpp"
+#include "dynamics/md.hpp"
 
 using namespace jam;
 
@@ -50,7 +50,8 @@ static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &mo
   std::sort(ratios.begin(), ratios.end());
   for (auto &r : rates) std::sort(r.begin(), r.end());
   const auto pressure = [&](int k) {
-    return 1.0 + (engine[k]->sums.virial - before[k].virial) / (engine[k]->sums.action - before[k].action);
+    return 1.0 + (engine[k]->sums.virial - before[k].virial) /
+                     (engine[k]->sums.kinetic_integral - before[k].kinetic_integral);
   };
   return {ratios[3], pressure(0), pressure(1), rates[0][3], rates[1][3]};
 }
@@ -142,7 +143,7 @@ int main(int argc, char **argv) {
           "\"events_per_collision\": %.3f, \"pressure\": %.3f}",
           comma, static_cast<long long>(n), fraction, rates[2], rates[0], rates[4], rates[2] / base,
           static_cast<double>(now.events - before.events) / static_cast<double>(now.collisions - before.collisions),
-          1.0 + (now.virial - before.virial) / (now.action - before.action));
+          1.0 + (now.virial - before.virial) / (now.kinetic_integral - before.kinetic_integral));
       comma = ",";
       std::fflush(stdout);
     }

@@ -24,7 +24,7 @@ def study(args):
             s = jam.System.random(args.n, 3, seed)
             if start != "random":
                 s.compress([(1e-2, start)])
-            for method in ("relinearise", "chain"):
+            for method in ("barrier_path", "sequential_lp"):
                 copy, began = s.copy(), time.process_time()
                 r = copy.crunch(method=method)
                 rows.append(
@@ -47,8 +47,8 @@ def study(args):
 
 def pairs(data, start, field):
     mine = {(r["seed"], r["method"]): r for r in data["rows"] if r["start"] == start and r["jammed"]}
-    both = [seed for seed in range(1, data["seeds"] + 1) if (seed, "relinearise") in mine and (seed, "chain") in mine]
-    return tuple(np.array([mine[seed, method][field] for seed in both]) for method in ("relinearise", "chain"))
+    both = [seed for seed in range(1, data["seeds"] + 1) if (seed, "barrier_path") in mine and (seed, "sequential_lp") in mine]
+    return tuple(np.array([mine[seed, method][field] for seed in both]) for method in ("barrier_path", "sequential_lp"))
 
 
 def draw(data, picture):

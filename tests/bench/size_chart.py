@@ -2,7 +2,7 @@
 """Time, factorisations and LPs of a crunch against the number of spheres, with fitted exponents beside the published ones.
 
 usage: size_chart.py [--sizes 128,256,512,1024] [--seeds 3] [--growth 1e-3] [--pressure 1e5] [--out SIZE.json] [--picture SIZE.png]
-                     [--threads 1] [--methods relinearise,chain] [--states DIR] [--only-draw]
+                     [--threads 1] [--methods barrier_path,sequential_lp] [--states DIR] [--only-draw]
 
 States: random at phi 0.2, grown at G = 1e-2 to p = 500 and then at --growth to --pressure. Times are of the processor, with two
 threads of the clock (let nothing else run then); lines go through medians over seeds. A run that is in the JSON already is not
@@ -96,7 +96,7 @@ def draw(rows, picture):
                 if error == error
                 else f"{name}: $N^{{{power:.2f}}}$",
             )
-            if PUBLISHED[field] and (method == "chain" or len(kinds) == 1):  # what was published is a chain
+            if PUBLISHED[field] and (method == "sequential_lp" or len(kinds) == 1):  # what was published is a chain
                 axis.loglog(
                     sizes,
                     [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes],
@@ -125,7 +125,7 @@ def main():
     parser.add_argument("--growth", type=float, default=1e-3)
     parser.add_argument("--pressure", type=float, default=1e5)
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--methods", default="relinearise,chain")
+    parser.add_argument("--methods", default="barrier_path,sequential_lp")
     parser.add_argument("--out", default="size_chart.json")
     parser.add_argument("--states", help="folder where grown states are kept and found again")
     parser.add_argument("--picture")

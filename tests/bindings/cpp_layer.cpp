@@ -6,11 +6,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-extern "C" {
-#include <cmocka.h>
-}
 #include <stdexcept>
 #include "jam/jam.hpp"
+#include "test.h"
 
 namespace {
 

@@ -126,7 +126,7 @@ CHECK(jam_report, contacts, 40, 8);
 CHECK(jam_report, rattlers, 48, 8);
 CHECK(jam_report, stable, 56, 8);
 CHECK(jam_report, bucklers, 64, 8);
-CHECK(jam_report, one_ss, 72, 8);
+CHECK(jam_report, isostatic_contacts, 72, 8);
 CHECK(jam_report, excess_contacts, 80, 8);
 CHECK(jam_report, lp_solves, 88, 8);
 CHECK(jam_report, factorisations, 96, 8);
@@ -338,7 +338,7 @@ int main(void) {
   SHOW(jam_report, rattlers);
   SHOW(jam_report, stable);
   SHOW(jam_report, bucklers);
-  SHOW(jam_report, one_ss);
+  SHOW(jam_report, isostatic_contacts);
   SHOW(jam_report, excess_contacts);
   SHOW(jam_report, lp_solves);
   SHOW(jam_report, factorisations);
@@ -493,8 +493,8 @@ int main(void) {
   printf("JAM_EOS_FREE_VOLUME value %d\n", (int)JAM_EOS_FREE_VOLUME);
   printf("JAM_LP_IPM value %d\n", (int)JAM_LP_IPM);
   printf("JAM_LP_CLP value %d\n", (int)JAM_LP_CLP);
-  printf("JAM_CRUNCH_RELINEARISE value %d\n", (int)JAM_CRUNCH_RELINEARISE);
-  printf("JAM_CRUNCH_CHAIN value %d\n", (int)JAM_CRUNCH_CHAIN);
+  printf("JAM_CRUNCH_BARRIER_PATH value %d\n", (int)JAM_CRUNCH_BARRIER_PATH);
+  printf("JAM_CRUNCH_SEQUENTIAL_LP value %d\n", (int)JAM_CRUNCH_SEQUENTIAL_LP);
   printf("JAM_STEP_PATH value %d\n", (int)JAM_STEP_PATH);
   printf("JAM_STEP_LP value %d\n", (int)JAM_STEP_LP);
   printf("JAM_STEP_POLISH value %d\n", (int)JAM_STEP_POLISH);

@@ -1,13 +1,9 @@
 /* What analysis calls say to wrong arguments, missing networks, packings that are not jammed, and short buffers. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
 #include <jam/jam.h>
+#include "test.h"
 
 static jam_system *fluid(void) {
   jam_create_options o;

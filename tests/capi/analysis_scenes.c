@@ -2,14 +2,10 @@
  * why in the report; what follows still works or is refused by name. Fluids, crystals and unclear gaps:
  * analysis_errors, network_1ss. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
 #include <jam/jam.h>
+#include "test.h"
 
 static jam_system *spheres(int dim, int n, double box, double diameter, const double *x) {
   jam_create_options o;

@@ -1,13 +1,9 @@
 /* jam_create and its neighbours: every refusal named in the header, views, setters, copies, seeds. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 #include "jam/jam.h"
 

@@ -1,14 +1,10 @@
 /* jam_crunch_history and jam_crunch_step_*: every column against what the state and the report tell, and the physics of
  * a step: displacements add up to the whole move, the linear network of every LP is in balance. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 #include "jam/jam.h"
 
@@ -152,7 +148,7 @@ static void steps_add_up(int dim, int32_t method) {
   assert_true(fabs(phi - r.packing_fraction) < 1e-14);
   /* LPs stride through the dilute start, then the path if that is the method, LPs again and polish. */
   for (k = 0; k < rows; ++k) paths += phase[k] == JAM_STEP_PATH;
-  assert_true(phase[0] == JAM_STEP_LP && (paths > 0) == (method == JAM_CRUNCH_RELINEARISE) &&
+  assert_true(phase[0] == JAM_STEP_LP && (paths > 0) == (method == JAM_CRUNCH_BARRIER_PATH) &&
               phase[rows - 1] == JAM_STEP_POLISH);
   assert_int_equal(r.method, method); /* the quench that was used */
   assert_int_equal(lps, r.lp_solves);

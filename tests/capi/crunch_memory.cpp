@@ -2,13 +2,9 @@
 // good one on the way, from which the next crunch goes on; no leak.
 extern "C" {
 #include <jam/jam.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 }
 #include <atomic>
 #include <cmath>

@@ -1,14 +1,10 @@
 /* Cancel and wall time inside every phase of a crunch: path, LP by either solver, polish. The log callback tells the
  * phase. Each time the status says so, the state is valid, and the next call goes on from it. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 #include "jam/jam.h"
 
@@ -84,7 +80,7 @@ static void cancel_in_every_phase(void **state) {
   trap("path", 20, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
   trap("ipm", 1, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
   trap("polish", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
-  o.method = JAM_CRUNCH_CHAIN;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   trap("ipm", 3, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
   trap("LP 3", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
 }
@@ -97,7 +93,7 @@ static void wall_time_inside_an_lp(void **state) {
   jam_crunch_options_init(&o, sizeof o);
   o.wall_time = 1.5; /* a busy machine gets that far in time */
   trap("path", 3, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
-  o.method = JAM_CRUNCH_CHAIN;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   trap("ipm", 2, 1.6, &o, JAM_LIMIT, JAM_STOP_WALL_TIME);
   for (solver = 0; solver < 2; ++solver) {
     jam_system *sys = start(solver ? 400 : 100); /* 400: one LP by Clp takes far longer than the limit */

@@ -1,13 +1,9 @@
 /* jam_run and jam_compress: arguments, statuses, edge cases, cancelling. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 static jam_system *make(int64_t n, int32_t dim, double fraction) {
   jam_create_options o;

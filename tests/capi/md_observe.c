@@ -1,14 +1,10 @@
 /* What jam_observe records: consistent with itself, with the run, and without a trace in the dynamics. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 enum { N = 500 };
 

@@ -1,14 +1,10 @@
 /* Checkpoints, equations of state, the fit of the glass branch. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 static const char *path = "md_state_checkpoint.bin";
 

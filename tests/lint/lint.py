@@ -10,25 +10,28 @@ problems = []
 # src/README.md: a layer may include itself and those listed here.
 LAYERS = {
     "core": [],
-    "edmd": ["core"],
-    "lp": ["core"],
-    "crunch": ["core", "lp"],
-    "analysis": ["core", "lp"],
-    "io": ["core"],
-    "capi": ["core", "edmd", "lp", "crunch", "analysis", "io"],
+    "linalg": ["core"],
+    "lp": ["linalg", "core"],
+    "network": ["linalg", "core"],
+    "crunch": ["lp", "network", "linalg", "core"],
+    "soft": ["lp", "network", "linalg", "core"],
+    "dynamics": ["soft", "network", "linalg", "core"],
+    "analysis": ["lp", "network", "linalg", "core"],
+    "io": ["dynamics", "network", "core"],
+    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "io"],
 }
 # Third-party headers and the only files (or folders) under src that may see them.
 GUESTS = {
     r"(Clp|Coin|coin/|Osi)\w*": ["src/lp/clp_backend.cpp"],
     r"Spectra/": ["src/analysis/modes.cpp"],
-    r"metis\.h": ["src/lp/"],
-    r"(cblas|lapacke|openblas|f77blas)\w*": ["src/lp/"],
-    r"[ds]mumps_c\.h": ["src/lp/"],
-    r"Eigen/": ["src/lp/", "src/analysis/", "src/crunch/"],
+    r"metis\.h": ["src/linalg/"],
+    r"(cblas|lapacke|openblas|f77blas)\w*": ["src/linalg/"],
+    r"[ds]mumps_c\.h": ["src/linalg/"],
+    r"Eigen/": ["src/lp/", "src/network/", "src/analysis/", "src/crunch/"],
 }
 # Files that may keep state of the process, each with its reason.
 STATEFUL = {
-    "src/lp/blas.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
+    "src/linalg/blas.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
 }
 
 

@@ -14,7 +14,7 @@ import unittest
 
 program = sys.argv.pop(1)
 KEYS = """n dim seed packing_fraction diameter_mean pressure collisions collisions_per_second lp_solves factorisations contacts
-rattlers bucklers one_ss excess_contacts max_overlap force_residual gamma_residual min_force min_gap stop_reason seconds_md
+rattlers bucklers isostatic_contacts excess_contacts max_overlap force_residual gamma_residual min_force min_gap stop_reason seconds_md
 seconds_crunch version""".split()
 
 
@@ -160,8 +160,8 @@ class JamPack(unittest.TestCase):
         self.assertEqual([key for key in KEYS if key not in report], [])
         self.assertTrue(report["jammed"], report)
         self.assertEqual(report["stop_reason"], "converged")
-        self.assertEqual(report["one_ss"], report["dim"] * (report["n"] - report["rattlers"] - 1) + 1)
-        self.assertEqual(report["excess_contacts"], report["contacts"] - report["one_ss"])
+        self.assertEqual(report["isostatic_contacts"], report["dim"] * (report["n"] - report["rattlers"] - 1) + 1)
+        self.assertEqual(report["excess_contacts"], report["contacts"] - report["isostatic_contacts"])
         self.assertLess(report["force_residual"], 1e-8)
         self.assertLess(report["max_overlap"], 1e-12)
         self.check_network(xyz, csv, report)
@@ -288,7 +288,7 @@ class JamPack(unittest.TestCase):
     def test_mari_kurchan(self):
         report = self.report("--n", 200, "--plant", 1.5, "--growth", "1e-2:1e5")
         self.assertTrue(report["jammed"])
-        self.assertEqual(report["contacts"], report["one_ss"])
+        self.assertEqual(report["contacts"], report["isostatic_contacts"])
         self.assertTrue(1.8 < report["packing_fraction"] < 3.5, report["packing_fraction"])
         one = self.report(
             "--n", 100, "--model", "mk", "--zeta", 0, "--no-md", "--no-crunch", "--output", self.dir / "a.dat"

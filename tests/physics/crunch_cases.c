@@ -1,15 +1,11 @@
 /* jam_crunch at its edges: every kind of start, and a certificate recomputed here, independently of the library. */
 #include <math.h>
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 #include "jam/jam.h"
 
@@ -269,7 +265,7 @@ static void cancel_and_resume(void **state) {
   jam_crunch_options chain;
   (void)state;
   jam_crunch_options_init(&chain, sizeof chain);
-  chain.method = JAM_CRUNCH_CHAIN;
+  chain.method = JAM_CRUNCH_SEQUENTIAL_LP;
   lps = (int)crunch(whole, &chain, JAM_OK).lp_solves;
   jam_destroy(whole);
   assert_true(lps > 3);
@@ -281,7 +277,7 @@ static void cancel_and_resume(void **state) {
     const double *s;
     size_t len;
     jam_crunch_options_init(&o, sizeof o);
-    o.method = JAM_CRUNCH_CHAIN; /* it reports every LP */
+    o.method = JAM_CRUNCH_SEQUENTIAL_LP; /* it reports every LP */
     jam_set_progress(sys, stop_at, &left);
     r = crunch(sys, &o, JAM_CANCELLED);
     assert_true(!r.jammed && r.stop_reason == JAM_STOP_CANCELLED && r.max_overlap < 1e-12);
@@ -320,7 +316,7 @@ static void limits_and_options(void **state) {
   o.max_lps = 0;
   crunch(sys, &o, JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "max_lps is 0"));
-  o.max_lps = 2, o.method = JAM_CRUNCH_CHAIN;
+  o.max_lps = 2, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   r = crunch(sys, &o, JAM_LIMIT);
   assert_true(r.lp_solves == 2 && r.stop_reason == JAM_STOP_LP_LIMIT && !r.jammed);
   o.lp_solver = 9;

@@ -1,14 +1,10 @@
 /* Fluids of hard spheres against closed forms, conservation laws, and the approach to jamming. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 static jam_system *fluid(int64_t n, int32_t dim, double fraction) {
   jam_create_options o;

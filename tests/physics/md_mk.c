@@ -1,13 +1,9 @@
 /* The Mari-Kurchan model: exact equation of state, planting, and the chain down to jamming. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta, int64_t seed) {
   jam_create_options o;

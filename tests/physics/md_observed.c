@@ -1,13 +1,9 @@
 /* Gaps near contact, forces by collisions, and the detector of crystals. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio) {
   jam_create_options o;

@@ -1,12 +1,8 @@
 /* Growth laws, the quasi-static mode, limits of time, and masses by volume. */
 #include <jam/jam.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
+#include "test.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
   jam_create_options o;

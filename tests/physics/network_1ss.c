@@ -2,15 +2,11 @@
  * together: forces from positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow
  * from forces. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
 #include <jam/jam.h>
+#include "test.h"
 
 enum { ROOM = 40000, MODES = 400 };
 
@@ -80,7 +76,7 @@ static void close_network(struct network *w) {
   jam_destroy(w->sys);
 }
 
-static double stretch(const struct network *w, int64_t k, const double *u) {
+static double apply_compatibility(const struct network *w, int64_t k, const double *u) {
   const double *a = u + (int64_t)w->node[w->pair[2 * k]] * w->d, *b = u + (int64_t)w->node[w->pair[2 * k + 1]] * w->d;
   double s = 0.0;
   int c;
@@ -183,7 +179,7 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     assert_int_equal(m, w->stable * w->d);
     for (k = 0; k < (int64_t)m; ++k) size = fmax(size, fabs(u[k]));
     for (k = 0; k < w->contacts; ++k)
-      assert_true(fabs(stretch(w, k, u) - gamma * sigma(w, k) - (k == l)) < 1e-9 * (1.0 + size));
+      assert_true(fabs(apply_compatibility(w, k, u) - gamma * sigma(w, k) - (k == l)) < 1e-9 * (1.0 + size));
     for (k = 0; k < w->stable; ++k) mean += u[k * w->d];
     assert_true(fabs(mean) < 1e-9 * size * (double)w->stable);
   }

@@ -1,15 +1,11 @@
 /* The small version of examples/studies/network_distributions.py: one packing, wide bounds.
  * Values: Charbonneau et al., Nat. Commun. 5, 3725 (2014); Lerner, During and Wyart, Soft Matter 9, 8252 (2013). */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
 #include <jam/jam.h>
+#include "test.h"
 
 enum { ROOM = 200000 };
 static double x[ROOM], y[ROOM];

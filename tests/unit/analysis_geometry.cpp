@@ -1,17 +1,13 @@
 // Contact networks and states of self-stress from positions alone, also where they fail.
 #include <functional>
-#include "analysis/geometry.hpp"
 #include "analysis/modes.hpp"
 #include "analysis_networks.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
+#include "network/contacts_from_geometry.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 }
 
 using namespace jam;
@@ -34,7 +30,7 @@ void fcc(void **) {
   assert_int_equal(r.report.clusters, 1);
   assert_int_equal(contact_candidates(p, 0.1).limit.size(), 1);  // a clear case has one
   // rank from the dense spectrum
-  const StableGraph g = make_graph(p, r.network);
+  const RigidityMatrix g = make_rigidity_matrix(p, r.network);
   Monitor monitor;
   Modes modes;
   jam_modes_options o = default_modes_options();
@@ -50,7 +46,7 @@ void fcc(void **) {
   const size_t m = g.contacts();
   std::vector<double> y(g.unknowns());
   for (int64_t k = 0; k < s.dimension; ++k) {
-    balance(g, &s.basis[static_cast<size_t>(k) * m], y.data());
+    apply_equilibrium(g, &s.basis[static_cast<size_t>(k) * m], y.data());
     for (double v : y) assert_true(std::fabs(v) < 1e-12);
   }
   assert_int_equal(s.basis.size(), static_cast<size_t>(s.dimension) * m);
@@ -137,7 +133,7 @@ void two_clusters(void **) {
   assert_int_equal(r.report.clusters, 2);
   assert_int_equal(r.report.zero_modes, 4);  // each strip has its two translations
   assert_int_equal(r.status, JAM_AMBIGUOUS);
-  const StableGraph g = make_graph(p, r.network);
+  const RigidityMatrix g = make_rigidity_matrix(p, r.network);
   for (size_t k = 0; k < g.contacts(); ++k) {
     const bool flat = std::fabs(g.normal[2 * k + 1]) < 1e-9;
     assert_true(std::fabs(r.network.force[k] - (flat ? 84.0 / 36.0 : 0.0)) < 1e-9);
@@ -178,7 +174,7 @@ void no_force_of_one_sign(void **) {
   for (int first : {0, 4})
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j) add_contact(c, first + i, first + j, {0.0, 0.0});
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const StressStates s = find_stress(g, true);
   assert_int_equal(s.dimension, 2);
   assert_false(s.positive);
@@ -190,25 +186,25 @@ void no_force_of_one_sign(void **) {
 void cancelled_anywhere(void **) {
   // A cancel that comes late: each of the long parts asks by itself.
   const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const NullSpace space(g);
   Monitor monitor;
   monitor.cancel();
-  const NullSpace watched(g, Watch(monitor));
+  const NullSpace watched(g, CancellationPoint(monitor));
   std::vector<double> f(g.contacts(), 1.0);
   f[0] = 2.0;
   int stopped = 0;
   const auto stops = [&](const std::function<void()> &call) {
     try {
       call();
-    } catch (const Stopped &) {
+    } catch (const Cancelled &) {
       ++stopped;
     }
   };
   stops([&] { watched.project(f); });
   stops([&] { watched.zero_modes(); });
-  stops([&] { least_force(g, f, Watch(monitor)); });
-  stops([&] { find_stress(g, space, true, Watch(monitor)); });
+  stops([&] { least_force(g, f, CancellationPoint(monitor)); });
+  stops([&] { find_stress(g, space, true, CancellationPoint(monitor)); });
   assert_int_equal(stopped, 4);
 }
 
@@ -219,7 +215,7 @@ void pulling_is_no_force(void **) {
   c.packing.position.insert(c.packing.position.end(), {0.9, 0.3});
   add_contact(c, 0, 16, {0.0, 0.0});
   add_contact(c, 1, 16, {0.0, 0.0});
-  const StressStates s = find_stress(make_graph(c.packing, c.network), false);
+  const StressStates s = find_stress(make_rigidity_matrix(c.packing, c.network), false);
   assert_true(s.positive);
   assert_true(s.force[48] < 1e-9 && s.force[49] < 1e-9);
 }

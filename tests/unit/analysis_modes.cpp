@@ -7,11 +7,7 @@
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 }
 
 using namespace jam;
@@ -20,7 +16,7 @@ using namespace jamtest;
 namespace {
 
 struct Solved {
-  StableGraph g;
+  RigidityMatrix g;
   ContactWeights w;
   Modes modes;
   jam_status status;
@@ -34,7 +30,7 @@ Solved solve(const Case &c, int32_t which, int64_t count, double frequency = 0.0
   o.count = count;
   o.frequency = frequency;
   Solved s;
-  s.g = make_graph(c.packing, c.network);
+  s.g = make_rigidity_matrix(c.packing, c.network);
   s.w = contact_weights(s.g, 1.0, h);
   Monitor monitor;
   monitor.begin();
@@ -113,7 +109,7 @@ void hard_sphere_weights(void **) {
   for (size_t k = 0; k < c.network.size(); ++k) c.network.force[k] = k % 3 == 0 ? 2.0 : 1.0;  // bonds are laid in turn
   jam_hessian_options h = default_hessian_options();
   h.stiffness = JAM_STIFFNESS_HARD;
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const ContactWeights w = contact_weights(g, 1.0, h);
   jam_modes_options o = default_modes_options();
   o.which = JAM_MODES_ALL;
@@ -186,7 +182,7 @@ void finite_differences(void **) {
     o.stiffness = JAM_STIFFNESS_POWER;
     o.alpha = alpha;
     o.prestress = e;
-    const StableGraph g = make_graph(c.packing, c.network);
+    const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
     const CsrMatrix csr = to_csr(make_hessian(g, contact_weights(g, 1.0, o)));
     std::vector<double> rest(g.contacts());
     for (size_t k = 0; k < rest.size(); ++k) rest[k] = g.distance[k] + e * std::pow(g.force[k], 1.0 / (alpha - 1.0));
@@ -210,7 +206,7 @@ void curvature_is_quadratic_form(void **) {
   Case c = lattice(triangular_basis(), triangular_bonds(), 6);
   Rng rng(3, Stream::analysis_start);
   for (double &x : c.packing.position) x += 0.05 * rng.normal();
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   jam_hessian_options o = default_hessian_options();
   o.prestress = 0.05;
   const ContactWeights w = contact_weights(g, 1.0, o);
@@ -227,13 +223,13 @@ void spectra_of_both_products(void **) {
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   Rng rng(5, Stream::analysis_start);
   for (double &x : c.packing.position) x += 0.1 * rng.normal();
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const int m = static_cast<int>(g.contacts());
   std::vector<double> a(static_cast<size_t>(m) * m), unit(m, 0.0), force(g.unknowns());
   for (int k = 0; k < m; ++k) {
     unit[k] = 1.0;
-    balance(g, unit.data(), force.data());
-    stretch(g, force.data(), &a[static_cast<size_t>(k) * m]);
+    apply_equilibrium(g, unit.data(), force.data());
+    apply_compatibility(g, force.data(), &a[static_cast<size_t>(k) * m]);
     unit[k] = 0.0;
   }
   std::vector<double> big;
@@ -265,7 +261,7 @@ void refuses(void **) {
   jam_modes_options o = default_modes_options();
   o.which = JAM_MODES_ALL;
   o.memory_limit = 1000.0;
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   jam_status code = JAM_OK;
   try {
     check_modes_options(o, g);
@@ -278,7 +274,7 @@ void refuses(void **) {
 int32_t stop_at_once(const jam_progress *, void *) { return 1; }
 void cancels(void **) {
   const Case c = lattice(triangular_basis(), triangular_bonds(), 16);
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   for (int32_t which : {JAM_MODES_LOWEST, JAM_MODES_ALL}) {
     jam_modes_options o = default_modes_options();
     o.which = which;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
-#include "analysis/hessian.hpp"
-#include "core/contacts.hpp"
+#include "network/contact_network.hpp"
+#include "network/hessian.hpp"
 
 namespace jamtest {
 

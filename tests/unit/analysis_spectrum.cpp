@@ -6,11 +6,7 @@
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 }
 
 using namespace jam;
@@ -20,7 +16,7 @@ namespace {
 
 void density_of_fcc(void **) {
   const Case c = lattice(fcc_basis(), fcc_bonds(), 10);
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   jam_dos_options o = default_dos_options();
   o.points = 512;
   o.moments = 128;
@@ -56,7 +52,7 @@ void density_with_prestress(void **) {
   // spectrum.
   const double t = 0.3;
   const Case c = lattice(fcc_basis(), fcc_bonds(), 10);
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   jam_hessian_options h = default_hessian_options();
   h.prestress = t;
   jam_dos_options o = default_dos_options();
@@ -107,7 +103,7 @@ void prestressed_moduli(void **) {
   h.prestress = 0.05;
   const int cells = 4;
   Case c = lattice(fcc_basis(), fcc_bonds(), cells);
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   Packing box = c.packing;  // the cell of the lattice is no cube; its volume is what counts
   box.box = std::cbrt(cells * cells * cells / std::sqrt(2.0));
   const double volume = std::pow(box.box, 3);
@@ -152,7 +148,7 @@ void relaxed_moduli(void **) {
   for (double e : {0.0, 0.03}) {
     jam_hessian_options h = default_hessian_options();
     h.prestress = e;
-    const StableGraph g = make_graph(moved.packing, moved.network);
+    const RigidityMatrix g = make_rigidity_matrix(moved.packing, moved.network);
     const ContactWeights w = contact_weights(g, 1.0, h);
     jam_modes_options o = default_modes_options();
     o.which = JAM_MODES_ALL;
@@ -194,7 +190,7 @@ void moduli_of_triangular(void **) {
   const int cells = 8;
   Case c = lattice(triangular_basis(), triangular_bonds(), cells);
   c.packing.box = std::sqrt(cells * cells * std::sqrt(0.75));
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const jam_moduli m = elastic_moduli(c.packing, g, contact_weights(g, 1.0, default_hessian_options()));
   assert_true(std::fabs(m.shear - std::sqrt(3.0) / 4.0) < 1e-12);
   assert_true(std::fabs(m.bulk - std::sqrt(3.0) / 2.0) < 1e-12);
@@ -206,7 +202,7 @@ void moduli_of_fcc(void **) {
   const int cells = 4;
   Case c = lattice(fcc_basis(), fcc_bonds(), cells);
   c.packing.box = std::cbrt(cells * cells * cells / std::sqrt(2.0));
-  const StableGraph g = make_graph(c.packing, c.network);
+  const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const jam_moduli m = elastic_moduli(c.packing, g, contact_weights(g, 1.0, default_hessian_options()));
   assert_true(std::fabs(m.shear - std::sqrt(0.5)) < 1e-12);  // c44 in the cubic axes
   assert_true(std::fabs(m.bulk - 2.0 * std::sqrt(2.0) / 3.0) < 1e-12);

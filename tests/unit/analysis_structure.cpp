@@ -1,18 +1,14 @@
 // Gaps, classes, structure and correlations against brute force and against the FCC crystal.
 #include <complex>
-#include "analysis/geometry.hpp"
 #include "analysis/structure.hpp"
 #include "analysis_networks.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
 #include "jam/jam.h"
+#include "network/contacts_from_geometry.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 }
 
 using namespace jam;

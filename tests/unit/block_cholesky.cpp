@@ -15,15 +15,11 @@
 #include <thread>
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "lp/block_cholesky.hpp"
-#include "lp/dense_front.hpp"
+#include "linalg/block_cholesky.hpp"
+#include "linalg/dense_front.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "test.h"
 }
 
 using namespace jam;
@@ -150,7 +146,7 @@ void orders_are_permutations(void **) {
   for (int32_t n : {1, 2, 50, 3000}) {
     const Problem p = n > 1000 ? make_problem(1, n, 12.0, true, 5) : make_problem(1, n, 3.0, false, 5);
     for (Ordering ordering : kOrderings) {
-      const Graph g = make_graph(n, p.ei.data(), p.ej.data(), p.ei.size());
+      const Graph g = make_rigidity_matrix(n, p.ei.data(), p.ej.data(), p.ei.size());
       const auto order = order_nodes(g, ordering);
       assert_int_equal(std::set<int32_t>(order.begin(), order.end()).size(), n);
       assert_int_equal(order.size(), n);

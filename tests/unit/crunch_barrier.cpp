@@ -1,20 +1,14 @@
 // The barrier function of the path: its value along a line against true distances, its slope against differences, its
 // best step against a scan; and the turns that the path takes off saddles and out of creeping LPs.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <cmath>
 #include <random>
 #include <string>
+#include "test.h"
 
 #include "core/create.hpp"
 #include "crunch/barrier.hpp"
+#include "crunch/barrier_path.hpp"
 #include "crunch/crunch.hpp"
-#include "crunch/relinearise.hpp"
 #include "unit/crunch_scenes.hpp"
 
 using namespace jam;
@@ -123,17 +117,17 @@ void walls_stop(void **) {
 }
 
 struct PathRun {
-  RelineariseResult end;
+  BarrierPathResult end;
   std::vector<double> gaps, phi;
 };
 
-PathRun follow(Packing &p, RelineariseControl control) {
+PathRun follow(Packing &p, BarrierPathControl control) {
   NewtonSystem system;
   Monitor monitor;
   monitor.begin();
   PathRun run;
   control.on_step = [&](double gap, size_t) { run.gaps.push_back(gap), run.phi.push_back(packing_fraction(p)); };
-  run.end = relinearise(p, control, system, monitor);
+  run.end = follow_barrier_path(p, control, system, monitor);
   return run;
 }
 
@@ -154,11 +148,11 @@ void saddle_is_left(void **) {
   const double square = packing_fraction(p);
   assert_true(std::fabs(square / 0.785398 - 1.0) < 1e-4);
   Packing q = p;
-  RelineariseControl control;
+  BarrierPathControl control;
   control.max_factorisations = 4;
   const PathRun few = follow(q, control);
   assert_true(!few.end.reached && closest_pair(q).gap > 0.0);
-  const PathRun whole = follow(p, RelineariseControl());
+  const PathRun whole = follow(p, BarrierPathControl());
   assert_true(whole.end.reached && closest_pair(p).gap > 0.0 && packing_fraction(p) > 1.02 * square);
 }
 
@@ -167,8 +161,8 @@ void nothing_left(Packing &p, const PathRun &run) {
   jam_crunch_options o = default_crunch_options();
   Monitor monitor;
   monitor.begin();
-  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 1;
-  assert_true(run.end.reached && run.end.gap <= RelineariseControl().target && closest_pair(p).gap > 0.0);
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 1;
+  assert_true(run.end.reached && run.end.gap <= BarrierPathControl().target && closest_pair(p).gap > 0.0);
   assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
 }
 
@@ -182,7 +176,7 @@ void arrives(void **) {
   for (const int dim : {2, 3})
     for (int seed = 1; seed <= 6; ++seed) {
       Packing p = near_start(64, dim, seed);
-      const PathRun run = follow(p, RelineariseControl());
+      const PathRun run = follow(p, BarrierPathControl());
       double rise = 0.0;
       for (size_t k = 3; k < run.gaps.size(); ++k) rise = std::max(rise, run.gaps[k] / run.gaps[k - 3]);
       if (run.end.reheats > 0) ++saddles, assert_true(rise > 3.0);
@@ -199,12 +193,12 @@ void saddle_near_the_end(void **) {
     for (int seed = 1; seed <= 6; ++seed) {
       const Packing p = near_start(64, dim, seed);
       Packing q = p;
-      const PathRun warmed = follow(q, RelineariseControl());
+      const PathRun warmed = follow(q, BarrierPathControl());
       size_t k = 3;
       while (k < warmed.gaps.size() && warmed.gaps[k] < 3.0 * warmed.gaps[k - 1]) ++k;
       if (warmed.end.reheats == 0 || k == warmed.gaps.size()) continue;
       q = p;
-      RelineariseControl control;
+      BarrierPathControl control;
       control.target = 0.25 * warmed.gaps[k - 1], control.saddle_ends = true;
       const PathRun ends = follow(q, control);
       assert_true(!ends.end.reached && ends.end.reheats == 0 && ends.end.gap < 1.25 * warmed.gaps[k - 1] &&
@@ -225,7 +219,7 @@ void old_factor_will_do(void **) {
     for (const int dim : {2, 3})
       for (int seed = 1; seed <= 6; ++seed) {
         Packing p = near_start(200, dim, seed);
-        RelineariseControl control;
+        BarrierPathControl control;
         control.solves_worth = worth;
         const PathRun run = follow(p, control);
         steps += static_cast<int>(run.gaps.size()) - 1, factorisations += run.end.factorisations;

@@ -1,17 +1,11 @@
 // Forces that push aside the rows which cut steps short: their sizes on rows whose answers are known, on one that no
 // force moves, and on the path.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <cmath>
 #include <cstdlib>
+#include "test.h"
 
-#include "crunch/blocking_rows.hpp"
-#include "crunch/relinearise.hpp"
+#include "crunch/barrier_path.hpp"
+#include "crunch/blocking_constraints.hpp"
 #include "unit/crunch_scenes.hpp"
 
 using namespace jam;
@@ -29,7 +23,7 @@ struct Scene {
   std::vector<double> weight, target;
   size_t block[3] = {1, 7, 20};
   double close[3] = {50.0, 300.0, 3.0}, share[3] = {1e-3, 1e-2, 0.5}, pull = 0.01;
-  BlockingRows blocking;
+  BlockingConstraints blocking;
 
   Scene() {
     const Packing p = start(40, 3, 0.3, 5);
@@ -105,7 +99,7 @@ void path_pushes(void **) {
     std::string log;
     listen(monitor, log, JAM_LOG_DEBUG);
     NewtonSystem system;
-    const RelineariseResult end = relinearise(p, RelineariseControl(), system, monitor);
+    const BarrierPathResult end = follow_barrier_path(p, BarrierPathControl(), system, monitor);
     assert_true(end.reached && closest_pair(p).gap > 0.0);
     const std::string word = "correctors ";
     for (size_t at = log.find(word); at != std::string::npos; at = log.find(word, at + 1))

@@ -1,19 +1,13 @@
 // The exact vertex: from networks with a wrong contact, from those that are right, and the small LP that it ends in.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include "test.h"
 
-#include "crunch/contact_set.hpp"
 #include "crunch/crossover.hpp"
 #include "lp/small_lp.hpp"
 #include "near_contact.hpp"
+#include "network/contact_network.hpp"
 
 using namespace jam;
 

@@ -1,15 +1,9 @@
 // Rare ends of a crunch, forced through CrunchSeams: an interior point that fails, a path that gives up, a polish that
 // refuses.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include "test.h"
 
 #include "crunch_scenes.hpp"
 
@@ -39,7 +33,7 @@ void two_threads_repeat(void **) {
 void clp_takes_over(void **) {
   const Packing p = start(40, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   int ipm = 0, clp = 0;
   CrunchSeams seams;
   seams.answer = [&](LpSolution &x, jam_lp_solver solver) {
@@ -67,7 +61,7 @@ void clp_takes_over(void **) {
 // up.
 void clp_alone(void **) {
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN, o.lp_solver = JAM_LP_CLP;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.lp_solver = JAM_LP_CLP;
   for (int seed = 1; seed <= 12; ++seed) {
     const CrunchResult r = run(start(40, 3, 0.3, seed), o);
     assert_true(r.status == JAM_OK && r.report.jammed && r.report.lp_solver == JAM_LP_CLP &&
@@ -79,7 +73,7 @@ void clp_alone(void **) {
 void nobody_solves(void **) {
   const Packing p = start(40, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   int asked = 0;
   CrunchSeams seams;
   seams.answer = [&](LpSolution &x, jam_lp_solver) { x.solved = x.solved && ++asked <= 3; };
@@ -104,9 +98,9 @@ void chain_takes_over(void **) {
   seams.attempt = [](CrunchResult &r) { r.status = JAM_NOT_CONVERGED; };
   History history, expected;
   const CrunchResult r = run(p, o, &seams, &history);
-  chain.method = JAM_CRUNCH_CHAIN;
+  chain.method = JAM_CRUNCH_SEQUENTIAL_LP;
   const CrunchResult alone = run(p, chain, nullptr, &expected);
-  assert_true(r.status == JAM_OK && r.report.jammed && r.report.method == JAM_CRUNCH_CHAIN);
+  assert_true(r.status == JAM_OK && r.report.jammed && r.report.method == JAM_CRUNCH_SEQUENTIAL_LP);
   assert_true(r.report.factorisations > alone.report.factorisations);  // the path's are counted too
   same_bits(r, alone);
   assert_int_equal(history.rows().size(), expected.rows().size());

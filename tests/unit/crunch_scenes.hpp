@@ -31,7 +31,7 @@ inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const Cru
 // Near enough to jamming that the path begins where it does in a crunch.
 inline Packing near_jamming(const Packing &p) {
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 4;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 4;
   return run(p, o).packing;
 }
 

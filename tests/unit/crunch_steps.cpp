@@ -1,16 +1,10 @@
 // No step may let two spheres meet that the neighbour list does not know: looked at over all pairs after every step.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <cmath>
+#include "test.h"
 
 #include "core/create.hpp"
+#include "crunch/barrier_path.hpp"
 #include "crunch/crunch.hpp"
-#include "crunch/relinearise.hpp"
 
 using namespace jam;
 
@@ -75,7 +69,7 @@ const Case dilute[] = {{60, 2, 0.05, 1.0},  {60, 3, 0.02, 1.0}, {60, 3, 0.2, 1.0
 void path_from_low_density(void **) {
   for (const Case &c : dilute) {
     Packing p = start(c.n, c.dim, c.phi, c.ratio);
-    RelineariseControl control;
+    BarrierPathControl control;
     control.max_factorisations = 150;
     int steps = 0;
     double worst = 1.0;
@@ -86,7 +80,7 @@ void path_from_low_density(void **) {
     NewtonSystem system;
     Monitor monitor;
     monitor.begin();
-    relinearise(p, control, system, monitor);
+    follow_barrier_path(p, control, system, monitor);
     print_message("n %d d %d phi %g ratio %g: %d steps to phi %.3f, smallest gap %.1e\n", c.n, c.dim, c.phi, c.ratio,
                   steps, packing_fraction(p), worst);
     assert_true(steps > 5 && worst > -1e-13);
@@ -99,7 +93,7 @@ void chain_from_low_density(void **) {
   for (const Case &c : dilute) {
     const Packing p = start(c.n, c.dim, c.phi, c.ratio);
     jam_crunch_options o = default_crunch_options();
-    o.method = JAM_CRUNCH_CHAIN;
+    o.method = JAM_CRUNCH_SEQUENTIAL_LP;
     double phi = c.phi;
     for (o.max_lps = 1; o.max_lps <= 6; ++o.max_lps) {
       Monitor monitor;
@@ -117,7 +111,7 @@ void chain_from_low_density(void **) {
 void careless_options(void **) {
   const Packing p = start(60, 3, 0.1, 1.0);
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   o.neighbour_radius = 1.3, o.step_bound = 3.0;
   bool shortened = false;
   for (o.max_lps = 1; o.max_lps <= 8; ++o.max_lps) {

@@ -1,14 +1,8 @@
 // The packing LP: our interior point against Clp, both against the LP's own residuals.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "test.h"
 
 #include "core/create.hpp"
 #include "crunch/crunch.hpp"
@@ -61,7 +55,7 @@ void far_rows_bind(void **) {
     const PairList pairs = find_pairs(p, 1.5 * unit, 1.0);
     PackingLp lp = make_lp(p, pairs, unit);
     lp.bound = 0.6;
-    NearRows split;
+    WorkingSet split;
     split.choose(lp);
     const LpSolution x = interior(lp);
     size_t bind = 0;
@@ -259,7 +253,7 @@ void check_sees_errors(void **) {
 void far_rows_cut_steps(void **) {
   Packing p = start(1024, 3, 0.3, 1);
   jam_crunch_options o = default_crunch_options();
-  o.method = JAM_CRUNCH_CHAIN, o.max_lps = 7;
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 7;
   Monitor monitor;
   monitor.begin();
   p = crunch(p, o, monitor).packing;

@@ -1,14 +1,8 @@
 // Newton systems solved with the factor of other numbers: against a factorisation of their own, and where that takes
 // too long.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <cmath>
 #include <random>
+#include "test.h"
 
 #include "core/create.hpp"
 #include "core/pairs.hpp"
@@ -93,15 +87,15 @@ void follows(int dim, double accuracy) {
   NewtonSystem own, other;
   Answer exact, found;
   follow(scene, w, own, other, exact, found);
-  assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, accuracy, 200));
+  assert_true(other.solve_pcg(scene.rhs.data(), right_side, found.s.data(), &found.g, accuracy, 200));
   const double whole = energy(own, scene, w, exact), rest = energy(own, scene, w, difference(exact, found));
   assert_true(rest < 4.0 * accuracy * accuracy * whole);
   if (accuracy > 0.01) assert_true(rest > 1e-12 * whole);  // no more than was asked for
   // From its own answer one solve sees that nothing is left to do; other right-hand sides cost as much as their
   // difference is large.
-  const int before = other.near_solves;
-  assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 2.0 * accuracy, 200));
-  assert_true(other.near_solves <= before + 1);
+  const int before = other.pcg_solves;
+  assert_true(other.solve_pcg(scene.rhs.data(), right_side, found.s.data(), &found.g, 2.0 * accuracy, 200));
+  assert_true(other.pcg_solves <= before + 1);
 }
 
 void agrees(void **) {
@@ -120,7 +114,7 @@ void met_its_cage(void **) {
   NewtonSystem own, other;
   Answer exact, found;
   follow(scene, w, own, other, exact, found);
-  assert_true(other.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 0.1, 500));
+  assert_true(other.solve_pcg(scene.rhs.data(), right_side, found.s.data(), &found.g, 0.1, 500));
   assert_true(energy(own, scene, w, difference(exact, found)) < 0.1 * energy(own, scene, w, exact));
 }
 
@@ -131,11 +125,11 @@ void limit(void **) {
   NewtonSystem own, system;
   Answer exact, found;
   follow(scene, w, own, system, exact, found);
-  assert_false(system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-9, 4));
-  assert_true(system.near_solves <= 5);
+  assert_false(system.solve_pcg(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-9, 4));
+  assert_true(system.pcg_solves <= 5);
   assert_true(energy(own, scene, w, difference(exact, found)) < 0.9 * energy(own, scene, w, exact));
   assert_true(
-      system.solve_near(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-6, 500));  // goes on from there
+      system.solve_pcg(scene.rhs.data(), right_side, found.s.data(), &found.g, 1e-6, 500));  // goes on from there
 }
 
 // A factor serves its own pairs only.

@@ -1,12 +1,6 @@
 // Sums over all spheres: as exact for very many as for one.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <cmath>
+#include "test.h"
 
 #include "core/packing.hpp"
 

@@ -1,13 +1,7 @@
 // Pair lists: cells against brute force over all images, small boxes, wrapping.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-extern "C" {
-#include <cmocka.h>
-}
 #include <algorithm>
 #include <cmath>
+#include "test.h"
 
 #include "core/create.hpp"
 #include "core/pairs.hpp"

@@ -119,8 +119,8 @@ class LpSolver(IntEnum):
 
 class CrunchMethod(IntEnum):
     """Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1"""
-    RELINEARISE = 0  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
-    CHAIN = 1  # the published chain of LPs alone
+    BARRIER_PATH = 0  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
+    SEQUENTIAL_LP = 1  # the published chain of LPs alone
 
 
 class StepPhase(IntEnum):
@@ -305,15 +305,15 @@ class Report:
     jammed: 1: converged to a rigid network that carries balanced forces
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
-    method: jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it
+    method: jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out
     rattlers: removed again and again until every sphere left has d+1 contacts
     stable: n - rattlers = N'
     bucklers: stable spheres with exactly d+1 contacts
-    one_ss: d (N' - 1) + 1: contacts of a single state of self-stress
-    excess_contacts: contacts - one_ss: 0 isostatic, > 0 hyperstatic
+    isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
+    excess_contacts: contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     lp_solves: LPs solved in full
     factorisations: Cholesky factorisations
     gain: sqrt(Gamma) - 1 of the last LP
@@ -340,7 +340,7 @@ class Report:
     rattlers: int
     stable: int
     bucklers: int
-    one_ss: int
+    isostatic_contacts: int
     excess_contacts: int
     lp_solves: int
     factorisations: int
@@ -503,7 +503,7 @@ OPTIONS = {
     },
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM (optimizer)'),
-        "method": ("CrunchMethod", 'jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does'),
+        "method": ("CrunchMethod", 'jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
         "polish": ("int", "1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
         "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),

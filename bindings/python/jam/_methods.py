@@ -80,7 +80,7 @@ class Methods:
 
         Options:
         lp_solver: jam_lp_solver, default IPM (optimizer)
-        method: jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
+        method: jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
         polish: 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
         max_lps: >= 1, default 1000 (max_iters)
         threads: 1 or 2, default 1; bits are reproducible on 1 (threads)

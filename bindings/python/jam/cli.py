@@ -206,7 +206,7 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
         "contacts",
         "rattlers",
         "bucklers",
-        "one_ss",
+        "isostatic_contacts",
         "excess_contacts",
         "max_overlap",
         "force_residual",

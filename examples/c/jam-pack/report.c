@@ -128,7 +128,7 @@ int write_report(const outcome *result, const char *path) {
   put_count(f, "contacts", r->contacts, crunched);
   put_count(f, "rattlers", r->rattlers, crunched);
   put_count(f, "bucklers", r->bucklers, crunched);
-  put_count(f, "one_ss", r->one_ss, crunched);
+  put_count(f, "isostatic_contacts", r->isostatic_contacts, crunched);
   put_count(f, "excess_contacts", r->excess_contacts, crunched);
   put_number(f, "max_overlap", crunched ? r->max_overlap : NAN);
   put_number(f, "force_residual", certified ? r->force_residual : NAN);

@@ -98,8 +98,8 @@ const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Cl
 const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 
 # jam_crunch_method: Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1
-const JAM_CRUNCH_RELINEARISE = Int32(0)  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
-const JAM_CRUNCH_CHAIN = Int32(1)  # the published chain of LPs alone
+const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
+const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # the published chain of LPs alone
 
 # jam_step_phase: What kind of step a row of the history is. @since 0.1
 const JAM_STEP_PATH = Int32(1)  # a Newton step of the re-linearising path (the first row: all of its opening)
@@ -307,7 +307,7 @@ jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @sin
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
     lp_solver::Int32  # jam_lp_solver, default IPM (optimizer)
-    method::Int32  # jam_crunch_method, default RELINEARISE; CHAIN is what CALiPPSO does
+    method::Int32  # jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
     polish::Int32  # 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     max_lps::Int32  # >= 1, default 1000 (max_iters)
     threads::Int32  # 1 or 2, default 1; bits are reproducible on 1 (threads)
@@ -330,7 +330,7 @@ mutable struct jam_report
     jammed::Int32  # 1: converged to a rigid network that carries balanced forces
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
-    method::Int32  # jam_crunch_method that led here: RELINEARISE if the path was followed, CHAIN if LPs alone did it
+    method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it
     reserved::Int32  # 0
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
@@ -338,8 +338,8 @@ mutable struct jam_report
     rattlers::Int64  # removed again and again until every sphere left has d+1 contacts
     stable::Int64  # n - rattlers = N'
     bucklers::Int64  # stable spheres with exactly d+1 contacts
-    one_ss::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
-    excess_contacts::Int64  # contacts - one_ss: 0 isostatic, > 0 hyperstatic
+    isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
+    excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     lp_solves::Int64  # LPs solved in full
     factorisations::Int64  # Cholesky factorisations
     gain::Cdouble  # sqrt(Gamma) - 1 of the last LP

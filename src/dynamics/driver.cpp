@@ -1,0 +1,119 @@
+// Options of molecular dynamics and the choice of an engine.
+#include "core/error.hpp"
+#include "dynamics/engine.hpp"
+#include "dynamics/md.hpp"
+
+namespace jam {
+namespace {
+
+template <int D>
+std::unique_ptr<EngineBase> make_engine_of(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
+  if (images) return std::make_unique<Engine<D, true>>(p, o, from);
+  return std::make_unique<Engine<D, false>>(p, o, from);
+}
+
+std::unique_ptr<EngineBase> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
+  switch (p.dim) {
+    case 2:
+      return make_engine_of<2>(p, o, images, from);
+    case 3:
+      return make_engine_of<3>(p, o, images, from);
+    case 4:
+      return make_engine_of<4>(p, o, images, from);
+    case 5:
+      return make_engine_of<5>(p, o, images, from);
+    case 6:
+      return make_engine_of<6>(p, o, images, from);
+    case 7:
+      return make_engine_of<7>(p, o, images, from);
+    case 8:
+      return make_engine_of<8>(p, o, images, from);
+    default:
+      fail(JAM_E_DIMENSION, "dim is %d", p.dim);
+  }
+}
+
+void positive(double value, const char *name) {
+  if (!(value > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, value);
+}
+void flag(int32_t value, const char *name) {
+  if (value != 0 && value != 1) fail(JAM_E_ARGUMENT, "%s is %d, it must be 0 or 1", name, value);
+}
+
+}  // namespace
+
+std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
+  const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(diameter_max(p) / p.box);
+  return choose(p, o, images, nullptr);
+}
+
+std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from) {
+  int64_t images = 0;
+  from(images);
+  Archive::check(images == 1 || (images == 0 && p.model == JAM_MODEL_EUCLID));
+  return choose(p, EngineOptions{}, images == 1, &from);
+}
+
+jam_run_options default_run_options() {
+  jam_run_options o{};
+  o.struct_size = sizeof o;
+  o.collisions_per_particle = 100.0;
+  o.wall_time = o.time = no_limit;
+  return o;
+}
+
+jam_compress_options default_compress_options() {
+  jam_compress_options o{};
+  o.struct_size = sizeof o;
+  o.growth_rate = 1e-2;
+  o.pressure = 500.0;
+  o.packing_fraction = o.collisions_per_particle = o.wall_time = o.time = no_limit;
+  return o;
+}
+
+void check_run_options(const jam_run_options &o) {
+  flag(o.resume, "resume");
+  positive(o.collisions_per_particle, "collisions_per_particle");
+  positive(o.wall_time, "wall_time");
+  positive(o.time, "time");
+  if (o.collisions_per_particle == no_limit && o.wall_time == no_limit && o.time == no_limit)
+    fail(JAM_E_ARGUMENT, "collisions_per_particle, time and wall_time are all infinite: the run would not end");
+}
+
+void check_compress_options(const jam_compress_options &o) {
+  flag(o.resume, "resume");
+  positive(o.growth_rate, "growth_rate");
+  if (o.growth_rate == no_limit) fail(JAM_E_ARGUMENT, "growth_rate is %g", o.growth_rate);
+  if (!(o.pressure > 1.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be greater than 1", o.pressure);
+  positive(o.packing_fraction, "packing_fraction");
+  positive(o.collisions_per_particle, "collisions_per_particle");
+  positive(o.wall_time, "wall_time");
+  positive(o.time, "time");
+  if (!(o.growth_rate_end >= 0.0) || o.growth_rate_end > o.growth_rate)
+    fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate", o.growth_rate_end);
+  if (o.growth_rate_end > 0.0 && o.pressure == no_limit)
+    fail(JAM_E_ARGUMENT, "growth_rate_end needs a finite pressure to be reached at");
+  if (o.growth_law != JAM_GROWTH_DIAMETER && o.growth_law != JAM_GROWTH_DENSITY)
+    fail(JAM_E_ARGUMENT, "growth_law is %d, not a jam_growth_law", o.growth_law);
+}
+
+MdStage stage_of(const jam_run_options &o) {
+  MdStage s;
+  s.collisions_per_particle = o.collisions_per_particle;
+  s.wall_time = o.wall_time;
+  s.time = o.time;
+  return s;
+}
+
+MdStage stage_of(const jam_compress_options &o) {
+  MdStage s{o.growth_rate, o.pressure, o.packing_fraction, o.collisions_per_particle, o.wall_time};
+  s.time = o.time;
+  s.growth_end = o.growth_rate_end;
+  s.relative = o.growth_law == JAM_GROWTH_DENSITY;
+  return s;
+}
+
+const MdStage default_protocol[2] = {{1e-2, 500.0, no_limit, no_limit, no_limit},
+                                     {3e-3, 1e7, no_limit, no_limit, no_limit}};
+
+}  // namespace jam

@@ -1,0 +1,263 @@
+// The event-driven engine: spheres in the unit box (the driver scales), asynchronous, one scheduled event per sphere.
+//
+// Numbers. Coordinates, radii and image shifts are integers with 2^64 (or 2^61, see Shift) to the box, so that
+// differences wrap to the nearest image by themselves and are exact; gaps near contact are taken with 128-bit integers.
+// A gap is thus known to 5e-20 of the box, where doubles in a unit box give 1e-16. Velocities are doubles in the same
+// unit per time. Times are doubles relative to an origin that moves along every few collisions per sphere.
+//
+// Events. Invariant: for each pair in the lists, the earlier of the two scheduled events is not later than the
+// collision of the pair. Predicting sphere i may therefore leave out a partner k whose own event comes before their
+// collision: k will be predicted again by then. An event whose partner has collided since is found stale when it comes
+// up.
+//
+// Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes
+// this list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) +
+// shell. In dilute systems there are no lists: spheres meet those of the cells around their own, which they leave by an
+// event. Lists are made through cells too, or in the Mari-Kurchan model, where partners are anywhere, through wider
+// outer lists of the same kind, whose own making looks at all spheres (engine_quenched.hpp). Donev, Torquato and
+// Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
+#pragma once
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/archive.hpp"
+#include "core/monitor.hpp"
+#include "core/packing.hpp"
+#include "core/pair_rule.hpp"
+#include "dynamics/calendar.hpp"
+#include "dynamics/observer.hpp"
+
+namespace jam {
+
+// Why Engine::advance came back.
+enum class Halt { window, packing_fraction, time, box_full, stalled, cancelled, wall_time, needs_images };
+
+// Sums since the last reset_sums; all in box units and masses of 1.
+struct MdSums {
+  double virial = 0.0;     // of momentum exchanged without the growth part, r . dp
+  double kinetic_integral = 0.0;     // integral of sum v^2 over time
+  int64_t collisions = 0;  // since construction, never reset
+  int64_t events = 0;      // likewise
+  double time = 0.0;       // likewise
+};
+
+class EngineBase {
+ public:
+  virtual ~EngineBase() = default;
+  // Makes `collisions` more, unless something else halts it.
+  virtual Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) = 0;
+  // Moves all spheres to the present and scales velocities to kT/m = 1.
+  virtual void thermalise() = 0;
+  // Positions, velocities, diameters (when growing) of this moment; the run is not disturbed.
+  virtual void write_state(Packing &p) const = 0;
+  virtual void set_growth(double growth) = 0;
+  virtual void set_time_limit(double left) = 0;  // Halt::time after so much more time
+  virtual double growth() const = 0;             // d<sigma>/dt now
+  virtual double elapsed() const = 0;            // since construction
+  virtual bool with_images() const = 0;
+  virtual bool cells_alone() const = 0;  // no lists now
+  // From now on (or, with nullptr, no more) collisions and places of lists are told to it. Not part of the archive.
+  virtual void observe(Observer *observer) = 0;
+  virtual void displacements(std::vector<double> &out) const = 0;  // user's order, unit box, since observe()
+  virtual void archive(Archive &a) = 0;                            // everything: the run goes on to the same bits
+  virtual double twice_kinetic() const = 0;
+  virtual double packing_fraction() const = 0;
+  virtual double mean_diameter() const = 0;
+  virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, now
+  MdSums sums;
+  double max_overlap =
+      0.0;  // largest -h of any pair in the lists, whenever a list was made or a sphere of the pair had an event
+};
+
+struct EngineOptions {
+  double growth = 0.0;             // G
+  double target_fraction = never;  // stop exactly there
+  int64_t heap_only = 0;           // 1: one heap of all events instead of the calendar, for comparison
+  int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
+  int64_t cells = 0;  // 1: cells alone wherever they hold, -1: lists always, 0: what is faster at this density
+};
+
+// Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
+// Mari-Kurchan model.
+std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o);
+// One that goes on where another was archived; p is the packing that it was made from.
+std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from);
+
+template <int D, bool Shift>
+class Engine final : public EngineBase {
+ public:
+  Engine(const Packing &p, const EngineOptions &o, Archive *from = nullptr);
+  Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) override;
+  void thermalise() override;
+  void write_state(Packing &p) const override;
+  void set_growth(double growth) override;
+  void set_time_limit(double left) override { time_end_ = now_ + left; }
+  double growth() const override { return rate_ * 2.0 * mean_radius() * unit; }
+  double elapsed() const override { return sums.time + now_; }
+  bool with_images() const override { return Shift; }
+  bool cells_alone() const override { return cells_alone_ != 0; }
+  void observe(Observer *observer) override;
+  void displacements(std::vector<double> &out) const override;
+  void archive(Archive &a) override;
+  double twice_kinetic() const override { return twice_kinetic_; }
+  double packing_fraction() const override;
+  double mean_diameter() const override { return 2.0 * mean_radius() * unit * (1.0 + rate_ * now_); }
+  double worst_overlap() const override;
+
+  // Whether lists without image shifts can hold for spheres of this diameter, unit box.
+  static bool fits(double sigma_max) { return sigma_max * (1.0 + 4.0 * smallest_shell + smallest_margin) < 0.4999; }
+
+ private:
+  using Vector = std::array<double, D>;
+  using Place = std::array<uint64_t, D>;
+  struct alignas(64) Body {
+    uint64_t x[D];
+    double v[D];
+    double time;     // when x holds
+    int64_t radius;  // at the origin of time
+  };
+  static constexpr double scale = Shift ? 0x1p61 : 0x1p64, unit = 1.0 / scale;
+  static constexpr double smallest_shell = 0.004, smallest_margin = 0.002;
+
+  // -- hot path, engine.hpp below and engine_events.hpp
+  void move(Body &b) {
+    const double dt = now_ - b.time;
+    for (int c = 0; c < D; ++c) b.x[c] += static_cast<uint64_t>(std::llrint(b.v[c] * dt));
+    b.time = now_;
+  }
+  int64_t difference(const Body &a, const Body &b, int c, const int64_t *offset) const {
+    const auto d = static_cast<int64_t>(a.x[c] - b.x[c]);
+    if constexpr (Shift)
+      return d + offset[c];
+    else
+      return (void)offset, d;
+  }
+  double exact_gap(const Body &a, const Body &b, const int64_t *offset) const;
+  void note_overlap(const Body &a, const Body &b, const int64_t *offset);
+  double exit_time(int32_t i) const;
+  void meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best, int32_t &partner);
+  void predict(int32_t i);
+  void collide(int32_t i, int32_t k);
+  void separation(int32_t i, int32_t k, double *r) const;
+  void next_event(int32_t i);
+  void prefetch(int32_t i) const;
+
+  // -- time, engine_time.hpp
+  void shift_origin();
+  void rebase();
+  void sort_calendar();
+  void refresh(double velocity_factor, bool lists);
+  bool tune_shell();
+  void take_kinetic();
+  void note_path(int32_t i) const;
+  void check_pairs() const;
+  void start_rate(double rate);
+  double mean_radius() const;
+
+  // -- archive, engine_archive.hpp
+  void check_archive() const;
+  void check_cells() const;
+
+  // -- lists, engine_lists.hpp
+  void choose_cells();
+  void build_lists();
+  size_t cell_of(const Place &x) const;
+  void recentre(int32_t i);
+  template <class F>
+  void candidates(int32_t i, F &&f) const;
+  template <class F>
+  void each_in_cells(int32_t i, F &&f) const;
+  template <class F>
+  void each_neighbour(int32_t i, F &&f) const;
+  void link(int32_t i, size_t cell);
+  void unlink(int32_t i, size_t cell);
+  size_t home(int32_t i) const;
+  template <class F>
+  void each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const;
+  void append(int32_t i, int32_t k, const int64_t *offset);
+  void forget(int32_t i, int32_t k);
+  void widen_lists();
+
+  // -- cells alone, engine_cells.hpp
+  bool choose_cells_alone(double sigma);
+  void build_cells_alone();
+  double crossing_time(int32_t i, int *axis) const;
+  void cross(int32_t i);
+
+  // -- Mari-Kurchan model: outer lists, engine_quenched.hpp
+  struct Outer {
+    int32_t k, attempt;  // of the shift of this pair
+  };
+  void take_redrawn();
+  template <class F>
+  void each_outer_partner(int32_t i, F &&f) const;
+  void build_outer();
+  void check_outer();
+  void renew_outer(int32_t i);
+  bool left_outer(int32_t i) const;
+  std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
+
+  const int64_t *offset_of(int32_t i, int32_t entry) const {
+    if constexpr (Shift)
+      return &offset_[(static_cast<size_t>(i) * capacity_ + entry) * D];
+    else
+      return (void)i, (void)entry, nullptr;
+  }
+
+  std::unique_ptr<MkShifts> quenched_;  // Mari-Kurchan model
+  int32_t n_;
+  EngineOptions options_;
+  double box_;
+  std::vector<Body> body_;
+  Calendar calendar_;
+  std::vector<int32_t> user_;  // number of each sphere for the user; here they are sorted along a curve
+
+  double now_ = 0.0;               // relative to the origin
+  double rate_ = 0.0;              // growth of radii: R(t) = R (1 + rate t)
+  double relative_rate_ = 0.0;     // rate_ at each step of a constant relative rate; 0: the diameters grow linearly
+  std::vector<double> left_over_;  // of radii, less than one unit
+  std::vector<double> mass_;       // empty: all 1
+  Observer *observer_ = nullptr;
+  // When something special happens.
+  double lists_end_ = never, fraction_time_ = never, full_time_ = never, time_end_ = never, step_end_ = never;
+  double target_radius_ = 0.0;  // of sphere 0 at the target packing fraction
+  double kinetic_time_ = 0.0, twice_kinetic_ = 0.0;
+  bool wants_images_ = false;
+
+  // neighbour lists
+  double shell_ = 0.1, margin_ = 0.05;  // relative to sigma
+  std::vector<Place> centre_;
+  std::vector<double> rho_, safe_;               // list radius, safe radius
+  std::vector<int32_t> neighbour_, neighbours_;  // (n, capacity), counts
+  std::vector<int64_t> offset_;                  // Shift: (n, capacity, D)
+  size_t capacity_ = 0;
+  double rho_max_ = 0.0;
+  int64_t cells_ = 0;  // per side; 0: brute force
+  int cell_range_ = 1;
+  std::vector<int32_t> cell_first_, cell_next_;
+  std::vector<std::array<int32_t, D>> cell_;  // of each sphere
+  int64_t cells_alone_ = 0;  // 1: no lists; a sphere looks at the cells around its own, leaving which is an event
+
+  // outer lists of the Mari-Kurchan model
+  std::vector<std::vector<Outer>> outer_;
+  std::vector<Place> outer_centre_;
+  std::vector<double> outer_reach_;  // rho up to which they hold
+  double outer_safe_ = 0.0;
+  std::vector<int32_t> internal_;  // inverse of user_
+  std::vector<Outer> redrawn_;     // partners (user's numbers) of each sphere with a shift drawn again
+  std::vector<size_t> redrawn_first_;
+
+#ifdef JAM_CHECK_PAIRS
+  Packing start_;  // what a state is written into to be checked
+  mutable int64_t next_check_ = 0;
+#endif
+
+  // shell and bucket tuning
+  int64_t exits_ = 0, exits_before_ = 0, collisions_before_ = 0, events_before_ = 0, rebase_at_ = 0;
+  double search_cost_ = 0.0, widest_shell_ = 1.5, tuned_time_ = 0.0, time_before_ = 0.0, bucket_width_ = 0.0,
+         collision_time_ = 0.0;
+};
+
+}  // namespace jam

@@ -1,0 +1,122 @@
+// The engine to bytes and back: all that the coming events depend on, in one list. What follows from the packing
+// (user_, the shifts of the Mari-Kurchan model) is made anew by the constructor.
+#pragma once
+#include <algorithm>
+
+#include "dynamics/engine.hpp"
+
+namespace jam {
+
+template <int D, bool Shift>
+void Engine<D, Shift>::archive(Archive &a) {
+  a(sums);
+  a(max_overlap);
+  a(options_);
+  a(user_);
+  a(body_);
+  calendar_.archive(a);
+  a(now_);
+  a(rate_);
+  a(relative_rate_);
+  a(left_over_);
+  a(mass_);
+  for (double *t : {&lists_end_, &fraction_time_, &full_time_, &time_end_, &step_end_}) a(*t);
+  a(target_radius_);
+  a(kinetic_time_);
+  a(twice_kinetic_);
+  a(shell_);
+  a(margin_);
+  a(centre_);
+  a(rho_);
+  a(safe_);
+  a(neighbour_);
+  a(neighbours_);
+  a(offset_);
+  uint64_t capacity = capacity_;
+  a(capacity);
+  capacity_ = capacity;
+  a(rho_max_);
+  a(cells_);
+  a(cell_range_);
+  a(cell_first_);
+  a(cell_next_);
+  a(cells_alone_);
+  a(cell_);
+  for (int64_t *k : {&exits_, &exits_before_, &collisions_before_, &events_before_, &rebase_at_}) a(*k);
+  for (double *x : {&search_cost_, &widest_shell_, &tuned_time_, &time_before_, &bucket_width_, &collision_time_})
+    a(*x);
+  if (quenched_) {
+    a(outer_centre_);
+    a(outer_reach_);
+    a(outer_safe_);
+    if (a.reading()) outer_.resize(static_cast<size_t>(n_));
+    for (std::vector<Outer> &list : outer_) a(list);
+  }
+  if (a.reading()) {
+    check_archive();
+    if (quenched_) take_redrawn();
+  }
+}
+
+// Every index must be in its range and every list must be mutual, or a damaged file would send the engine astray.
+template <int D, bool Shift>
+void Engine<D, Shift>::check_archive() const {
+  const size_t n = static_cast<size_t>(n_);
+  const auto sphere = [n](int32_t k) { return k >= 0 && static_cast<size_t>(k) < n; };
+  Archive::check(user_.size() == n && body_.size() == n && left_over_.size() == n &&
+                 (mass_.empty() || mass_.size() == n));
+  Archive::check(centre_.size() == n && rho_.size() == n && safe_.size() == n && neighbours_.size() == n);
+  Archive::check(capacity_ > 0 && neighbour_.size() / n == capacity_ && neighbour_.size() % n == 0);
+  Archive::check(offset_.size() == (Shift ? neighbour_.size() * D : 0));
+  std::vector<char> seen(n, 0);
+  for (int32_t u : user_) {
+    Archive::check(sphere(u) && !seen[u]);
+    seen[u] = 1;
+  }
+  for (const Body &b : body_) Archive::check(b.radius > 0);
+  for (const int64_t count :
+       {exits_, exits_before_, collisions_before_, events_before_, rebase_at_, sums.events, sums.collisions})
+    Archive::check(count >= 0 && count < int64_t{1} << 60);  // differences are taken of them
+  for (size_t i = 0; i < n; ++i) {
+    Archive::check(neighbours_[i] >= 0 && static_cast<size_t>(neighbours_[i]) <= capacity_);
+    for (int32_t e = 0; e < neighbours_[i]; ++e) {
+      const int32_t k = neighbour_[i * capacity_ + e];
+      Archive::check(sphere(k) && neighbours_[k] >= 0 && static_cast<size_t>(neighbours_[k]) <= capacity_);
+      const int32_t *list = &neighbour_[static_cast<size_t>(k) * capacity_];
+      Archive::check(std::count(list, list + neighbours_[k], static_cast<int32_t>(i)) ==
+                     std::count(&neighbour_[i * capacity_], &neighbour_[i * capacity_] + neighbours_[i], k));
+    }
+  }
+  if (cells_ != 0 || cells_alone_ != 0) check_cells();
+  if (!quenched_) return;
+  Archive::check(outer_centre_.size() == n && outer_reach_.size() == n);
+  for (size_t i = 0; i < n; ++i)
+    for (const Outer &partner : outer_[i]) {
+      Archive::check(sphere(partner.k) && partner.attempt >= 0);
+      const std::vector<Outer> &list = outer_[partner.k];
+      Archive::check(
+          std::count_if(list.begin(), list.end(), [i](const Outer &o) { return static_cast<size_t>(o.k) == i; }) == 1);
+    }
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::check_cells() const {
+  Archive::check(cells_ > 0 && cells_ < 1 << 20 && cell_range_ >= 1 && cell_range_ <= 3 &&
+                 cells_ >= 2 * cell_range_ + 1);
+  if (cells_alone_) {
+    Archive::check(cells_alone_ == 1 && !Shift && cells_ >= 5 && cell_range_ == 1 &&
+                   cell_.size() == static_cast<size_t>(n_));
+    for (const auto &cell : cell_)
+      for (int32_t place : cell) Archive::check(place >= 0 && place < cells_);
+  }
+  double total = std::pow(static_cast<double>(cells_), D);
+  Archive::check(total == static_cast<double>(cell_first_.size()) && cell_next_.size() == static_cast<size_t>(n_));
+  int64_t met = 0;
+  for (size_t cell = 0; cell < cell_first_.size(); ++cell)
+    for (int32_t i = cell_first_[cell]; i >= 0; i = cell_next_[i]) {
+      Archive::check(i < n_ && ++met <= n_ && home(i) == cell);
+    }
+  Archive::check(met == n_);
+}
+
+}  // namespace jam

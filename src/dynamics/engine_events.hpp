@@ -1,0 +1,269 @@
+// Hot path of the engine: prediction and collision.
+#pragma once
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "dynamics/engine.hpp"
+
+namespace jam {
+
+// r^2 - sigma^2 from integers; a and b need not stand at now_.
+template <int D, bool Shift>
+double Engine<D, Shift>::exact_gap(const Body &a, const Body &b, const int64_t *offset) const {
+  const double da = now_ - a.time, db = now_ - b.time;
+  unsigned __int128 r2 = 0;
+  for (int c = 0; c < D; ++c) {
+    int64_t r = difference(a, b, c, offset) - std::llrint(b.v[c] * db);
+    if (da != 0.0) r += std::llrint(a.v[c] * da);
+    const uint64_t m = static_cast<uint64_t>(r < 0 ? -r : r);
+    r2 += static_cast<unsigned __int128>(m) * m;
+  }
+  int64_t sum = a.radius + b.radius;
+  sum += std::llrint(static_cast<double>(sum) * (rate_ * now_));
+  const __int128 gap = static_cast<__int128>(r2 - static_cast<unsigned __int128>(sum) * static_cast<uint64_t>(sum));
+  return static_cast<double>(static_cast<int64_t>(gap >> 64)) * 0x1p64 +
+         2.0 * static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(gap) >> 1));
+}
+
+// Whatever goes wrong, no overlap in the lists passes unseen: a pair is deepest when something turns one of its spheres
+// round.
+template <int D, bool Shift>
+void Engine<D, Shift>::note_overlap(const Body &a, const Body &b, const int64_t *offset) {
+  const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
+  const double gap = std::max(-1.0, exact_gap(a, b, offset) / (sigma * sigma));
+  max_overlap = std::max(max_overlap, -gap / (1.0 + std::sqrt(1.0 + gap)));
+}
+
+// When sphere i, which stands at now_, leaves its safe sphere.
+template <int D, bool Shift>
+double Engine<D, Shift>::exit_time(int32_t i) const {
+  if (cells_alone_) return now_ + crossing_time(i, nullptr);
+  const Body &b = body_[i];
+  double rv = 0.0, vv = 0.0, rr = 0.0;
+  for (int c = 0; c < D; ++c) {
+    const double r = static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c]));
+    rv += r * b.v[c];
+    vv += b.v[c] * b.v[c];
+    rr += r * r;
+  }
+  if (vv <= 0.0) return never;
+  const double room = safe_[i] * safe_[i] - rr;
+  if (room <= 0.0) return rv < 0.0 ? now_ - 2.0 * rv / vv : now_;
+  const double root = std::sqrt(rv * rv + vv * room);
+  return now_ + (rv > 0.0 ? room / (rv + root) : (root - rv) / vv);
+}
+
+// When sphere bi, which stands at now_, meets k, if that is before `best` and before the event of k.
+template <int D, bool Shift>
+inline void Engine<D, Shift>::meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best,
+                                   int32_t &partner) {
+  const Body &bk = body_[k];
+  const double dt = now_ - bk.time;
+  double rv = 0.0, vv = 0.0, rr = 0.0;
+  for (int c = 0; c < D; ++c) {
+    const double r = static_cast<double>(difference(bi, bk, c, offset)) - bk.v[c] * dt;
+    const double v = bi.v[c] - bk.v[c];
+    rv += r * v;
+    vv += v * v;
+    rr += r * r;
+  }
+  const double sum = static_cast<double>(bi.radius + bk.radius), sigma = sum * grown, growth = sum * rate_;
+  const double b = rv - sigma * growth, a = vv - growth * growth, sigma2 = sigma * sigma;
+  double gap = rr - sigma2;
+  if (gap < -1e-14 * sigma2) note_overlap(bi, bk, offset);
+  if (b >= 0.0 && a >= 0.0) return;
+  // The root is not earlier than gap / (-2 b) when a > 0.
+  if (a > 0.0 && gap > 1e-9 * sigma2 && gap > -2.0 * b * best) return;
+  if (gap < 1e-3 * sigma2) gap = exact_gap(bi, bk, offset);
+  const double disc = b * b - a * gap;
+  double t;
+  if (b < 0.0) {
+    if (gap <= 0.0)
+      t = 0.0;  // in contact or overlapping, and approaching
+    else if (disc < 0.0)
+      return;
+    else
+      t = gap / (std::sqrt(disc) - b);
+  } else {
+    // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
+    t = disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
+  }
+  if (t < best && now_ + t < calendar_[k].time) best = t, partner = k;
+}
+
+// Earliest event of sphere i, which stands at now_.
+template <int D, bool Shift>
+void Engine<D, Shift>::predict(int32_t i) {
+  const Body &bi = body_[i];
+  Event &event = calendar_[i];
+  double best = exit_time(i) - now_;
+  int32_t partner = -1;
+  const double grown = 1.0 + rate_ * now_;
+  each_neighbour(i, [&](int32_t k, const int64_t *offset) { meet(bi, k, offset, grown, best, partner); });
+  event.time = now_ + best;
+  event.partner = partner;
+  if (partner >= 0) event.partner_count = calendar_[partner].count;
+}
+
+// r_i - r_k of two spheres that both stand at now_; of several images the nearest that approaches. (In a box of less
+// than two diameters a pair can be in contact through two images at once, and the one that recedes may be nearer by
+// rounding.)
+template <int D, bool Shift>
+void Engine<D, Shift>::separation(int32_t i, int32_t k, double *r) const {
+  if constexpr (!Shift) {
+    for (int c = 0; c < D; ++c) r[c] = static_cast<double>(difference(body_[i], body_[k], c, nullptr));
+  } else {
+    double nearest = never;
+    const double growth = static_cast<double>(body_[i].radius + body_[k].radius) * rate_;
+    for (int32_t e = 0; e < neighbours_[i]; ++e) {
+      if (neighbour_[static_cast<size_t>(i) * capacity_ + e] != k) continue;
+      double r2 = 0.0, rv = 0.0, trial[D];
+      for (int c = 0; c < D; ++c) {
+        trial[c] = static_cast<double>(difference(body_[i], body_[k], c, offset_of(i, e)));
+        r2 += trial[c] * trial[c];
+        rv += trial[c] * (body_[i].v[c] - body_[k].v[c]);
+      }
+      const double rank = rv < growth * std::sqrt(r2) ? r2 : 1e6 * r2;
+      if (rank >= nearest) continue;
+      nearest = rank;
+      for (int c = 0; c < D; ++c) r[c] = trial[c];
+    }
+  }
+}
+
+// Elastic collision of surfaces that move apart with the growth speed: the pair separates with at least that speed.
+template <int D, bool Shift>
+void Engine<D, Shift>::collide(int32_t i, int32_t k) {
+  Body &a = body_[i], &b = body_[k];
+  double r[D], r2 = 0.0, rv = 0.0;
+  separation(i, k, r);
+  for (int c = 0; c < D; ++c) {
+    r2 += r[c] * r[c];
+    rv += r[c] * (a.v[c] - b.v[c]);
+  }
+  const double inverse = 1.0 / std::sqrt(r2), vn = rv * inverse;
+  const double growth = static_cast<double>(a.radius + b.radius) * rate_;
+  double push = growth - vn;
+  if (push <= 0.0) return;               // a grazing pair that rounding has let go
+  push = std::max(push, 1e-14 * scale);  // never so little that the sum is lost: the pair would collide for ever
+  double twice_reduced = 1.0;            // mass of the pair
+  if (mass_.empty()) {
+    for (int c = 0; c < D; ++c) {
+      const double dv = push * r[c] * inverse;
+      a.v[c] += dv;
+      b.v[c] -= dv;
+    }
+  } else {
+    const double share_a = 2.0 * mass_[k] / (mass_[i] + mass_[k]), share_b = 2.0 - share_a;
+    twice_reduced = mass_[i] * share_a;
+    for (int c = 0; c < D; ++c) {
+      const double dv = push * r[c] * inverse;
+      a.v[c] += share_a * dv;
+      b.v[c] -= share_b * dv;
+    }
+  }
+  ++calendar_[i].count;
+  ++calendar_[k].count;
+  sums.virial -= twice_reduced * rv * unit * unit;
+  sums.kinetic_integral += twice_kinetic_ * (now_ - kinetic_time_);
+  kinetic_time_ = now_;
+  twice_kinetic_ += twice_reduced * 2.0 * push * growth * unit * unit;
+  ++sums.collisions;
+  if (observer_) observer_->collision(user_[i], user_[k], -twice_reduced * vn * unit);
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::prefetch(int32_t i) const {
+  const int32_t *list = &neighbour_[static_cast<size_t>(i) * capacity_];
+  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) __builtin_prefetch(&body_[list[e]]);
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::next_event(int32_t i) {
+  Event &event = calendar_[i];
+#ifdef JAM_CHECK_PAIRS
+  if (event.time < now_ - 1e-6 * bucket_width_)
+    fail(JAM_E_INTERNAL, "the event of sphere %d is %g buckets late after %lld collisions", user_[i],
+         (now_ - event.time) / bucket_width_, static_cast<long long>(sums.collisions));
+#endif
+  now_ = std::max(now_, event.time);
+  move(body_[i]);
+  const int32_t k = event.partner;
+  if (k < 0) {
+    ++exits_;
+    recentre(i);
+    event.time = never;
+    predict(i);
+    calendar_.update(i);
+    return;
+  }
+  Event &other = calendar_[k];
+  if (other.count != event.partner_count) {
+    event.time = never;
+    predict(i);
+    calendar_.update(i);
+    return;
+  }
+  prefetch(k);
+  move(body_[k]);
+  collide(i, k);
+  calendar_.take_out(i);
+  calendar_.take_out(k);
+  event.time = other.time = never;
+  predict(i);
+  predict(k);
+  calendar_.put_in(i);
+  calendar_.put_in(k);
+}
+
+template <int D, bool Shift>
+Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, double wall_end) {
+  const int64_t goal = sums.collisions + collisions;
+  // Without a collision in so many events nothing will come: no partners, or paths that never meet.
+  const int64_t patience = 1000000 + 200 * static_cast<int64_t>(n_);
+  int64_t last_progress = sums.events, last_collisions = sums.collisions;
+  if (wants_images_) return Halt::needs_images;
+  while (sums.collisions < goal) {
+    if ((sums.events & 1023) == 0) {
+      if (monitor.cancelled()) return Halt::cancelled;
+      if (now_seconds() > wall_end) return Halt::wall_time;
+      if (sums.collisions != last_collisions)
+        last_collisions = sums.collisions, last_progress = sums.events;
+      else if (sums.events - last_progress > patience)
+        return Halt::stalled;
+    }
+    ++sums.events;
+    const int32_t i = calendar_.top();
+    const double t = i < 0 ? never : calendar_[i].time;
+    const double special =
+        std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
+    // Also after many events: when they come faster and faster, times must stay small to be sharp.
+    if ((i < 0 && !(special < calendar_.horizon())) || sums.events > rebase_at_) {
+      // Without a horizon nothing will ever happen, or all of it at this very moment.
+      if (calendar_.horizon() == never && (i < 0 || !options_.heap_only)) return Halt::stalled;
+      rebase();
+      if (wants_images_) return Halt::needs_images;
+      continue;
+    }
+    if (t < special) {
+      next_event(i);
+      continue;
+    }
+    if (special == never) return Halt::stalled;
+    if (special == time_end_) {  // a pause must leave no trace: now_ stays at the last event
+      --sums.events;
+      return Halt::time;
+    }
+    now_ = std::max(now_, special);
+    if (special == fraction_time_) return Halt::packing_fraction;
+    if (special == full_time_) return Halt::box_full;
+    if (special == step_end_)
+      set_growth(relative_rate_ * 2.0 * mean_radius() * unit * (1.0 + rate_ * now_));
+    else
+      refresh(1.0, true);
+    if (wants_images_) return Halt::needs_images;
+  }
+  return Halt::window;
+}
+
+}  // namespace jam

@@ -1,0 +1,296 @@
+// The engine: construction, the moving origin of time, refreshing, and reading the state.
+#pragma once
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/pairs.hpp"
+#include "dynamics/engine.hpp"
+
+namespace jam {
+
+// Order of the spheres along a Morton curve: neighbours in space are near in memory.
+std::vector<int32_t> curve_order(const Packing &p);
+
+template <int D, bool Shift>
+Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from)
+    : n_(static_cast<int32_t>(p.n())),
+      options_(o),
+      box_(p.box),
+      body_(p.n()),
+      calendar_(p.n()),
+      user_(curve_order(p)),
+      left_over_(p.n(), 0.0),
+      mass_(sphere_masses(p)),
+      centre_(p.n()),
+      rho_(p.n()),
+      safe_(p.n()),
+      neighbours_(p.n(), 0) {
+  const bool mk = Shift && p.model == JAM_MODEL_MK;
+#ifdef JAM_CHECK_PAIRS
+  start_ = p;
+#endif
+  if (mk) {
+    quenched_ = std::make_unique<MkShifts>(p);
+    take_redrawn();
+  }
+  if (from) {
+    archive(*from);
+    return;
+  }
+  for (int32_t i = 0; i < n_; ++i) {
+    const size_t u = static_cast<size_t>(user_[i]);
+    Body &b = body_[i];
+    for (int c = 0; c < D; ++c) {
+      b.x[c] = static_cast<uint64_t>(wrap(p.position[u * D + c] / p.box, 1.0) * scale);
+      b.v[c] = p.velocity[u * D + c] * scale;
+    }
+    b.time = 0.0;
+    b.radius = std::llrint(0.5 * p.diameter[u] / p.box * scale);
+  }
+  if (!mass_.empty()) {
+    std::vector<double> sorted(p.n());
+    for (int32_t i = 0; i < n_; ++i) sorted[i] = mass_[user_[i]];
+    mass_.swap(sorted);
+  }
+  const double fraction = packing_fraction();
+  shell_ = mk ? 0.2 : std::min(0.36, std::max(0.06, 0.4 - 0.45 * fraction));
+  if (o.growth > 0.0) {
+    start_rate(o.growth * scale / (2.0 * mean_radius()));
+    double largest = 0.0;
+    for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
+    full_time_ = (0.5 * scale / largest - 1.0) / rate_;  // a sphere touches its own image
+    if (o.target_fraction < never) {
+      target_radius_ = static_cast<double>(body_[0].radius) * std::pow(o.target_fraction / fraction, 1.0 / D);
+      fraction_time_ = (target_radius_ / static_cast<double>(body_[0].radius) - 1.0) / rate_;
+    }
+  }
+  refresh(1.0, true);
+}
+
+// At an origin of time.
+template <int D, bool Shift>
+void Engine<D, Shift>::start_rate(double rate) {
+  rate_ = rate;
+  if (!options_.relative) return;
+  relative_rate_ = rate;
+  step_end_ = 0.005 / rate;  // linear pieces of half a per cent: the mean relative rate is a quarter of a per cent low
+}
+
+// Lists stay, as their ends move with the rate; all events are predicted anew.
+template <int D, bool Shift>
+void Engine<D, Shift>::set_growth(double growth) {
+  for (Body &b : body_) move(b);
+  shift_origin();
+  const double rate = growth / (2.0 * mean_radius() * unit), slower = rate_ / rate;
+  lists_end_ *= slower;
+  full_time_ *= slower;
+  if (fraction_time_ < never) fraction_time_ *= slower;
+  start_rate(rate);
+  refresh(1.0, false);
+}
+
+template <int D, bool Shift>
+double Engine<D, Shift>::mean_radius() const {
+  double sum = 0.0;
+  for (const Body &b : body_) sum += static_cast<double>(b.radius);
+  return sum / n_;
+}
+
+template <int D, bool Shift>
+double Engine<D, Shift>::packing_fraction() const {
+  double sum = 0.0;
+  const double grown = 2.0 * unit * (1.0 + rate_ * now_);
+  for (const Body &b : body_) {
+    double volume = 1.0;
+    for (int c = 0; c < D; ++c) volume *= static_cast<double>(b.radius) * grown;
+    sum += volume;
+  }
+  return sum * unit_sphere_volume(D);
+}
+
+// Sets the origin of time to now_; what is too small for the integer radii is carried over.
+template <int D, bool Shift>
+void Engine<D, Shift>::shift_origin() {
+  const double t = now_, factor = rate_ * t;
+  for (int32_t i = 0; i < n_; ++i) {
+    Body &b = body_[i];
+    b.time -= t;
+    calendar_[i].time -= t;
+    if (factor == 0.0) continue;
+    const double add = static_cast<double>(b.radius) * factor + left_over_[i];
+    const int64_t whole = std::llrint(add);
+    b.radius += whole;
+    left_over_[i] = add - static_cast<double>(whole);
+  }
+  sums.kinetic_integral += twice_kinetic_ * (now_ - kinetic_time_);
+  kinetic_time_ = 0.0;
+  lists_end_ -= t;
+  full_time_ -= t;
+  time_end_ -= t;
+  step_end_ -= t;
+  rate_ /= 1.0 + factor;
+  // Anew from the radii, as differences of times would pile up errors.
+  if (target_radius_ > 0.0) {
+    const double left = target_radius_ - static_cast<double>(body_[0].radius) - left_over_[0];
+    fraction_time_ = std::max(0.0, left / static_cast<double>(body_[0].radius) / rate_);
+  }
+  sums.time += t;
+  now_ = 0.0;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::rebase() {
+  shift_origin();
+  check_pairs();
+  if (tune_shell())
+    refresh(1.0, true);
+  else
+    sort_calendar();
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::sort_calendar() {
+  const double elapsed = sums.time - time_before_;
+  const int64_t events = sums.events - events_before_;
+  if (events > 2 * n_ && elapsed > 0.0) {
+    bucket_width_ = elapsed / static_cast<double>(events);
+    time_before_ = sums.time;
+    events_before_ = sums.events;
+  } else if (bucket_width_ == 0.0) {
+    std::vector<double> times(n_);
+    for (int32_t i = 0; i < n_; ++i) times[i] = calendar_[i].time;
+    std::nth_element(times.begin(), times.begin() + n_ / 2, times.end());
+    bucket_width_ = times[n_ / 2] / n_;
+  }
+  double earliest = never;
+  for (int32_t i = 0; i < n_; ++i) earliest = std::min(earliest, calendar_[i].time);
+  const double least = 4.0 * earliest / static_cast<double>(calendar_.buckets());
+  double width = bucket_width_ < never ? std::max(bucket_width_, least) : least;
+  rebase_at_ = sums.events + 8 * static_cast<int64_t>(n_) + 64;
+  calendar_.rebuild(0.0, earliest < never && !options_.heap_only ? width : 0.0);
+}
+
+// Brings all spheres to now_, scales velocities, remakes lists if asked or needed, predicts everything.
+template <int D, bool Shift>
+void Engine<D, Shift>::refresh(double velocity_factor, bool lists) {
+  for (Body &b : body_) {
+    move(b);
+    if (velocity_factor != 1.0)
+      for (int c = 0; c < D; ++c) b.v[c] *= velocity_factor;
+  }
+  shift_origin();
+  take_kinetic();
+  if (lists) build_lists();
+  if (wants_images_) return;
+  for (int32_t i = 0; i < n_; ++i) calendar_[i].time = never;
+  for (int32_t i = 0; i < n_; ++i) predict(i);
+  sort_calendar();
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::take_kinetic() {
+  double sum = 0.0;
+  for (int32_t i = 0; i < n_; ++i) {
+    const double mass = mass_.empty() ? 1.0 : mass_[i];
+    for (int c = 0; c < D; ++c) sum += mass * (body_[i].v[c] * unit) * (body_[i].v[c] * unit);
+  }
+  twice_kinetic_ = sum;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::thermalise() {
+  take_kinetic();
+  if (twice_kinetic_ > 0.0) refresh(std::sqrt(D * static_cast<double>(n_) / twice_kinetic_), false);
+}
+
+template <int D, bool Shift>
+double Engine<D, Shift>::worst_overlap() const {
+  double worst = 0.0;
+  for (int32_t i = 0; i < n_; ++i)
+    each_neighbour(i, [&](int32_t k, const int64_t *offset) {
+      const Body &a = body_[i], &b = body_[k];
+      const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
+      double r2 = 0.0;
+      for (int c = 0; c < D; ++c) {
+        const double r =
+            static_cast<double>(difference(a, b, c, offset)) + a.v[c] * (now_ - a.time) - b.v[c] * (now_ - b.time);
+        r2 += r * r;
+      }
+      if (r2 > sigma * sigma * (1.0 + 1e-6)) return;
+      const double gap = exact_gap(a, b, offset) / (sigma * sigma);
+      worst = std::max(worst, -gap / (1.0 + std::sqrt(std::max(0.0, 1.0 + gap))));
+    });
+  return worst;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::write_state(Packing &p) const {
+  const double factor = rate_ * now_;
+  for (int32_t i = 0; i < n_; ++i) {
+    const size_t u = static_cast<size_t>(user_[i]);
+    const Body &b = body_[i];
+    for (int c = 0; c < D; ++c) {
+      uint64_t x = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now_ - b.time)));
+      if (Shift) x &= (uint64_t{1} << 61) - 1;
+      p.position[u * D + c] = wrap(static_cast<double>(x) * unit * box_, box_);
+      p.velocity[u * D + c] = b.v[c] * unit;
+    }
+    const int64_t radius = b.radius + std::llrint(static_cast<double>(b.radius) * factor + left_over_[i]);
+    if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(radius) * box_;
+  }
+}
+
+// In a build that asks for it: no pair at all overlaps, in the lists or not. The search is that of core/pairs, which
+// knows nothing of the lists here; positions as doubles are good to 1e-15 of a diameter or better.
+template <int D, bool Shift>
+void Engine<D, Shift>::check_pairs() const {
+#ifdef JAM_CHECK_PAIRS
+  if (sums.collisions == 0 || sums.events < next_check_) return;  // overlaps of the start are the caller's
+  next_check_ = sums.events + 32 * static_cast<int64_t>(n_);
+  Packing p = start_;
+  write_state(p);
+  const ClosestPair worst = closest_pair(p);
+  if (worst.gap < -1e-11)
+    fail(JAM_E_INTERNAL, "spheres %d and %d overlap by %g after %lld collisions", worst.i, worst.j, -worst.gap,
+         static_cast<long long>(sums.collisions));
+#endif
+}
+
+// Tells the observer the way of sphere i since its list was made, before that place moves; no way is half a box long.
+template <int D, bool Shift>
+void Engine<D, Shift>::note_path(int32_t i) const {
+  double *travel = observer_->travel(user_[i]);
+  const Body &b = body_[i];
+  for (int c = 0; c < D; ++c)
+    travel[c] += (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::observe(Observer *observer) {
+  if (observer_)
+    for (int32_t i = 0; i < n_; ++i) note_path(i);
+  observer_ = observer;
+  if (!observer) return;
+  for (int32_t i = 0; i < n_; ++i) {
+    double *travel = observer->travel(user_[i]);
+    const Body &b = body_[i];
+    for (int c = 0; c < D; ++c)
+      travel[c] -=
+          (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+  }
+}
+
+template <int D, bool Shift>
+void Engine<D, Shift>::displacements(std::vector<double> &out) const {
+  for (int32_t i = 0; i < n_; ++i) {
+    const size_t u = static_cast<size_t>(user_[i]);
+    const Body &b = body_[i];
+    for (int c = 0; c < D; ++c)
+      out[u * D + c] =
+          observer_->travel(user_[i])[c] +
+          (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
+  }
+}
+
+}  // namespace jam

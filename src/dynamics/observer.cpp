@@ -1,0 +1,208 @@
+#include "dynamics/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+#include "core/pairs.hpp"
+#include "core/rng.hpp"
+
+namespace jam {
+
+// ---- sums over pairs
+
+PairSums::Slot &PairSums::find(uint64_t key) {
+  size_t at = static_cast<size_t>(mix64(key)) & (slots_.size() - 1);
+  while (slots_[at].key != empty && slots_[at].key != key) at = (at + 1) & (slots_.size() - 1);
+  return slots_[at];
+}
+
+void PairSums::add(int32_t i, int32_t j, double momentum) {
+  if (2 * (used_ + 1) > slots_.size()) {
+    std::vector<Slot> old(std::max<size_t>(1024, 2 * slots_.size()));
+    old.swap(slots_);
+    for (const Slot &s : old)
+      if (s.key != empty) find(s.key) = s;
+  }
+  const uint64_t key = static_cast<uint64_t>(std::min(i, j)) << 32 | static_cast<uint64_t>(std::max(i, j));
+  Slot &slot = find(key);
+  if (slot.key == empty) slot.key = key, ++used_;
+  ++slot.collisions;
+  slot.momentum += momentum;
+}
+
+std::vector<PairSums::Slot> PairSums::sorted() const {
+  std::vector<Slot> out;
+  for (const Slot &s : slots_)
+    if (s.key != empty) out.push_back(s);
+  std::sort(out.begin(), out.end(), [](const Slot &a, const Slot &b) { return a.key < b.key; });
+  return out;
+}
+
+// ---- histograms
+
+void Histogram::start(std::vector<double> edges) {
+  edge = std::move(edges);
+  sum.assign(edge.empty() ? 0 : edge.size() - 1, 0.0);
+  square = sum;
+}
+
+void Histogram::add(const std::vector<double> &density) {
+  ++samples;
+  for (size_t k = 0; k < sum.size(); ++k) sum[k] += density[k], square[k] += density[k] * density[k];
+}
+
+double Histogram::error(size_t bin) const {
+  if (samples < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double m = static_cast<double>(samples), average = sum[bin] / m;
+  return std::sqrt(std::max(0.0, square[bin] / m - average * average) / (m - 1.0));
+}
+
+// ---- options
+
+jam_observe_options default_observe_options() {
+  jam_observe_options o{};
+  o.struct_size = sizeof o;
+  o.sample_every = 10.0;
+  o.gap_min = 1e-8;
+  o.gap_max = 1.0;
+  o.r_max = 4.0;
+  o.snapshot_factor = 1.0;
+  return o;
+}
+
+void check_observe_options(const jam_observe_options &o) {
+  if (o.collisions != 0 && o.collisions != 1) fail(JAM_E_ARGUMENT, "collisions is %d, it must be 0 or 1", o.collisions);
+  if (o.gap_bins < 0 || o.gap_bins == 1 || o.gap_bins > 1000000)
+    fail(JAM_E_ARGUMENT, "gap_bins is %d, it must be 0 or in 2..1000000", o.gap_bins);
+  if (o.r_bins < 0 || o.r_bins > 1000000) fail(JAM_E_ARGUMENT, "r_bins is %d, it must be in 0..1000000", o.r_bins);
+  if (!(o.sample_every > 0.0)) fail(JAM_E_ARGUMENT, "sample_every is %g, it must be positive", o.sample_every);
+  if (!(o.gap_min > 0.0) || !(o.gap_max > o.gap_min) || !(o.gap_max <= 10.0))
+    fail(JAM_E_ARGUMENT, "gap_min is %g and gap_max %g: they need 0 < gap_min < gap_max <= 10", o.gap_min, o.gap_max);
+  if (!(o.r_max > 0.0) || !std::isfinite(o.r_max))
+    fail(JAM_E_ARGUMENT, "r_max is %g, it must be positive and finite", o.r_max);
+  if (!(o.snapshot_every >= 0.0)) fail(JAM_E_ARGUMENT, "snapshot_every is %g, it must be >= 0", o.snapshot_every);
+  if (!(o.snapshot_factor >= 1.0) || !std::isfinite(o.snapshot_factor))
+    fail(JAM_E_ARGUMENT, "snapshot_factor is %g, it must be >= 1 and finite", o.snapshot_factor);
+}
+
+// ---- the observer
+
+namespace {
+// Collisions of the whole system for so many of each sphere; beyond reach when infinite.
+int64_t in_all(double per_particle, double n) {
+  const double all = std::ceil(0.5 * per_particle * n);
+  return all < 9e18 ? std::max<int64_t>(1, static_cast<int64_t>(all)) : std::numeric_limits<int64_t>::max();
+}
+}  // namespace
+
+Observer::Observer(const Packing &p, const jam_observe_options &o)
+    : options_(o), dim_(static_cast<size_t>(p.dim)), n_(static_cast<double>(p.n())), snapshot_step_(o.snapshot_every) {
+  next_block_ = in_all(o.sample_every / blocks, n_);
+  next_snapshot_ = std::numeric_limits<int64_t>::max();
+  if (o.snapshot_every > 0.0) {
+    snapshot_at_ = snapshot_step_;
+    next_snapshot_ = in_all(snapshot_at_, n_);
+  }
+  travel_.assign(p.n() * dim_, 0.0);
+  if (o.collisions) collisions_.assign(p.n(), 0);
+  if (o.gap_bins > 0) {
+    std::vector<double> edge{0.0};
+    for (int32_t k = 0; k < o.gap_bins; ++k)
+      edge.push_back(o.gap_min * std::pow(o.gap_max / o.gap_min, static_cast<double>(k) / (o.gap_bins - 1)));
+    gaps_.start(std::move(edge));
+  }
+  if (o.r_bins > 0) {
+    std::vector<double> edge;
+    for (int32_t k = 0; k <= o.r_bins; ++k) edge.push_back(o.r_max * k / o.r_bins);
+    correlation_.start(std::move(edge));
+  }
+}
+
+bool Observer::end_block(double virial, double kinetic_integral) {
+  block_virial_.push_back(virial);
+  block_kinetic_integral_.push_back(kinetic_integral);
+  left_virial = left_kinetic_integral = 0.0;
+  ++blocks_made_;
+  next_block_ = std::max(seen + 1, in_all(static_cast<double>(blocks_made_ + 1) * options_.sample_every / blocks, n_));
+  return block_virial_.size() == blocks;
+}
+
+int64_t Observer::end_snapshot() {
+  snapshot_step_ *= options_.snapshot_factor;
+  snapshot_at_ += snapshot_step_;
+  next_snapshot_ = std::max(seen + 1, in_all(snapshot_at_, n_));
+  return ++snapshots_;
+}
+
+void Observer::take_sample(const Packing &now, const std::vector<double> &displacement) {
+  Sample s{};
+  s.time = time;
+  s.collisions = 2.0 * static_cast<double>(seen) / n_;
+  s.packing_fraction = packing_fraction(now);
+  double virial = 0.0, kinetic_integral = 0.0, spread = 0.0;
+  for (int k = 0; k < blocks; ++k) virial += block_virial_[k], kinetic_integral += block_kinetic_integral_[k];
+  s.pressure = kinetic_integral > 0.0 ? 1.0 + virial / kinetic_integral : std::numeric_limits<double>::quiet_NaN();
+  for (int k = 0; k < blocks; ++k) {
+    const double p = 1.0 + block_virial_[k] / block_kinetic_integral_[k];
+    spread += (p - s.pressure) * (p - s.pressure);
+  }
+  s.error = std::sqrt(spread / (blocks * (blocks - 1)));
+  for (double x : displacement) s.displacement2 += x * x;
+  s.displacement2 *= now.box * now.box / n_;
+  samples_.push_back(s);
+  block_virial_.clear();
+  block_kinetic_integral_.clear();
+  if (gaps_.bins() > 0) sample_gaps(now);
+  if (correlation_.bins() > 0) sample_correlation(now);
+}
+
+// Pairs per gap, over those that the same number of points anywhere would have: g at contact of equal spheres. In a
+// mixture the ideal gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh; the mean of sigma_ij^d follows from powers
+// of sigma.
+void Observer::sample_gaps(const Packing &p) {
+  std::vector<double> density(gaps_.bins(), 0.0);
+  const PairList pairs = find_pairs(p, 0.0, 1.0 + options_.gap_max);
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k]) continue;
+    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
+    const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
+    const auto at = std::upper_bound(gaps_.edge.begin() + 1, gaps_.edge.end(), gap);
+    if (at != gaps_.edge.end()) density[static_cast<size_t>(at - gaps_.edge.begin()) - 1] += 1.0;
+  }
+  std::vector<double> moment(dim_ + 1, 0.0);
+  for (double s : p.diameter)
+    for (size_t m = 0; m <= dim_; ++m) moment[m] += std::pow(s / p.box, static_cast<double>(m)) / n_;
+  double mean = 0.0, choose = 1.0;
+  for (size_t m = 0; m <= dim_; ++m) {
+    mean += choose * moment[m] * moment[dim_ - m] * std::pow(0.5, static_cast<double>(dim_));
+    choose *= static_cast<double>(dim_ - m) / static_cast<double>(m + 1);
+  }
+  const double ideal =
+                   0.5 * n_ * (n_ - 1.0) * mean * unit_sphere_volume(p.dim) * std::pow(2.0, static_cast<double>(dim_)),
+               d = static_cast<double>(dim_);
+  for (size_t k = 0; k < density.size(); ++k)
+    density[k] /= ideal * (std::expm1(d * std::log1p(gaps_.edge[k + 1])) - std::expm1(d * std::log1p(gaps_.edge[k])));
+  gaps_.add(density);
+}
+
+void Observer::sample_correlation(const Packing &p) {
+  std::vector<double> density(correlation_.bins(), 0.0);
+  const double sigma = diameter_mean(p), width = options_.r_max / options_.r_bins;
+  const PairList pairs = find_pairs(p, options_.r_max * sigma, 0.0);
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k]) continue;
+    const auto bin = static_cast<size_t>(std::sqrt(pair_vector(p, pairs, k, r)) / (sigma * width));
+    if (bin < density.size()) density[bin] += 1.0;
+  }
+  const double d = static_cast<double>(dim_);
+  const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * std::pow(2.0 * sigma / p.box, d);
+  for (size_t k = 0; k < density.size(); ++k)
+    density[k] /= ideal * (std::pow(correlation_.edge[k + 1], d) - std::pow(correlation_.edge[k], d));
+  correlation_.add(density);
+}
+
+}  // namespace jam

@@ -1,0 +1,102 @@
+// What jam_observe asks to be recorded. The engine tells collisions and ways, the stage tells when to take a sample;
+// nothing here changes the dynamics. Lengths in units of the box until they are handed out.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/packing.hpp"
+
+namespace jam {
+
+struct Sample {
+  double time, collisions, packing_fraction, pressure, error, displacement2;
+};
+
+// Sums over collisions of one pair, found by its key; open addressing, the table doubles when it is half full.
+class PairSums {
+ public:
+  struct Slot {
+    uint64_t key = empty;
+    int64_t collisions = 0;
+    double momentum = 0.0;
+  };
+  static constexpr uint64_t empty = ~uint64_t{0};
+  void add(int32_t i, int32_t j, double momentum);
+  std::vector<Slot> sorted() const;  // by (i, j), i < j; key = i << 32 | j
+
+ private:
+  Slot &find(uint64_t key);
+  std::vector<Slot> slots_;
+  size_t used_ = 0;
+};
+
+// Running mean and its error of a density in bins.
+struct Histogram {
+  std::vector<double> edge, sum, square;
+  int64_t samples = 0;
+  size_t bins() const { return sum.size(); }
+  void start(std::vector<double> edges);
+  void add(const std::vector<double> &density);
+  double mean(size_t bin) const {
+    return samples > 0 ? sum[bin] / static_cast<double>(samples) : std::numeric_limits<double>::quiet_NaN();
+  }
+  double error(size_t bin) const;
+};
+
+jam_observe_options default_observe_options();
+void check_observe_options(const jam_observe_options &o);
+
+class Observer {
+ public:
+  Observer(const Packing &p, const jam_observe_options &o);
+
+  // Of the engine; numbers are the user's.
+  void collision(int32_t i, int32_t j, double momentum) {
+    if (!options_.collisions) return;
+    ++collisions_[i];
+    ++collisions_[j];
+    pairs_.add(i, j, momentum);
+  }
+  double *travel(int32_t i) { return &travel_[static_cast<size_t>(i) * dim_]; }
+
+  // Of the stage. Collisions are counted over all calls since jam_observe.
+  int64_t seen = 0;   // collisions, now
+  double time = 0.0;  // simulated, now
+  int64_t next_stop() const { return std::min(next_block_, next_snapshot_); }
+  bool block_due() const { return seen >= next_block_; }
+  bool snapshot_due() const { return seen >= next_snapshot_; }
+  // A block of an eighth of a sample has ended; true when that makes a sample, which take_sample must follow.
+  bool end_block(double virial, double kinetic_integral);
+  void take_sample(const Packing &now, const std::vector<double> &displacement);
+  bool has_snapshots() const { return options_.snapshot_every > 0.0; }
+  int64_t end_snapshot();  // the number of this snapshot, from 1
+  // Virial and kinetic_integral of a block that a call has cut off; the next call goes on with it.
+  double left_virial = 0.0, left_kinetic_integral = 0.0;
+
+  const std::vector<Sample> &samples() const { return samples_; }
+  const std::vector<int64_t> &collisions() const { return collisions_; }
+  const std::vector<double> &travelled() const { return travel_; }
+  const PairSums &pairs() const { return pairs_; }
+  const Histogram &gaps() const { return gaps_; }
+  const Histogram &correlation() const { return correlation_; }
+
+ private:
+  void sample_gaps(const Packing &p);
+  void sample_correlation(const Packing &p);
+  static constexpr int blocks = 8;
+  jam_observe_options options_;
+  size_t dim_;
+  double n_;
+  int64_t next_block_, next_snapshot_, blocks_made_ = 0, snapshots_ = 0;
+  double snapshot_at_ = 0.0, snapshot_step_;
+  std::vector<double> block_virial_, block_kinetic_integral_;
+  std::vector<Sample> samples_;
+  std::vector<int64_t> collisions_;
+  std::vector<double> travel_;
+  PairSums pairs_;
+  Histogram gaps_, correlation_;
+};
+
+}  // namespace jam

@@ -1,0 +1,77 @@
+// One stage as it runs: windows of pressure, thermostat, limits, report. It can stop between any two events and go on,
+// in this process or another, to the same bits: whatever decides something is a member and in archive().
+#pragma once
+#include "dynamics/engine.hpp"
+#include "dynamics/md.hpp"
+
+namespace jam {
+
+double twice_kinetic(const Packing &p);
+
+class Stage {
+ public:
+  Stage(Packing p, const MdStage &stage);
+  Stage(Packing p, Archive &from);
+
+  jam_status run(const MdStage &limits, const MdListeners &listeners, jam_md_report &report);
+  const Packing &packing() const { return p_; }
+  bool growing() const { return stage_.growth > 0.0; }
+  Packing current() const;
+  void archive(Archive &a);
+
+ private:
+  void take_limits(const MdStage &limits);
+  EngineOptions options() const;
+  int32_t go_on(const MdListeners &listeners, double wall_end);
+  int32_t advance_part(const MdListeners &listeners, double wall_end);
+  void begin_part();
+  void end_part();
+  void plan_window();
+  int32_t judge();
+  void thermostat();
+  void slow_down();
+  void change_engine(Observer *observer);
+
+  void attach(Observer *observer);
+  void detach(Observer *observer);
+  void update(Observer &observer) const;
+  bool observe(const MdListeners &listeners);
+  void sample(Observer &observer) const;
+  jam_progress progress() const;
+
+  void finish(int32_t reason, jam_md_report &report) const;
+  double standard_error() const;
+  jam_status status_of(int32_t reason) const;
+  int64_t collisions() const { return old_collisions_ + engine_->sums.collisions; }
+  int64_t events() const { return old_events_ + engine_->sums.events; }
+  double time() const { return old_time_ + engine_->elapsed(); }
+  // Sums of virial and kinetic_integral over the stage.
+  double virial() const { return old_virial_ + engine_->sums.virial; }
+  double kinetic_integral() const { return old_kinetic_integral_ + engine_->sums.kinetic_integral; }
+
+  Packing p_;
+  MdStage stage_;
+  double n_;
+  std::unique_ptr<EngineBase> engine_;
+  double goal_ = 0.0, kinetic_ = 0.0, pressure_ = std::numeric_limits<double>::quiet_NaN();
+  int64_t window_ = 1;
+
+  // the window at hand: parts of it, each with its own pressure
+  int64_t part_ = 0, part_goal_ = 0;
+  double part_virial_ = 0.0, part_kinetic_integral_ = 0.0, window_virial_ = 0.0, window_kinetic_integral_ = 0.0;
+  int64_t steady_ = 1;           // no part of the window is far below the target: a stop is not made of noise
+  std::vector<double> windows_;  // pressures of parts
+
+  // before this part, and (part_...) of this part before the engine was changed for one with images
+  double old_virial_ = 0.0, old_kinetic_integral_ = 0.0, old_time_ = 0.0, worst_ = 0.0;
+  int64_t old_collisions_ = 0, old_events_ = 0;
+
+  double cooled_ = 0.0, first_pressure_ = 0.0, growth_ = 0.0;
+  int64_t cooled_collisions_ = 0, frozen_ = 0;
+
+  // of this call, not in the archive
+  double block_virial_ = 0.0, block_kinetic_integral_ = 0.0, seen_time_ = 0.0;
+  int64_t seen_collisions_ = 0, call_collisions_ = 0, report_collisions_ = 0;
+};
+
+}  // namespace jam

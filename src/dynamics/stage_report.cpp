@@ -1,0 +1,110 @@
+// What a stage tells while it runs and at its end: observers, progress, report.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/stage.hpp"
+
+namespace jam {
+
+void Stage::attach(Observer *observer) {
+  if (!observer) return;
+  seen_collisions_ = collisions();
+  seen_time_ = time();
+  block_virial_ = virial() - observer->left_virial;
+  block_kinetic_integral_ = kinetic_integral() - observer->left_kinetic_integral;
+  engine_->observe(observer);
+}
+
+void Stage::update(Observer &observer) const {
+  observer.seen += collisions() - seen_collisions_;
+  observer.time += time() - seen_time_;
+}
+
+void Stage::detach(Observer *observer) {
+  if (!observer) return;
+  engine_->observe(nullptr);
+  update(*observer);
+  observer->left_virial = virial() - block_virial_;
+  observer->left_kinetic_integral = kinetic_integral() - block_kinetic_integral_;
+}
+
+// What is due at this collision; true when the callback asks to stop.
+bool Stage::observe(const MdListeners &listeners) {
+  Observer &observer = *listeners.observer;
+  update(observer);
+  seen_collisions_ = collisions();
+  seen_time_ = time();
+  if (observer.block_due()) {
+    const bool whole = observer.end_block(virial() - block_virial_, kinetic_integral() - block_kinetic_integral_);
+    block_virial_ = virial();
+    block_kinetic_integral_ = kinetic_integral();
+    if (whole) sample(observer);
+  }
+  if (!observer.snapshot_due()) return false;
+  jam_progress q = progress();
+  q.snapshot = observer.end_snapshot();
+  if (listeners.show) listeners.show(current());
+  return listeners.monitor->report(q, true);
+}
+
+void Stage::sample(Observer &observer) const {
+  std::vector<double> way(p_.position.size());
+  engine_->displacements(way);
+  observer.take_sample(current(), way);
+}
+
+// ---- progress and report
+
+jam_progress Stage::progress() const {
+  jam_progress q{};
+  q.phase = growing() ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN;
+  q.packing_fraction = engine_->packing_fraction();
+  q.pressure = pressure_;
+  q.gain = q.max_step = std::numeric_limits<double>::quiet_NaN();
+  q.collisions = report_collisions_ + collisions() - call_collisions_;
+  q.fraction = goal_ < no_limit ? static_cast<double>(collisions()) / goal_ : std::numeric_limits<double>::quiet_NaN();
+  return q;
+}
+
+// Adds to the report, so that stages run one after the other give one.
+void Stage::finish(int32_t reason, jam_md_report &report) const {
+  report.stop_reason = reason;
+  report.collisions_per_second = static_cast<double>(report.collisions) / std::max(report.seconds, 1e-9);
+  report.pressure = p_.pressure;
+  report.pressure_error = standard_error();
+  report.packing_fraction = jam::packing_fraction(p_);
+  report.energy_drift = kinetic_ > 0.0 && !growing() ? std::fabs(twice_kinetic(p_) / kinetic_ - 1.0) : 0.0;
+  report.max_overlap = std::max({report.max_overlap, worst_, engine_->max_overlap, engine_->worst_overlap()});
+  report.growth_rate = engine_->growth();
+}
+
+// NVE: of the mean over all windows. Growing: the last window is the mean of the last four parts.
+double Stage::standard_error() const {
+  if (windows_.size() < (growing() ? 8u : 5u)) return std::numeric_limits<double>::quiet_NaN();
+  double mean = 0.0, square = 0.0;
+  const double m = static_cast<double>(windows_.size());
+  for (double p : windows_) mean += p / m;
+  for (double p : windows_) square += (p - mean) * (p - mean) / (m - 1.0);
+  return std::sqrt(square / (growing() ? 4.0 : m));
+}
+
+jam_status Stage::status_of(int32_t reason) const {
+  switch (reason) {
+    case JAM_STOP_PRESSURE:
+    case JAM_STOP_PACKING_FRACTION:
+      return JAM_OK;
+    case JAM_STOP_TIME:
+    case JAM_STOP_COLLISIONS:
+      return growing() ? JAM_LIMIT : JAM_OK;
+    case JAM_STOP_WALL_TIME:
+      return JAM_LIMIT;
+    case JAM_STOP_CANCELLED:
+      return JAM_CANCELLED;
+    case JAM_STOP_PRECISION:
+      return JAM_PRECISION;
+    default:
+      return JAM_NOT_CONVERGED;
+  }
+}
+
+}  // namespace jam

@@ -1,0 +1,104 @@
+// Sparse Cholesky A = L L^T of symmetric positive (semi-)definite matrices made of d x d blocks on a particle graph.
+// Multifrontal on supernodes (Duff and Reid, ACM Trans. Math. Softw. 9, 302 (1983)): order the particle graph,
+// eliminate supernode by supernode on dense fronts with BLAS-3, hand each front's Schur complement to its parent.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "linalg/ordering.hpp"
+
+namespace jam {
+
+class BlockCholesky {
+ public:
+  // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees
+  // and large fronts side by side.
+  void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1,
+               Ordering ordering = Ordering::metis);
+  // The same with the elimination order of the last call, for a graph that changed little; analyse() when n is another.
+  void analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1);
+  // A pivot at or below max(relative * its diagonal entry in A, floor) counts as lost. Default 1e-16 and 0.
+  void set_pivot_rule(double relative, double floor) { relative_ = relative, floor_ = floor; }
+  // Numeric part, allocates nothing. diag: n blocks of dim * dim, full and symmetric; off: one block an edge,
+  // row-major, rows of ei and columns of ej. A pivot lost to rounding is replaced by a huge number, which fixes that
+  // component of the solution at 0 (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, ch. 11). Returns how
+  // many were; -1: the result is not finite.
+  int factorise(const double *diag, const double *off);
+  // x := A^-1 x, n * dim. May run on several x at once from different threads.
+  void solve(double *x) const { solve_many(x, 1); }
+  // The same for nrhs vectors one after the other in x.
+  void solve_many(double *x, int nrhs) const;
+
+  // What analyse() would come to, without the memory for the numbers: flops of one factorisation; doubles in the factor
+  // and in the fronts beside it.
+  struct Sizes {
+    double flops;
+    size_t factor, fronts;
+  };
+  static Sizes measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads);
+
+  double flops() const { return flops_; }
+  size_t bytes() const;
+  size_t factor_nonzeros() const { return values_.size(); }
+  size_t supernodes() const { return supernodes_.size(); }
+
+ private:
+  // Columns [first, last) of nodes in elimination order; rows: the nodes below them. Front = columns then rows.
+  struct Supernode {
+    int32_t first, last, parent;
+    int side;                     // which of the two stacks of its list takes its Schur complement
+    size_t row_start, row_count;  // in rows_ and places_
+    size_t value_start;           // panel in values_, column-major, leading dimension = front size
+    size_t entry_start, entry_count;
+    std::vector<int32_t> children;
+  };
+  struct Entry {
+    int64_t edge;   // >= 0: off-diagonal block; else diagonal block -1 - node
+    size_t target;  // in values_
+    bool transposed;
+  };
+  struct Stack {
+    std::vector<double> memory[2];  // of even and odd depth in the tree
+    size_t top[2] = {0, 0};
+  };
+  static constexpr size_t on_stack = static_cast<size_t>(-1);  // in kept_at_
+  size_t columns(const Supernode &s) const { return static_cast<size_t>(s.last - s.first) * dim_; }
+  size_t below(const Supernode &s) const { return s.row_count * dim_; }
+
+  void find_supernodes(const std::vector<int32_t> &parent, std::vector<std::vector<int32_t>> &structure);
+  void place_entries(const int32_t *ei, const int32_t *ej, size_t edges);
+  void plan();
+  std::vector<int32_t> share_out(const std::vector<double> &work);
+  void keep(const std::vector<int32_t> &roots);
+  void lay_stacks(int list);
+  void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
+  void assemble(const Supernode &s, const double *diag, const double *off);
+  void extend_add(int32_t child, double *update, int threads);
+  template <int D>
+  void extend_add_columns(int32_t child, double *update, size_t start, size_t stride);
+  void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads,
+                int &replaced);
+
+  void forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const;
+  void backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const;
+
+  int dim_ = 0, threads_ = 1;
+  bool dry_ = false;  // sizes only
+  int32_t n_ = 0;
+  double flops_ = 0.0, relative_ = 1e-16, floor_ = 0.0;
+  std::vector<int32_t> order_;     // of the last analyse(), for analyse_keep_order()
+  std::vector<int32_t> position_;  // node -> place in the elimination order
+  std::vector<Supernode> supernodes_;
+  std::vector<int32_t> rows_, places_;  // below a supernode; where in its parent's front they are
+  std::vector<Entry> entries_;
+  std::vector<double> values_, original_diagonal_;
+  std::vector<double *> update_;  // Schur complement of each supernode while it is needed
+  std::vector<size_t> kept_at_;   // where in kept_ that of a subtree's root is, which outlives its thread's stack
+  std::vector<double> kept_;
+  std::vector<int32_t> lists_[3];  // supernodes of thread 0, thread 1, and the top of the tree
+  Stack stacks_[2];
+  size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0;
+};
+
+}  // namespace jam

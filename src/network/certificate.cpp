@@ -1,0 +1,84 @@
+// See certificate.hpp.
+#include "network/certificate.hpp"
+#include "core/pair_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace jam {
+namespace {
+
+// Largest |sum_j f_ij n_ij| over all spheres, in units of the mean force (which is 1).
+double force_residual(const Packing &p, const ContactNetwork &net) {
+  const int d = p.dim;
+  std::vector<double> total(p.position.size(), 0.0);
+  for (size_t k = 0; k < net.size(); ++k)
+    for (int c = 0; c < d; ++c) {
+      const double f = net.force[k] * net.vector[k * d + c];
+      total[static_cast<size_t>(net.pairs.i[k]) * d + c] += f;
+      total[static_cast<size_t>(net.pairs.j[k]) * d + c] -= f;
+    }
+  double worst = 0.0;
+  for (size_t k = 0; k < total.size(); k += d) {
+    double f2 = 0.0;
+    for (int c = 0; c < d; ++c) f2 += total[k + c] * total[k + c];
+    worst = std::max(worst, f2);
+  }
+  return std::sqrt(worst);
+}
+
+// Smallest gap of two stable spheres that are no contact: the pairs of `net` are skipped image by image.
+void scan_gaps(const Packing &p, const ContactNetwork &net, jam_report &report) {
+  const int d = p.dim;
+  double r[JAM_MAX_DIM];
+  report.min_gap = std::numeric_limits<double>::infinity();
+  report.max_overlap = 0.0;
+  for (const double slope : {1.2, 2.0}) {
+    const PairList pairs = find_pairs(p, 0.0, slope);
+    size_t at = 0;  // both lists are sorted by (i, j)
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      const int32_t i = pairs.i[k], j = pairs.j[k];
+      const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, i, j) - 1.0;
+      report.max_overlap = std::max(report.max_overlap, -gap);
+      while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;
+      bool contact = false;
+      for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j && !contact; ++q) {
+        double apart = 0.0;
+        for (int c = 0; c < d; ++c)
+          apart = std::max(apart, std::fabs(net.pairs.offset[q * d + c] - pairs.offset[k * d + c]));
+        contact = apart < 0.5 * p.box;
+      }
+      if (!contact && i != j && net.coordination[i] > 0 && net.coordination[j] > 0)
+        report.min_gap = std::min(report.min_gap, gap);
+    }
+    if (std::isfinite(report.min_gap)) return;
+  }
+}
+
+}  // namespace
+
+void certify(const Packing &p, const ContactNetwork &net, jam_report &report) {
+  const int d = p.dim;
+  report.packing_fraction = packing_fraction(p);
+  report.diameter_mean = diameter_mean(p);
+  report.contacts = static_cast<int64_t>(net.size());
+  report.rattlers = report.bucklers = 0;
+  for (const int32_t z : net.coordination) {
+    report.rattlers += z == 0;
+    report.bucklers += z == d + 1;
+  }
+  report.stable = static_cast<int64_t>(p.n()) - report.rattlers;
+  report.isostatic_contacts = report.stable > 0 ? d * (report.stable - 1) + 1 : 0;
+  report.excess_contacts = report.contacts - report.isostatic_contacts;
+  report.force_residual = force_residual(p, net);
+  report.min_force = net.size() ? *std::min_element(net.force.begin(), net.force.end()) : 0.0;
+  report.max_contact_gap = 0.0;
+  for (const double h : net.gap) report.max_contact_gap = std::max(report.max_contact_gap, std::fabs(h));
+  report.force_scale = net.force_scale;
+  scan_gaps(p, net, report);
+}
+
+}  // namespace jam

@@ -1,0 +1,11 @@
+// The certificate: everything in the report that follows from positions, diameters, contacts and forces alone.
+#pragma once
+#include "core/packing.hpp"
+#include "jam/jam.h"
+#include "network/contact_network.hpp"
+
+namespace jam {
+
+void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);
+
+}  // namespace jam

@@ -1,0 +1,74 @@
+#include "network/contact_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair_rule.hpp"
+
+namespace jam {
+
+void measure_contacts(const Packing &p, ContactNetwork &net) {
+  using Wide = long double;
+  const int d = p.dim;
+  Wide r[JAM_MAX_DIM];
+  net.vector.resize(net.size() * d), net.gap.resize(net.size());
+  for (size_t k = 0; k < net.size(); ++k) {
+    const int32_t i = net.pairs.i[k], j = net.pairs.j[k];
+    Wide r2 = 0.0;
+    for (int c = 0; c < d; ++c) {
+      r[c] =
+          (static_cast<Wide>(p.position[static_cast<size_t>(i) * d + c]) - p.position[static_cast<size_t>(j) * d + c]) +
+          net.pairs.offset[k * d + c];
+      r2 += r[c] * r[c];
+    }
+    const Wide length = std::sqrt(r2), sigma = contact_distance<Wide>(p, i, j);
+    for (int c = 0; c < d; ++c) net.vector[k * d + c] = static_cast<double>(r[c] / length);
+    net.gap[k] = static_cast<double>((length - sigma) / sigma);
+  }
+}
+
+int64_t excess_contacts(const ContactNetwork &net, int dim) {
+  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  return static_cast<int64_t>(net.size()) - (dim * (stable - 1) + 1);
+}
+
+void drop_loose(const PairList &pairs, std::vector<char> &on, size_t n, int dim) {
+  std::vector<int32_t> z;
+  for (bool again = true; again;) {
+    again = false;
+    z.assign(n, 0);
+    for (size_t k = 0; k < on.size(); ++k)
+      if (on[k]) ++z[pairs.i[k]], ++z[pairs.j[k]];
+    for (size_t k = 0; k < on.size(); ++k)
+      if (on[k] && std::min(z[pairs.i[k]], z[pairs.j[k]]) <= dim) on[k] = 0, again = true;
+  }
+}
+
+ContactNetwork with_near_pairs(const Packing &p, const ContactNetwork &net, double gap) {
+  ContactNetwork all;
+  all.pairs = find_pairs(p, 0.0, 1.0 + gap);
+  all.force = carry_over(net.pairs, net.force, all.pairs);
+  all.force_scale = net.force_scale;
+  all.coordination.assign(p.n(), 0);
+  measure_contacts(p, all);
+  std::vector<char> on(all.size(), 1);
+  drop_loose(all.pairs, on, p.n(), p.dim);
+  return subset(all, on, p.dim);
+}
+
+ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim) {
+  ContactNetwork out;
+  out.force_scale = net.force_scale;
+  out.coordination.assign(net.coordination.size(), 0);
+  for (size_t k = 0; k < on.size(); ++k) {
+    if (!on[k]) continue;
+    ++out.coordination[net.pairs.i[k]], ++out.coordination[net.pairs.j[k]];
+    out.pairs.i.push_back(net.pairs.i[k]), out.pairs.j.push_back(net.pairs.j[k]);
+    out.pairs.offset.insert(out.pairs.offset.end(), &net.pairs.offset[k * dim], &net.pairs.offset[k * dim] + dim);
+    out.vector.insert(out.vector.end(), &net.vector[k * dim], &net.vector[k * dim] + dim);
+    out.gap.push_back(net.gap[k]), out.force.push_back(net.force[k]);
+  }
+  return out;
+}
+
+}  // namespace jam

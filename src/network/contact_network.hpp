@@ -1,0 +1,37 @@
+// The contact network: contacts between force-carrying spheres, their unit vectors, gaps and forces.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/packing.hpp"
+#include "core/pairs.hpp"
+
+namespace jam {
+
+struct ContactNetwork {
+  PairList pairs;                     // contacts between stable spheres
+  std::vector<double> vector;         // (contacts, dim) unit n_ij
+  std::vector<double> gap;            // h of each contact
+  std::vector<double> force;          // mean 1
+  double force_scale = 0.0;           // mean of lambda |r| with sum lambda sigma^2 = 1
+  std::vector<int32_t> coordination;  // n; 0 for rattlers
+  size_t size() const { return pairs.size(); }
+};
+
+// Directions and gaps at the positions of p, in extended precision.
+void measure_contacts(const Packing &p, ContactNetwork &net);
+
+// Contacts above those of one state of self-stress, d (stable - 1) + 1.
+int64_t excess_contacts(const ContactNetwork &net, int dim);
+
+// Those of net and every other pair that is nearer than the relative gap, without force; of spheres that d + 1 of them
+// hold.
+ContactNetwork with_near_pairs(const Packing &p, const ContactNetwork &net, double gap);
+
+// Turns off those of spheres that fewer than d + 1 hold, again and again: they carry no force.
+void drop_loose(const PairList &pairs, std::vector<char> &on, size_t n, int dim);
+
+// Only those that are `on`, one flag a contact.
+ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim);
+
+}  // namespace jam

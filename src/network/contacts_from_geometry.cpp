@@ -1,0 +1,283 @@
+#include "network/contacts_from_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+
+namespace jam {
+
+jam_geometry_options default_geometry_options() {
+  jam_geometry_options o{};
+  o.struct_size = sizeof o;
+  o.tolerance = 0.0;
+  o.window = 0.1;
+  return o;
+}
+
+namespace {
+
+struct GapList {
+  PairList pairs;
+  std::vector<double> gap;
+  std::vector<size_t> order;  // by |gap|
+};
+
+GapList pairs_below(const Packing &p, double limit) {
+  GapList g;
+  g.pairs = find_pairs(p, 0.0, 1.0 + limit);
+  std::vector<double> r(p.dim);
+  for (size_t k = 0; k < g.pairs.size(); ++k) {
+    const double length = std::sqrt(pair_vector(p, g.pairs, k, r.data()));
+    g.gap.push_back(length / contact_distance(p, g.pairs.i[k], g.pairs.j[k]) - 1.0);
+  }
+  g.order.resize(g.gap.size());
+  std::iota(g.order.begin(), g.order.end(), size_t{0});
+  std::stable_sort(g.order.begin(), g.order.end(),
+                   [&](size_t x, size_t y) { return std::fabs(g.gap[x]) < std::fabs(g.gap[y]); });
+  return g;
+}
+
+ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) {
+  ContactNetwork net;
+  std::vector<double> r(p.dim);
+  for (size_t k = 0; k < g.pairs.size(); ++k) {  // list order: sorted by (i, j) and image
+    if (std::fabs(g.gap[k]) > tolerance) continue;
+    net.pairs.i.push_back(g.pairs.i[k]);
+    net.pairs.j.push_back(g.pairs.j[k]);
+    net.pairs.offset.insert(net.pairs.offset.end(), &g.pairs.offset[k * p.dim], &g.pairs.offset[k * p.dim] + p.dim);
+    const double length = std::sqrt(pair_vector(p, g.pairs, k, r.data()));
+    for (double x : r) net.vector.push_back(x / length);
+    net.gap.push_back(g.gap[k]);
+  }
+  remove_rattlers(p, net);
+  return net;
+}
+
+// Rank of the unit vectors of one sphere's live contacts, by elimination with pivoting on their Gram matrix.
+int rank_of(const ContactNetwork &net, const std::vector<size_t> &of, const std::vector<char> &alive, int d) {
+  std::vector<double> a(static_cast<size_t>(d) * d, 0.0);
+  for (size_t k : of)
+    if (alive[k])
+      for (int r = 0; r < d; ++r)
+        for (int c = 0; c < d; ++c) a[r * d + c] += net.vector[k * d + r] * net.vector[k * d + c];
+  int rank = 0;
+  std::vector<char> used(d, 0);
+  for (int step = 0; step < d; ++step) {
+    int best = -1;
+    for (int r = 0; r < d; ++r)
+      if (!used[r] && (best < 0 || a[r * d + r] > a[best * d + best])) best = r;
+    if (a[best * d + best] < 1e-6) break;  // Gram entries are of order 1; a squared sine below 1e-6 counts as flat
+    used[best] = 1;
+    ++rank;
+    for (int r = 0; r < d; ++r)
+      if (!used[r]) {
+        const double factor = a[r * d + best] / a[best * d + best];
+        for (int c = 0; c < d; ++c) a[r * d + c] -= factor * a[best * d + c];
+      }
+  }
+  return rank;
+}
+
+}  // namespace
+
+void remove_rattlers(const Packing &p, ContactNetwork &net) {
+  const int d = p.dim;
+  const size_t n = p.n(), m = net.size();
+  std::vector<char> alive(m, 1), queued(n, 1), stable(n, 1);
+  std::vector<std::vector<size_t>> of(n);
+  for (size_t k = 0; k < m; ++k) {
+    if (net.pairs.i[k] == net.pairs.j[k]) {
+      alive[k] = 0;
+      continue;
+    }
+    of[net.pairs.i[k]].push_back(k);
+    of[net.pairs.j[k]].push_back(k);
+  }
+  std::vector<size_t> queue(n);
+  std::iota(queue.begin(), queue.end(), size_t{0});
+  while (!queue.empty()) {
+    const size_t i = queue.back();
+    queue.pop_back();
+    queued[i] = 0;
+    if (!stable[i]) continue;
+    int z = 0;
+    for (size_t k : of[i]) z += alive[k];
+    if (z >= d + 1 && rank_of(net, of[i], alive, d) == d) continue;
+    stable[i] = 0;
+    for (size_t k : of[i]) {
+      if (!alive[k]) continue;
+      alive[k] = 0;
+      const size_t j = static_cast<size_t>(net.pairs.i[k]) == i ? net.pairs.j[k] : net.pairs.i[k];
+      if (stable[j] && !queued[j]) queued[j] = 1, queue.push_back(j);
+    }
+  }
+  ContactNetwork out;
+  out.coordination.assign(n, 0);
+  for (size_t k = 0; k < m; ++k) {
+    if (!alive[k]) continue;
+    out.pairs.i.push_back(net.pairs.i[k]);
+    out.pairs.j.push_back(net.pairs.j[k]);
+    out.pairs.offset.insert(out.pairs.offset.end(), &net.pairs.offset[k * d], &net.pairs.offset[k * d] + d);
+    out.vector.insert(out.vector.end(), &net.vector[k * d], &net.vector[k * d] + d);
+    out.gap.push_back(net.gap[k]);
+    if (!net.force.empty()) out.force.push_back(net.force[k]);
+    ++out.coordination[net.pairs.i[k]];
+    ++out.coordination[net.pairs.j[k]];
+  }
+  net = std::move(out);
+}
+
+namespace {
+
+constexpr size_t most_candidates = 12;
+
+struct Jump {
+  double ratio, below, above;
+};
+
+// The largest jumps of the sorted gaps, best first: the best of all, and the best of those that leave at least half of
+// the spheres with enough contacts (ratios are large among the few smallest gaps, too). Gaps below the resolution count
+// as that.
+std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resolution, double window) {
+  std::vector<Jump> jumps;
+  const double enough = p.dim * 0.5 * static_cast<double>(p.n());
+  size_t few = 0;
+  for (size_t q = 0; q < g.order.size(); ++q) {
+    const double below = std::max(std::fabs(g.gap[g.order[q]]), resolution);
+    const double above = q + 1 < g.order.size() ? std::max(std::fabs(g.gap[g.order[q + 1]]), resolution) : window;
+    if (above > below) jumps.push_back({above / below, below, above});
+    if (static_cast<double>(q + 1) < enough) few = jumps.size();
+  }
+  const auto best = [&](size_t first, size_t last) {
+    const size_t keep = std::min<size_t>(last - first, most_candidates);
+    const auto begin = jumps.begin() + static_cast<std::ptrdiff_t>(first);
+    std::partial_sort(begin, begin + static_cast<std::ptrdiff_t>(keep),
+                      jumps.begin() + static_cast<std::ptrdiff_t>(last),
+                      [](const Jump &x, const Jump &y) { return x.ratio > y.ratio; });
+    return std::vector<Jump>(begin, begin + static_cast<std::ptrdiff_t>(keep));
+  };
+  std::vector<Jump> out = best(few, jumps.size()), small = best(0, few);
+  out.insert(out.end(), small.begin(), small.end());
+  std::stable_sort(out.begin(), out.end(), [](const Jump &x, const Jump &y) { return x.ratio > y.ratio; });
+  return out;
+}
+
+bool can_be_rigid(const ContactNetwork &net, int d) {
+  const auto stable = static_cast<int64_t>(net.coordination.size()) -
+                      static_cast<int64_t>(std::count(net.coordination.begin(), net.coordination.end(), 0));
+  return stable > 0 && static_cast<int64_t>(net.size()) >= d * (stable - 1) + 1;
+}
+
+// Gaps carry the rounding of coordinates that are as large as the box.
+double gap_resolution(const Packing &p) {
+  return 8.0 * std::numeric_limits<double>::epsilon() * p.box / *std::min_element(p.diameter.begin(), p.diameter.end());
+}
+void check_window(double window) {
+  if (!(window > 0.0 && window <= 1.0)) fail(JAM_E_ARGUMENT, "window is %g, it must be in (0, 1]", window);
+}
+int64_t excess_of(const ContactNetwork &net, int d) {
+  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  return stable > 0 ? static_cast<int64_t>(net.size()) - (d * (static_cast<int64_t>(stable) - 1) + 1) : 0;
+}
+
+}  // namespace
+
+ContactCandidates contact_candidates(const Packing &p, double window) {
+  check_window(window);
+  ContactCandidates out;
+  const GapList g = pairs_below(p, window);
+  for (const Jump &jump : find_jumps(p, g, gap_resolution(p), window)) {
+    if (out.limit.size() == most_candidates) break;
+    const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
+    if (!can_be_rigid(net, p.dim)) continue;
+    out.limit.push_back(std::sqrt(jump.below * jump.above));
+    out.jump.push_back(jump.ratio);
+    out.contacts.push_back(static_cast<int32_t>(net.size()));
+    out.excess.push_back(static_cast<int32_t>(excess_of(net, p.dim)));
+  }
+  return out;
+}
+
+GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o,
+                                      const CancellationPoint &cancel_point) {
+  if (!(o.tolerance >= 0.0 && o.tolerance < 1.0))
+    fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in [0, 1)", o.tolerance);
+  check_window(o.window);
+  GeometryResult out;
+  jam_geometry_report &r = out.report;
+  const double window = std::max(o.window, 2.0 * o.tolerance);
+  const GapList g = pairs_below(p, window);
+  r.resolution = gap_resolution(p);
+  r.tolerance = o.tolerance;
+  r.second_contacts = -1;
+  bool clear = true, wide = false;
+  int64_t second_excess = 0;
+  if (o.tolerance > 0.0) {
+    out.network = network_of(p, g, o.tolerance);
+  } else {
+    bool chosen = false;
+    double second = 1.0;
+    for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
+      ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
+      if (!can_be_rigid(net, p.dim)) continue;
+      if (chosen) {
+        second = jump.ratio;
+        r.second_contacts = static_cast<int64_t>(net.size());
+        second_excess = excess_of(net, p.dim);
+        r.second_tolerance = std::sqrt(jump.below * jump.above);
+        break;
+      }
+      chosen = true;
+      out.network = std::move(net);
+      r.tolerance = std::sqrt(jump.below * jump.above);
+      r.jump = jump.ratio;
+    }
+    r.second_jump = second;
+    // A true jump separates rounding from real gaps: decades, and far more of them than the next candidate.
+    wide = chosen && r.jump > 100.0;
+    clear = wide && r.jump > second * second;
+  }
+  r.gap_below = 0.0;
+  r.gap_above = window;
+  for (size_t k = 0; k < g.gap.size(); ++k) {
+    const double h = std::fabs(g.gap[k]);
+    if (h <= r.tolerance) {
+      r.gap_below = std::max(r.gap_below, h);
+      ++r.pairs_within;
+      if (g.pairs.i[k] == g.pairs.j[k]) ++r.self_contacts;
+    } else {
+      r.gap_above = std::min(r.gap_above, h);
+    }
+  }
+  if (o.tolerance > 0.0) r.jump = r.gap_above / std::max(r.gap_below, r.resolution);
+  if (out.network.coordination.empty()) out.network.coordination.assign(p.n(), 0);
+  const RigidityMatrix graph = make_rigidity_matrix(p, out.network);
+  StressStates stress = find_stress(graph, false, cancel_point);
+  out.network.force = stress.force;
+  r.contacts = static_cast<int64_t>(out.network.size());
+  r.self_stresses = stress.dimension;
+  r.zero_modes = stress.zero_modes;
+  r.force_residual = stress.residual;
+  r.min_force = stress.min_force;
+  r.excess_contacts = excess_of(out.network, p.dim);
+  r.clusters = count_clusters(graph);
+  // The null space decides between two: rattlers that rest against their cage at a tiny gap make the second network
+  // hyperstatic.
+  clear = clear ||
+          (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
+  if (!stress.positive)
+    out.status = JAM_NOT_JAMMED;
+  else if (stress.dimension > 1 || !clear)
+    out.status = JAM_AMBIGUOUS;
+  // Scale: mean of lambda r with sum lambda sigma^2 = 1 and lambda = c f / r.
+  double sum = 0.0;
+  for (size_t k = 0; k < graph.contacts(); ++k)
+    sum += out.network.force[k] * graph.sigma[k] * graph.sigma[k] / graph.distance[k];
+  out.network.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
+  return out;
+}
+
+}  // namespace jam

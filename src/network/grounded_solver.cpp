@@ -1,0 +1,78 @@
+#include "network/grounded_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jam {
+namespace {
+// Clusters of touching spheres by union-find; the representative is the smallest node.
+std::vector<int32_t> cluster_roots(const RigidityMatrix &g) {
+  std::vector<int32_t> root(g.nodes);
+  for (int32_t i = 0; i < g.nodes; ++i) root[i] = i;
+  auto find = [&](int32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    const int32_t x = find(g.a[k]), y = find(g.b[k]);
+    root[std::max(x, y)] = std::min(x, y);
+  }
+  for (int32_t i = 0; i < g.nodes; ++i) root[i] = find(i);
+  return root;
+}
+}  // namespace
+
+int32_t count_clusters(const RigidityMatrix &g) {
+  const std::vector<int32_t> root = cluster_roots(g);
+  int32_t count = 0;
+  for (int32_t i = 0; i < g.nodes; ++i) count += root[i] == i;
+  return count;
+}
+
+GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
+    : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
+  const std::vector<int32_t> root = cluster_roots(g);
+  const double bound = h_.norm_bound();
+  const size_t d = static_cast<size_t>(g.dim);
+  for (int32_t i = 0; i < g.nodes; ++i)
+    if (root[i] == i) {
+      ++clusters_;
+      for (size_t c = 0; c < d; ++c) tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += 0.1 * bound;
+    }
+  factor_.factorise_from(1e-13 * bound);
+}
+
+void GroundedSolver::solve(double *x, int count) const {
+  const size_t n = g_.unknowns();
+  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
+  std::vector<double> b(x, x + n * count), r(n * count), y(n);
+  factor_.solve_many(x, count);
+  double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
+  for (int pass = 0; pass < 20; ++pass) {
+    double residual = 0.0;
+    for (int k = 0; k < count; ++k) {
+      h_.multiply(x + k * n, y.data());
+      for (size_t q = 0; q < n; ++q) {
+        r[k * n + q] = b[k * n + q] - y[q];
+        residual = std::max(residual, std::fabs(r[k * n + q]));
+      }
+      remove_translation(g_.dim, g_.nodes, &r[k * n]);
+    }
+    if (residual == 0.0 || !(residual < 0.3 * last)) break;
+    last = residual;
+    factor_.solve_many(r.data(), count);
+    double change = 0.0, size = 0.0;
+    for (size_t q = 0; q < r.size(); ++q) {
+      change = std::max(change, std::fabs(r[q]));
+      size = std::max(size, std::fabs(x[q] += r[q]));
+    }
+    // Changes fall by a constant ratio: the next one would be change * ratio.
+    const double ratio = change / (pass == 0 ? size : last_change);
+    last_change = change;
+    if (!(change * ratio > 1e-14 * size)) break;
+  }
+  for (int k = 0; k < count; ++k) remove_translation(g_.dim, g_.nodes, x + k * n);
+}
+
+}  // namespace jam

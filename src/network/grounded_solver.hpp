@@ -1,0 +1,35 @@
+// Linear systems with the Hessian of a network that is free to move as a whole.
+#pragma once
+#include <vector>
+#include "linalg/shifted_factor.hpp"
+#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
+
+namespace jam {
+
+// Connected sets of touching spheres.
+int32_t count_clusters(const RigidityMatrix &g);
+
+// H x = b for b without components along the zero modes of H = S~^T S~, by one factorisation. One sphere of every
+// cluster is tied to its place by a spring: for such b the spring carries no force, so the solution is exact, and only
+// its translation is arbitrary. A tiny shift stands for zero modes that are no translations; refinement takes its error
+// out.
+class GroundedSolver {
+ public:
+  GroundedSolver(const RigidityMatrix &g, const ContactWeights &w);
+  // x := H^+ b for `count` vectors b; translations of the whole network are taken out of b and x.
+  void solve(double *x, int count) const;
+  // One plain solve with the factor, without refinement.
+  void apply(double *x, int count) const { factor_.solve_many(x, count); }
+  double shift() const { return factor_.shift(); }
+  const BlockMatrix &hessian() const { return h_; }
+  int32_t clusters() const { return clusters_; }
+
+ private:
+  const RigidityMatrix &g_;
+  BlockMatrix h_, tied_;
+  ShiftedFactor factor_;
+  int32_t clusters_ = 0;
+};
+
+}  // namespace jam

@@ -1,0 +1,70 @@
+#include "network/rigidity_matrix.hpp"
+#include "core/pair_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+
+RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network) {
+  RigidityMatrix g;
+  const int d = g.dim = p.dim;
+  g.node.assign(p.n(), -1);
+  for (size_t k = 0; k < network.size(); ++k) g.node[network.pairs.i[k]] = g.node[network.pairs.j[k]] = 0;
+  for (size_t i = 0; i < p.n(); ++i)
+    if (g.node[i] == 0) {
+      g.node[i] = g.nodes++;
+      g.sphere.push_back(static_cast<int32_t>(i));
+    }
+  std::vector<double> r(d);
+  for (size_t k = 0; k < network.size(); ++k) {
+    const int32_t i = network.pairs.i[k], j = network.pairs.j[k];
+    g.a.push_back(g.node[i]);
+    g.b.push_back(g.node[j]);
+    g.distance.push_back(std::sqrt(pair_vector(p, network.pairs, k, r.data())));
+    g.sigma.push_back(contact_distance(p, i, j));
+    for (int c = 0; c < d; ++c) g.normal.push_back(r[c] / g.distance.back());
+  }
+  g.force = network.force;
+  return g;
+}
+
+void apply_compatibility(const RigidityMatrix &g, const double *x, double *y) {
+  const int d = g.dim;
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    const double *n = &g.normal[k * d], *u = x + static_cast<size_t>(g.a[k]) * d,
+                 *v = x + static_cast<size_t>(g.b[k]) * d;
+    double s = 0.0;
+    for (int c = 0; c < d; ++c) s += n[c] * (u[c] - v[c]);
+    y[k] = s;
+  }
+}
+
+void apply_equilibrium(const RigidityMatrix &g, const double *f, double *y) {
+  const int d = g.dim;
+  std::fill(y, y + g.unknowns(), 0.0);
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    const double *n = &g.normal[k * d];
+    double *u = y + static_cast<size_t>(g.a[k]) * d, *v = y + static_cast<size_t>(g.b[k]) * d;
+    for (int c = 0; c < d; ++c) {
+      u[c] += f[k] * n[c];
+      v[c] -= f[k] * n[c];
+    }
+  }
+}
+
+double balance_residual(const RigidityMatrix &g, const double *f) {
+  std::vector<double> y(g.unknowns());
+  apply_equilibrium(g, f, y.data());
+  double worst = 0.0, mean = 0.0;
+  for (int32_t i = 0; i < g.nodes; ++i) {
+    double s = 0.0;
+    for (int c = 0; c < g.dim; ++c) s += y[i * g.dim + c] * y[i * g.dim + c];
+    worst = std::max(worst, s);
+  }
+  for (size_t k = 0; k < g.contacts(); ++k) mean += std::fabs(f[k]);
+  mean /= static_cast<double>(g.contacts());
+  return mean > 0.0 ? std::sqrt(worst) / mean : 0.0;
+}
+
+}  // namespace jam

@@ -1,0 +1,36 @@
+// The rigidity matrix S of a contact network: one row a contact, d columns a force-carrying sphere. Row k holds n_ij on
+// sphere i and -n_ij on sphere j.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+#include "core/packing.hpp"
+#include "linalg/block_matrix.hpp"
+#include "network/contact_network.hpp"
+
+namespace jam {
+
+struct RigidityMatrix {
+  int dim = 3;
+  int32_t nodes = 0;
+  std::vector<int32_t> sphere;   // node -> sphere
+  std::vector<int32_t> node;     // sphere -> node, -1 for rattlers
+  std::vector<int32_t> a, b;     // contact -> nodes; a == b when a sphere touches its own image
+  std::vector<double> normal;    // (contacts, dim) unit vector from b to a
+  std::vector<double> distance;  // |r_ij| of each contact
+  std::vector<double> sigma;     // sigma_ij of each contact
+  std::vector<double> force;     // mean 1; empty when it is not known
+  size_t contacts() const { return a.size(); }
+  size_t unknowns() const { return static_cast<size_t>(nodes) * dim; }
+};
+
+RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network);
+
+// y (contacts) = S x: relative normal displacement of every contact, n . (x_a - x_b).
+void apply_compatibility(const RigidityMatrix &g, const double *x, double *y);
+// y (nodes, dim) = S^T f: net force on every stable sphere.
+void apply_equilibrium(const RigidityMatrix &g, const double *f, double *y);
+// Largest |sum_j f_ij n_ij| over mean |f|.
+double balance_residual(const RigidityMatrix &g, const double *f);
+
+}  // namespace jam

@@ -1,0 +1,255 @@
+#include "network/self_stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "linalg/blas.hpp"
+
+namespace jam {
+namespace {
+
+ContactWeights unit_weights(const RigidityMatrix &g) {
+  ContactWeights w;
+  w.stiffness.assign(g.contacts(), 1.0);
+  return w;
+}
+
+double norm(const std::vector<double> &x) {
+  double s = 0.0;
+  for (double v : x) s += v * v;
+  return std::sqrt(s);
+}
+
+// Gram-Schmidt, twice: x := component of x orthogonal to the vectors of q; returns its length over that of x.
+double orthogonalise(const std::vector<std::vector<double>> &q, std::vector<double> &x) {
+  const double before = norm(x);
+  for (int twice = 0; twice < 2; ++twice)
+    for (const auto &v : q) {
+      double dot = 0.0;
+      for (size_t k = 0; k < x.size(); ++k) dot += v[k] * x[k];
+      for (size_t k = 0; k < x.size(); ++k) x[k] -= dot * v[k];
+    }
+  return before > 0.0 ? norm(x) / before : 0.0;
+}
+
+void scale_to_mean(std::vector<double> &f) {
+  double mean = 0.0;
+  for (double v : f) mean += v;
+  mean /= static_cast<double>(f.size());
+  if (mean != 0.0)
+    for (double &v : f) v /= mean;
+}
+
+// Where an increasing function that is negative at 0 crosses it: doubling, then halving.
+double zero_of_increasing(const std::function<double(double)> &f) {
+  if (!(f(0.0) < 0.0)) return 0.0;
+  double low = 0.0, high = 1.0;
+  while (high < 1e15 && f(high) < 0.0) low = high, high *= 2.0;
+  for (int k = 0; k < 60 && high - low > 1e-15 * high; ++k) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+NullSpace::NullSpace(const RigidityMatrix &g, const CancellationPoint &cancel_point)
+    : g_(g), cancel_point_(cancel_point), solver_(g, unit_weights(g)) {}
+
+int NullSpace::project(std::vector<double> &f, int refinements) const {
+  std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
+  double last = std::numeric_limits<double>::infinity();
+  int solves = 0;
+  for (int pass = 0; refinements < 0 ? pass < 30 : pass <= refinements; ++pass) {
+    apply_equilibrium(g_, f.data(), y.data());
+    const double residual = norm(y);
+    if (!(residual < 0.5 * last)) {
+      if (residual >= last) f = best;
+      if (pass > 1) break;
+    }
+    last = residual;
+    best = f;
+    cancel_point_();
+    solver_.apply(y.data(), 1);
+    apply_compatibility(g_, y.data(), s.data());
+    for (size_t k = 0; k < f.size(); ++k) f[k] -= s[k];
+    ++solves;
+  }
+  return solves;
+}
+
+// The translations of every cluster are zero modes, and tied in the factorised matrix; what is left of its kernel is
+// found by (shift / (H + shift))^4, which keeps it and divides a mode of eigenvalue lambda by (lambda / shift)^4. Block
+// by block, until one brings a vector that is no new zero mode.
+int64_t NullSpace::zero_modes() const {
+  if (zeros_ >= 0) return zeros_;
+  const size_t n = g_.unknowns();
+  const double floor = 1e-10 * std::max(solver_.hessian().norm_bound(), 1e-300);
+  const ContactWeights w = unit_weights(g_);
+  std::vector<std::vector<double>> kernel;
+  Rng rng(2, Stream::analysis_start);
+  for (bool more = true; more && kernel.size() < most_zero_modes && kernel.size() < n;) {
+    const int block = static_cast<int>(std::min<size_t>(n - kernel.size(), std::max<size_t>(2, kernel.size())));
+    std::vector<double> x(n * block);
+    for (double &v : x) v = rng.normal();
+    for (int pass = 0; pass < 4; ++pass) {
+      cancel_point_();
+      solver_.apply(x.data(), block);
+      for (double &v : x) v *= solver_.shift();
+    }
+    for (int b = 0; b < block; ++b) {
+      std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b),
+                            x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
+      const double fresh = orthogonalise(kernel, v), length = norm(v);
+      // A new zero mode has kept a good part of a random vector, and has no curvature.
+      if (fresh < 1e-4 || length < 1e-6) {
+        more = false;
+        continue;
+      }
+      for (double &q : v) q /= length;
+      if (curvature(g_, w, v.data()) > floor) {
+        more = false;
+        continue;
+      }
+      kernel.push_back(v);
+    }
+  }
+  return zeros_ = static_cast<int64_t>(kernel.size()) + static_cast<int64_t>(solver_.clusters()) * g_.dim;
+}
+
+int64_t NullSpace::dimension() const {
+  return static_cast<int64_t>(g_.contacts()) - static_cast<int64_t>(g_.unknowns()) + zero_modes();
+}
+
+// Minimises phi(u) = 1/2 sum max(0, 1 - (S u)_k)^2, which is convex; at its minimum f = max(0, 1 - S u) balances and is
+// the point of the cone {f >= 0, S^T f = 0} nearest to (1, 1, ...), which is its direction of least norm at a given
+// mean (Moreau's decomposition; semismooth Newton with an exact line search).
+bool least_force(const RigidityMatrix &g, std::vector<double> &f, const CancellationPoint &cancel_point) {
+  const size_t m = g.contacts(), n = g.unknowns();
+  std::vector<double> u(n, 0.0), su(m, 0.0), gradient(n), step(n), sstep(m);
+  ContactWeights w = unit_weights(g);
+  BlockMatrix h = make_hessian(g, w);
+  const double scale = h.norm_bound(), empty = 1e-8 * std::sqrt(static_cast<double>(m));
+  ShiftedFactor factor(h);
+  f.assign(m, 1.0);
+  auto slope = [&](double t) {
+    double sum = 0.0;
+    for (size_t k = 0; k < m; ++k) sum -= std::max(0.0, 1.0 - su[k] - t * sstep[k]) * sstep[k];
+    return sum;
+  };
+  for (int pass = 0; pass < 60; ++pass) {
+    cancel_point();
+    for (size_t k = 0; k < m; ++k) {
+      f[k] = std::max(0.0, 1.0 - su[k]);
+      w.stiffness[k] = f[k] > 0.0 ? 1.0 : 0.0;
+    }
+    apply_equilibrium(g, f.data(), gradient.data());
+    const double now = norm(gradient);
+    if (now <= 1e-14 * std::sqrt(static_cast<double>(m)) || norm(f) < empty) break;
+    h = make_hessian(g, w);
+    factor.factorise_from(1e-11 * scale);
+    step = gradient;
+    remove_translation(g.dim, g.nodes, step.data());
+    factor.solve(step.data());
+    apply_compatibility(g, step.data(), sstep.data());
+    const double t = zero_of_increasing(slope);
+    if (!(t > 1e-12)) break;
+    for (size_t k = 0; k < n; ++k) u[k] += t * step[k];
+    apply_compatibility(g, u.data(), su.data());
+  }
+  apply_equilibrium(g, f.data(), gradient.data());
+  if (norm(f) < empty || norm(gradient) > 1e-6 * norm(f)) {
+    f.assign(m, 0.0);
+    return false;
+  }
+  scale_to_mean(f);
+  return true;
+}
+
+StressStates find_stress(const RigidityMatrix &g, bool with_basis, const CancellationPoint &cancel_point) {
+  const BlasSingleThread single;
+  return g.contacts() == 0 ? StressStates() : find_stress(g, NullSpace(g, cancel_point), with_basis, cancel_point);
+}
+
+StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis,
+                         const CancellationPoint &cancel_point) {
+  StressStates out;
+  const size_t m = g.contacts();
+  const auto fresh = [&](uint64_t stream) {
+    std::vector<double> w(m);
+    Rng rng(3, Stream::analysis_start, stream << 32);
+    for (double &v : w) v = rng.normal();
+    return w;
+  };
+  std::vector<std::vector<double>> q;
+  out.force.assign(m, 1.0);
+  space.project(out.force);
+  // Fast way out, true for almost every packing: as many contacts as one state of self-stress has, and a random vector
+  // projects on the same line as (1, 1, ...).
+  const auto one = static_cast<int64_t>(g.unknowns()) - g.dim + 1;
+  if (static_cast<int64_t>(m) == one && norm(out.force) > 1e-6 * std::sqrt(static_cast<double>(m))) {
+    std::vector<double> second = fresh(1), line = out.force;
+    const double length = norm(second);
+    space.project(second);
+    const double scale = norm(line);
+    for (double &v : line) v /= scale;
+    q.push_back(line);
+    orthogonalise(q, second);
+    if (norm(second) < 1e-6 * length) {
+      out.dimension = 1;
+      out.zero_modes = g.dim;
+    }
+  }
+  if (out.dimension != 1) {
+    out.zero_modes = space.zero_modes();
+    out.dimension = space.dimension();
+    // Counting stopped: there are more zero modes, so more states than this.
+    if (out.zero_modes >= NullSpace::most_zero_modes) out.dimension = std::max<int64_t>(out.dimension, 2);
+  }
+  if (out.dimension <= 0) {
+    out.dimension = 0;
+    out.force.assign(m, 0.0);
+    return out;
+  }
+  if (out.dimension > 1) {
+    std::vector<double> least;
+    out.positive =
+        least_force(g, least, cancel_point);  // without one: what (1, 1, ...) projects on, whatever its signs
+    if (out.positive) {
+      out.force = least;
+      space.project(out.force, 1);
+      if (*std::min_element(out.force.begin(), out.force.end()) < -1e-9) out.force = least;
+    }
+  } else if (norm(out.force) <=
+             1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
+    out.force = fresh(2);
+    space.project(out.force);
+  }
+  scale_to_mean(out.force);
+  out.residual = balance_residual(g, out.force.data());
+  out.min_force = *std::min_element(out.force.begin(), out.force.end());
+  if (out.dimension == 1) out.positive = out.min_force > 0.0;
+  if (with_basis) {
+    if (static_cast<double>(out.dimension) * static_cast<double>(m) * 8.0 > 1e9)
+      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1e9 bytes",
+           static_cast<long long>(out.dimension), m);
+    q.clear();
+    for (uint64_t k = 0;
+         static_cast<int64_t>(q.size()) < out.dimension && k < 4 * static_cast<uint64_t>(out.dimension) + 8; ++k) {
+      std::vector<double> v = k == 0 && out.positive ? out.force : fresh(10 + k);
+      space.project(v);
+      if (orthogonalise(q, v) < 1e-6) continue;
+      const double length = norm(v);
+      for (double &x : v) x /= length;
+      q.push_back(v);
+    }
+    for (const auto &v : q) out.basis.insert(out.basis.end(), v.begin(), v.end());
+  }
+  return out;
+}
+
+}  // namespace jam

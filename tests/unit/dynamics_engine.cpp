@@ -1,0 +1,367 @@
+// The engine against a naive one (all pairs, all images, long double), and its invariants on awkward systems.
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/create.hpp"
+#include "core/pairs.hpp"
+#include "core/rng.hpp"
+#include "dynamics/engine.hpp"
+#include "dynamics/md.hpp"
+
+extern "C" {
+
+#include "test.h"
+}
+
+using namespace jam;
+
+namespace {
+
+Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed) {
+  jam_create_options o = default_create_options();
+  o.dim = dim;
+  o.n = n;
+  o.seed = seed;
+  o.packing_fraction = fraction;
+  std::vector<double> diameters(n, 1.0);
+  for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
+  Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size());
+  Rng rng(seed, Stream::velocities, 1000000);
+  for (double &v : p.velocity) v = rng.normal();
+  p.has_velocity = true;
+  return p;
+}
+
+MdStage nve(double collisions_per_particle) { return {0.0, 0.0, 0.0, collisions_per_particle, 1e9}; }
+
+// Makes `collisions` on p by looking at every pair and image each time; diameters grow as sigma (1 + rate t).
+void naive(Packing &p, int collisions, long double rate) {
+  const int d = p.dim, n = static_cast<int>(p.n());
+  std::vector<long double> x(p.position.begin(), p.position.end()), v(p.velocity.begin(), p.velocity.end());
+  long double now = 0.0L;
+  int images = 1;
+  for (int c = 0; c < d; ++c) images *= 3;
+  for (int done = 0; done < collisions; ++done) {
+    long double best = 1e30L;
+    int bi = -1, bj = -1, bm = 0;
+    const auto vector = [&](int i, int j, int m, long double *r) {
+      for (int c = 0; c < d; ++c, m /= 3) {
+        r[c] = x[i * d + c] - x[j * d + c];
+        r[c] -= std::round(r[c]);
+        r[c] += m % 3 - 1;
+      }
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j)
+        for (int m = 0; m < images; ++m) {
+          long double r[8], rv = 0, vv = 0, rr = 0;
+          vector(i, j, m, r);
+          for (int c = 0; c < d; ++c) {
+            const long double w = v[i * d + c] - v[j * d + c];
+            rv += r[c] * w, vv += w * w, rr += r[c] * r[c];
+          }
+          const long double s0 = 0.5L * (p.diameter[i] + p.diameter[j]), s = s0 * (1 + rate * now), g = s0 * rate;
+          const long double a = vv - g * g, b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
+          if (b >= 0 || disc < 0) continue;
+          const long double t = gap <= 0 ? 0 : gap / (std::sqrt(disc) - b);
+          if (t < best) best = t, bi = i, bj = j, bm = m;
+        }
+    assert_true(bi >= 0);
+    for (size_t k = 0; k < x.size(); ++k) x[k] += v[k] * best;
+    now += best;
+    // Positions are not wrapped: the image is the one found, nearest plus its shift.
+    long double r[8], rr = 0, rv = 0;
+    long double back[8];
+    for (int c = 0; c < d; ++c) back[c] = x[bi * d + c] - v[bi * d + c] * best - (x[bj * d + c] - v[bj * d + c] * best);
+    for (int c = 0, m = bm; c < d; ++c, m /= 3) {
+      r[c] = x[bi * d + c] - x[bj * d + c] - std::round(back[c]) + (m % 3 - 1);
+      rr += r[c] * r[c], rv += r[c] * (v[bi * d + c] - v[bj * d + c]);
+    }
+    const long double push = 0.5L * (p.diameter[bi] + p.diameter[bj]) * rate - rv / std::sqrt(rr);
+    for (int c = 0; c < d; ++c) {
+      v[bi * d + c] += push * r[c] / std::sqrt(rr);
+      v[bj * d + c] -= push * r[c] / std::sqrt(rr);
+    }
+  }
+  for (size_t k = 0; k < x.size(); ++k) {
+    p.position[k] = wrap(static_cast<double>(x[k] - std::floor(x[k])), 1.0);
+    p.velocity[k] = static_cast<double>(v[k]);
+  }
+  for (double &s : p.diameter) s *= static_cast<double>(1 + rate * now);
+}
+
+double furthest(const Packing &a, const Packing &b) {
+  double worst = 0.0;
+  for (size_t k = 0; k < a.position.size(); ++k) {
+    const double x = a.position[k] - b.position[k];
+    worst = std::fmax(worst, std::fmax(std::fabs(x - std::round(x)), std::fabs(a.velocity[k] - b.velocity[k])));
+  }
+  return worst;
+}
+
+struct Case {
+  int dim, n;
+  double fraction, ratio, growth;
+  int collisions;
+};
+
+void agrees_with_naive_engine(void **) {
+  // Small boxes (several images of one pair) among them.
+  // From 40 spheres in three dimensions on cells alone hold, whether they are the choice at that density or not.
+  const Case cases[] = {{3, 40, 0.04, 1.0, 0.0, 60},   {3, 40, 0.06, 1.5, 0.05, 60}, {2, 40, 0.1, 2.0, 0.02, 60},
+                        {4, 40, 0.004, 1.0, 0.01, 20}, {3, 24, 0.25, 1.0, 0.0, 60},  {3, 24, 0.25, 1.0, 0.05, 60},
+                        {2, 16, 0.35, 3.0, 0.02, 40},  {3, 2, 0.3, 1.0, 0.0, 10},    {2, 2, 0.4, 1.0, 0.01, 10},
+                        {3, 3, 0.3, 1.5, 0.02, 12},    {4, 10, 0.12, 1.0, 0.0, 25},  {5, 6, 0.05, 1.0, 0.01, 10}};
+  for (const Case &c : cases) {
+    const Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 5);
+    Packing q = start;
+    naive(q, c.collisions, c.growth > 0.0 ? c.growth / diameter_mean(q) : 0.0L);
+    for (int64_t cells : {-1, 1}) {
+      Packing p = start;
+      EngineOptions o;
+      o.growth = c.growth;
+      o.cells = cells;
+      Monitor monitor;
+      monitor.begin();
+      auto engine = make_engine(p, o);
+      assert_int_equal(engine->advance(c.collisions, monitor, 1e300), Halt::window);
+      engine->write_state(p);
+      const double distance = furthest(p, q);
+      if (engine->cells_alone() != (cells == 1 && c.n == 40))
+        print_error("d=%d n=%d fraction=%g\n", c.dim, c.n, c.fraction);
+      if (!(distance < 1e-7))
+        print_error("d=%d n=%d growth=%g cells=%d: %g\n", c.dim, c.n, c.growth, static_cast<int>(cells), distance);
+      assert_true(distance < 1e-7);
+      assert_true(std::fabs(diameter_mean(p) / diameter_mean(q) - 1.0) < 1e-9);
+      assert_true(engine->cells_alone() == (cells == 1 && c.n == 40));
+    }
+  }
+}
+
+// Dilute systems are on cells, dense ones on lists, and a compression goes over from one to the other. Both give one
+// pressure.
+void engine_follows_the_density(void **) {
+  Monitor monitor;
+  monitor.begin();
+  for (double fraction : {0.05, 0.1}) {
+    double pressure[2], error = 0.0;
+    for (int k = 0; k < 2; ++k) {
+      EngineOptions o;
+      o.cells = k - 1;
+      auto engine = make_engine(random_packing(3, 500, fraction, 1.0, 3), o);
+      assert_true(engine->cells_alone() == (k == 1));
+      std::vector<double> p;
+      for (int block = 0; block < 20; ++block) {
+        const double virial = engine->sums.virial, kinetic_integral = engine->sums.kinetic_integral;
+        assert_int_equal(engine->advance(10000, monitor, 1e300), Halt::window);
+        p.push_back((engine->sums.virial - virial) / (engine->sums.kinetic_integral - kinetic_integral));
+      }
+      double mean = 0.0, square = 0.0;
+      for (double x : p) mean += x / 20.0;
+      for (double x : p) square += (x - mean) * (x - mean) / (19.0 * 20.0);
+      pressure[k] = mean;
+      error += square;
+      assert_true(engine->max_overlap < 1e-14);
+    }
+    print_message("phi %g: p - 1 = %.4f on lists, %.4f on cells, error %.4f\n", fraction, pressure[0], pressure[1],
+                  std::sqrt(error));
+    assert_true(std::fabs(pressure[1] - pressure[0]) < 4.0 * std::sqrt(error) && std::sqrt(error) < 0.01 * pressure[0]);
+  }
+  EngineOptions growing;
+  growing.growth = 0.1;
+  auto engine = make_engine(random_packing(3, 500, 0.05, 1.0, 3), growing);
+  assert_true(engine->cells_alone());
+  while (engine->packing_fraction() < 0.4) assert_int_equal(engine->advance(1000, monitor, 1e300), Halt::window);
+  assert_true(!engine->cells_alone() && engine->max_overlap < 1e-14);
+}
+
+// No pair of any image may overlap, lists or not.
+void never_overlaps(void **) {
+  struct {
+    int dim, n;
+    double fraction, ratio, growth, pressure;
+  } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4}, {2, 200, 0.4, 10.0, 0.1, 1e3},
+                     {3, 2, 0.2, 1.0, 0.1, 1e6},     {3, 3, 0.1, 2.0, 0.1, 1e6},
+                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},
+                     {6, 40, 0.01, 1.0, 0.3, 1e3},   {3, 200, 0.2, 1.0, 20.0, 1e3},
+                     {6, 64, 0.02, 1.4, 0.1, 1e13}};  // the last: pairs in contact through two images at once
+  for (const auto &c : cases) {
+    Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7);
+    Monitor monitor;
+    monitor.begin();
+    jam_md_report report{};
+    const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 20.0}, monitor, report);
+    const double gap = closest_pair(p).gap;
+    if (status != JAM_OK || !(gap > -1e-14))
+      print_error("d=%d n=%d ratio=%g: status %d, p %g, gap %g\n", c.dim, c.n, c.ratio, status, report.pressure, gap);
+    assert_int_equal(status, JAM_OK);
+    assert_true(gap > -1e-14);
+    assert_true(report.max_overlap < 1e-13);
+    assert_true(report.pressure >= c.pressure);
+  }
+}
+
+// report.max_overlap looks at listed pairs at every event, so it sees what has healed by the end. Fast growth: many
+// events in the bucket at hand, whose order must hold (else overlaps of 1e-9 to 1e-3).
+void fast_growth_keeps_the_order_of_events(void **) {
+  for (double growth : {1.0, 3.0, 30.0})
+    for (int64_t seed = 1; seed < 4; ++seed) {
+      Packing p = random_packing(3, 64, 0.2, 1.0, seed);
+      Monitor monitor;
+      monitor.begin();
+      jam_md_report report{};
+      const jam_status status = run_stage(p, {growth, 1e8, never, 1e3, 20.0}, monitor, report);
+      if (!(report.max_overlap < 1e-14))
+        print_error("growth %g seed %d: overlap %g\n", growth, static_cast<int>(seed), report.max_overlap);
+      assert_true(status == JAM_OK || report.stop_reason == JAM_STOP_COLLISIONS);
+      assert_true(report.max_overlap < 1e-14);
+    }
+}
+
+// 0 and 1 overlap and part; 2 hits 1 from behind, which is the only event. No list is made in between.
+void an_overlap_between_lists_is_seen(void **) {
+  Packing p = random_packing(2, 3, 0.02, 1.0, 1);
+  const double sigma = p.diameter[0], x[] = {0.5, 0.5 + sigma * (1.0 - 1e-5), 0.5 + sigma * (2.0 + 1e-3)},
+               v[] = {-1e-3, 0.0, -1.0};
+  for (int i = 0; i < 3; ++i) {
+    p.position[2 * i] = x[i], p.velocity[2 * i] = v[i];
+    p.position[2 * i + 1] = 0.5, p.velocity[2 * i + 1] = 0.0;
+  }
+  Monitor monitor;
+  monitor.begin();
+  auto engine = make_engine(p, EngineOptions{});
+  assert_true(std::fabs(engine->max_overlap - 1e-5) < 1e-12);  // of the start
+  engine->max_overlap = 0.0;
+  assert_int_equal(engine->advance(1, monitor, 1e300), Halt::window);
+  assert_true(std::fabs(engine->max_overlap - (1e-5 - 1e-6)) < 2e-8);  // 0 has gone 1e-3 of the way of 2
+}
+
+// A few spheres fly far between collisions: no path may lead from the image that a list knows to another one.
+void few_spheres_meet_the_right_image(void **) {
+  for (int dim : {2, 3})
+    for (int n : {3, 8, 24, 64})
+      for (double fraction : {0.03, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+        Packing p = random_packing(dim, n, fraction, 1.0, 2);
+        Monitor monitor;
+        monitor.begin();
+        jam_md_report report{};
+        assert_int_equal(run_stage(p, nve(200.0), monitor, report), JAM_OK);
+        if (!(report.max_overlap < 1e-14))
+          print_error("d=%d n=%d fraction=%g: overlap %g\n", dim, n, fraction, report.max_overlap);
+        assert_true(report.max_overlap < 1e-14);
+      }
+}
+
+void stops_inside_a_dense_fluid_without_overlap(void **) {
+  Packing p = random_packing(3, 400, 0.3, 10.0, 3);
+  Monitor monitor;
+  monitor.begin();
+  for (int k = 0; k < 20; ++k) {
+    jam_md_report report{};
+    assert_int_equal(run_stage(p, nve(3.7), monitor, report), JAM_OK);
+    assert_true(closest_pair(p).gap > -1e-14);
+  }
+}
+
+// Pressure is measured from what a window adds, however much has gone before: growth ends for want of digits, and says
+// so.
+void ends_where_the_digits_end(void **) {
+  Packing p = random_packing(3, 64, 0.2, 1.0, 1);
+  Monitor monitor;
+  monitor.begin();
+  jam_md_report report{};
+  assert_int_equal(run_stage(p, {0.1, 1e18, never, 1e5, 60.0}, monitor, report), JAM_PRECISION);
+  assert_int_equal(report.stop_reason, JAM_STOP_PRECISION);
+  assert_true(report.pressure > 5e15 && report.max_overlap < 1e-14);
+}
+
+void same_bits_twice(void **) {
+  for (int k = 0; k < 2; ++k) {
+    Packing p = random_packing(3, 100, 0.3, 1.4, 11), q = p;
+    Monitor monitor;
+    monitor.begin();
+    jam_md_report report{};
+    const MdStage stage = k == 0 ? nve(50.0) : MdStage{0.01, 1e4, never, never, never};
+    run_stage(p, stage, monitor, report);
+    run_stage(q, stage, monitor, report);
+    assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));
+    assert_memory_equal(p.velocity.data(), q.velocity.data(), p.velocity.size() * sizeof(double));
+  }
+}
+
+void calendar_gives_events_in_order(void **) {
+  const int n = 200;
+  Calendar calendar(n);
+  Rng rng(1, Stream::velocities, 77);
+  for (int i = 0; i < n; ++i) calendar[i].time = rng.uniform() * rng.uniform();
+  calendar.rebuild(0.0, 1e-3);
+  double last = 0.0;
+  int seen = 0;
+  for (int step = 0; step < 5000; ++step) {
+    int32_t i = calendar.top();
+    if (i < 0) {
+      calendar.rebuild(last, 1e-3);
+      i = calendar.top();
+    }
+    assert_true(i >= 0);
+    for (int k = 0; k < n; ++k) assert_true(calendar[k].time >= calendar[i].time);
+    assert_true(calendar[i].time >= last);
+    last = calendar[i].time;
+    calendar[i].time = last + 0.1 * rng.uniform() * rng.uniform();
+    calendar.update(i);
+    const auto other = static_cast<int32_t>(rng.bits() % n);
+    calendar[other].time = last + 0.3 * rng.uniform();
+    calendar.update(other);
+    ++seen;
+  }
+  assert_int_equal(seen, 5000);
+}
+
+// As at a collision: the earliest event and any other get new times together.
+void calendar_keeps_order_when_two_change(void **) {
+  const int n = 300;
+  for (double width : {1e-3, 1e-2, 0.0}) {
+    Calendar calendar(n);
+    Rng rng(2, Stream::velocities, 78);
+    for (int i = 0; i < n; ++i) calendar[i].time = rng.uniform() * rng.uniform();
+    calendar.rebuild(0.0, width);
+    for (int step = 0; step < 3000; ++step) {
+      int32_t i = calendar.top();
+      if (i < 0) {
+        double first = never;
+        for (int k = 0; k < n; ++k) first = std::fmin(first, calendar[k].time);
+        calendar.rebuild(first, width);
+        i = calendar.top();
+      }
+      for (int k = 0; k < n; ++k) assert_true(calendar[k].time >= calendar[i].time);
+      const auto other = (i + 1 + static_cast<int32_t>(rng.bits() % (n - 1))) % n;
+      const double now = calendar[i].time;
+      calendar.take_out(i);
+      calendar.take_out(other);
+      calendar[i].time = now + 0.1 * rng.uniform() * rng.uniform();
+      calendar[other].time = now + 0.1 * rng.uniform() * rng.uniform();
+      calendar.put_in(i);
+      calendar.put_in(other);
+    }
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(calendar_gives_events_in_order),
+      cmocka_unit_test(agrees_with_naive_engine),
+      cmocka_unit_test(engine_follows_the_density),
+      cmocka_unit_test(never_overlaps),
+      cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap),
+      cmocka_unit_test(same_bits_twice),
+      cmocka_unit_test(calendar_keeps_order_when_two_change),
+      cmocka_unit_test(fast_growth_keeps_the_order_of_events),
+      cmocka_unit_test(few_spheres_meet_the_right_image),
+      cmocka_unit_test(an_overlap_between_lists_is_seen),
+      cmocka_unit_test(ends_where_the_digits_end),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,72 @@
+// Jammed or not: the tests of collective and strict jamming, and the spheres and contacts that carry force.
+//
+//   contacts -> [largest support of a self-stress] -> carrying contacts K+, spheres B -> rank on K+ -> verdict, flex
+//
+// Rows: S holds n_ij on sphere i and -n_ij on sphere j; E holds n_ij . (eps r_ij) for a symmetric strain eps.
+// Collectively jammed (fixed cell): S v >= 0 on all contacts implies that v is a translation of B. Equivalent: a stress
+// f with S^T f = 0 is positive on all of K+, and rank S on K+ is d (N' - 1), N' = |B| (Roth and Whiteley, Trans. Amer.
+// Math. Soc. 265, 419 (1981)). Strictly jammed: the same with S v + E eps >= 0 and tr eps <= 0; then E^T f is
+// proportional to the unit matrix, and the rank with the traceless strains is d (N' - 1) + d (d + 1) / 2 - 1 (Donev,
+// Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly, Shen, Smith, arXiv:1301.0664).
+// For spheres this first-order test is exact: |r + t v|^2 = r^2 + 2 t r.v + t^2 v^2, so every flex opens contacts
+// (Connelly 1988). A rattler is a sphere that no contact of K+ touches; the number of its contacts does not matter.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/cancellation.hpp"
+#include "core/packing.hpp"
+#include "network/contact_network.hpp"
+#include "network/rigidity_matrix.hpp"
+
+namespace jam {
+
+// Relative gaps |h| of a contact, and of a pair that doubles cannot tell from one.
+constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7;
+// Eigenvalues of S^T S on K+: a smaller one is a flex, up to the second one it is undecided.
+constexpr double flex_eigenvalue = 1e-12, undecided_eigenvalue = 1e-10;
+
+enum class Jamming { collective, strict };
+enum class Verdict { no = 0, yes = 1, undecided = 2 };
+
+// Of a fixed list of contacts, all taken as closed.
+struct RigidityResult {
+  Verdict jammed = Verdict::no;
+  Verdict stressed = Verdict::no;  // K+ is not empty: no motion grows the diameters to first order (stationary)
+  std::vector<char> carrying;      // K+, one flag a contact
+  std::vector<double> force;       // in the middle of all non-negative states, mean 1 over K+, 0 on all others
+  double force_residual = 0.0;     // largest |sum_j f_ij n_ij| over the mean force
+  int64_t spheres = 0;             // N'
+  int64_t contacts = 0;            // |K+|
+  int64_t idle_contacts = 0;       // contacts without force in every state
+  int64_t contacts_needed = 0;     // collective: d (N' - 1) + 1; strict: d (N' - 1) + d (d + 1) / 2
+  int64_t self_stresses = 0;       // states of self-stress on K+
+  int64_t flexes = 0;              // motions of B with S v = 0 on K+ beyond translations; 0 without a stress
+  int64_t bridges = 0;             // spheres of B with d contacts of K+ or fewer
+  double margin = 0.0;             // smallest eigenvalue of S^T S on K+ that is no translation
+  std::vector<double> flex;        // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
+  std::vector<double> strain;      // (dim, dim) that goes with it; strict only
+};
+RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
+                             const CancellationPoint &cancel_point = CancellationPoint());
+
+// Of a packing: all pairs closed below contact_gap_limit, and those of `listed` (which may be NULL) up to
+// undecided_gap_limit. Undecided pairs are taken as closed and as open; where the two verdicts differ, the packing is
+// undecided.
+struct PackingVerdict {
+  RigidityResult result;
+  ContactNetwork contacts;         // all that the test looked at, force as in result
+  std::vector<int32_t> sphere;     // node of result.flex -> sphere
+  int64_t undecided_contacts = 0;  // gaps between the two limits, beside those of `listed`
+  // The carrying contacts and their forces: the network that crunch and analysis go on with.
+  ContactNetwork carrying(int dim) const;
+};
+PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
+                            const CancellationPoint &cancel_point = CancellationPoint());
+
+// Turns contacts off, again and again, on spheres where no non-negative forces can balance: where all contact vectors
+// lie on one side of a plane. Every sphere of B survives. normal: (contacts, dim), from j to i.
+void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
+                     const std::vector<double> &normal, std::vector<char> &on);
+
+}  // namespace jam

@@ -33,7 +33,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_E_UNSUPPORTED = -16
   integer(c_int32_t), parameter :: JAM_E_INTERNAL = -17
 
-  ! jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_report.stop_reason). @since 0.1
+  ! jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1
   integer(c_int32_t), parameter :: JAM_STOP_NONE = 0
   integer(c_int32_t), parameter :: JAM_STOP_PRESSURE = 1
   integer(c_int32_t), parameter :: JAM_STOP_PACKING_FRACTION = 2
@@ -356,7 +356,7 @@ module jam
   ! sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
   ! zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
   ! every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
-  ! jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
+  ! jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
   type, bind(c) :: jam_crunch_options
     ! sizeof(jam_crunch_options)
     integer(c_int32_t) :: struct_size = 0
@@ -389,8 +389,8 @@ module jam
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
-  type, bind(c) :: jam_report
-    ! set by the caller: sizeof(jam_report)
+  type, bind(c) :: jam_crunch_report
+    ! set by the caller: sizeof(jam_crunch_report)
     integer(c_int32_t) :: struct_size = 216
     ! 1: converged to a rigid network that carries balanced forces
     integer(c_int32_t) :: jammed = 0
@@ -450,7 +450,7 @@ module jam
     real(c_double) :: seconds_assemble = 0
     ! of it in triangular solves
     real(c_double) :: seconds_solve = 0
-  end type jam_report
+  end type jam_crunch_report
 
   ! What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
   type, bind(c) :: jam_estimate
@@ -1097,7 +1097,7 @@ module jam
       import
       type(c_ptr), value :: sys
       type(jam_crunch_options), intent(in), optional :: o
-      type(jam_report), intent(inout), optional :: report
+      type(jam_crunch_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_crunch
 
@@ -1114,13 +1114,13 @@ module jam
     end function jam_crunch_estimate
 
     ! The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1
-    function jam_report_get(sys, report) &
-        bind(c, name="jam_report_get") result(status)
+    function jam_crunch_report_get(sys, report) &
+        bind(c, name="jam_crunch_report_get") result(status)
       import
       type(c_ptr), value :: sys
-      type(jam_report), intent(inout), optional :: report
+      type(jam_crunch_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
-    end function jam_report_get
+    end function jam_crunch_report_get
 
     ! One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
     ! from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.

@@ -30,7 +30,7 @@ class HeaderError(Exception):
 
 @dataclass
 class Type:
-    base: str  # "double", "jam_report", "void", ...
+    base: str  # "double", "jam_crunch_report", "void", ...
     stars: int  # levels of pointer
     const: bool  # of what is pointed to (or of the innermost)
 

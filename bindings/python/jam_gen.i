@@ -140,16 +140,16 @@ CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units
 sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
 zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
 every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
-jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1"
-%extend jam_report {
-  jam_report() {
-    jam_report *made = (jam_report *)calloc(1, sizeof *made);
+jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1"
+%extend jam_crunch_report {
+  jam_crunch_report() {
+    jam_crunch_report *made = (jam_crunch_report *)calloc(1, sizeof *made);
     if (made) { made->struct_size = sizeof *made; }
     return made;
   }
-  ~jam_report() { free($self); }
+  ~jam_crunch_report() { free($self); }
 }
-%feature("docstring") jam_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1"
+%feature("docstring") jam_crunch_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1"
 %extend jam_estimate {
   jam_estimate() {
     jam_estimate *made = (jam_estimate *)calloc(1, sizeof *made);
@@ -327,7 +327,7 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_crunch_estimate "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
 same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
 JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
-%feature("docstring") jam_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
+%feature("docstring") jam_crunch_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
 %feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
 from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
 @since 0.1"

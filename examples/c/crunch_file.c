@@ -12,7 +12,7 @@ static int failed(jam_system *sys) {
 int main(int argc, char **argv) {
   jam_crunch_options o;
   jam_info info;
-  jam_report r;
+  jam_crunch_report r;
   jam_system *sys = NULL;
   jam_status status;
   if (argc != 3) {

@@ -11,7 +11,7 @@ static double phi[SEEDS]; /* 0: not jammed */
 static void pack(int64_t seed) {
   jam_create_options create;
   jam_compress_options grow;
-  jam_report report;
+  jam_crunch_report report;
   jam_system *sys = NULL;
   double size[N];
   int k;

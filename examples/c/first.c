@@ -10,7 +10,7 @@ static int failed(jam_system *sys) {
 
 int main(void) {
   jam_create_options o;
-  jam_report report;
+  jam_crunch_report report;
   jam_system *sys = NULL;
 
   jam_create_options_init(&o, sizeof o); /* all defaults: d = 3, unit box, random start at packing fraction 0.2 */

@@ -9,7 +9,7 @@ int main(int argc, char **argv) try {
   const jam_info before = packing.info();
   jam_crunch_options o = jam::crunch_options();
   o.wall_time = 600;  // seconds; what was reached by then is kept
-  const jam_report r = packing.crunch(o);
+  const jam_crunch_report r = packing.crunch(o);
   std::printf("phi %.6f -> %.12f, %s, %lld contacts (isostatic %+lld)\n", before.packing_fraction, r.packing_fraction,
               jam_stop_string(r.stop_reason), static_cast<long long>(r.contacts),
               static_cast<long long>(r.excess_contacts));

@@ -16,7 +16,7 @@ static double phi_j(int seed) {
   growth.growth_rate = 3e-2;
   growth.pressure = 1e4;
   packing.compress(growth);
-  const jam_report r = packing.crunch();
+  const jam_crunch_report r = packing.crunch();
   return r.jammed ? r.packing_fraction : 0.0;
 }
 

@@ -16,7 +16,7 @@ int main() try {
   const jam_md_report md = packing.compress(growth);
   std::printf("%lld collisions, p = %.3g\n", static_cast<long long>(md.collisions), md.pressure);
 
-  const jam_report report = packing.crunch();
+  const jam_crunch_report report = packing.crunch();
   std::printf("phi_J = %.9f, %lld contacts, %lld rattlers\n", report.packing_fraction,
               static_cast<long long>(report.contacts), static_cast<long long>(report.rattlers));
   packing.write("first_cpp.xyz");

@@ -5,7 +5,7 @@ program crunch_file
   type(c_ptr) :: sys
   type(jam_info) :: info
   type(jam_crunch_options) :: options
-  type(jam_report) :: report
+  type(jam_crunch_report) :: report
   character(1024) :: name(2)
   integer :: k
 

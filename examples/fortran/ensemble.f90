@@ -23,7 +23,7 @@ contains
     type(c_ptr) :: sys
     type(jam_create_options) :: create
     type(jam_compress_options) :: compress
-    type(jam_report) :: report
+    type(jam_crunch_report) :: report
     real(c_double) :: sizes(n)
     sizes(1:n/2) = 1
     sizes(n/2 + 1:n) = 1.4_c_double

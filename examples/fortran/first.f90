@@ -8,7 +8,7 @@ program first
   type(jam_create_options) :: create
   type(jam_compress_options) :: compress
   type(jam_md_report) :: md
-  type(jam_report) :: report
+  type(jam_crunch_report) :: report
   real(c_double) :: sizes(n)
   real(c_double), pointer :: x(:, :)
   integer(c_size_t) :: length

@@ -20,7 +20,7 @@ program progress
   implicit none
   type(c_ptr) :: sys
   type(jam_create_options) :: create
-  type(jam_report) :: report
+  type(jam_crunch_report) :: report
   integer(c_int32_t) :: status
 
   call jam_defaults(create)

@@ -4,7 +4,7 @@
  *
  * Life of a packing: jam_create or jam_read -> jam_run, jam_compress (event-driven
  * molecular dynamics) -> jam_crunch (iterated linear programming down to the jamming
- * point) -> jam_report_get, jam_contacts, jam_forces, jam_hessian, jam_modes.
+ * point) -> jam_crunch_report_get, jam_contacts, jam_forces, jam_hessian, jam_modes.
  *
  * Conventions, said once
  * - Lengths are in the user's unit; the box is a periodic cube of side `box` (default 1).
@@ -82,7 +82,7 @@ typedef enum jam_status_code {
   JAM_E_INTERNAL = -17     /* a bug in libjam; please report the text */
 } jam_status_code;
 
-/* Why a run ended (jam_md_report.stop_reason, jam_report.stop_reason). @since 0.1 */
+/* Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1 */
 typedef enum jam_stop_reason {
   JAM_STOP_NONE = 0,             /* has not run */
   JAM_STOP_PRESSURE = 1,         /* MD reached its pressure */
@@ -463,8 +463,8 @@ typedef enum jam_lp_solver {
 /* Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1 */
 typedef enum jam_crunch_method {
   JAM_CRUNCH_BARRIER_PATH =
-      0,               /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
-                        * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
+      0, /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
+          * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
   JAM_CRUNCH_SEQUENTIAL_LP = 1 /* the published chain of LPs alone */
 } jam_crunch_method;
 
@@ -473,7 +473,7 @@ typedef enum jam_crunch_method {
  * sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
  * zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
  * every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
- * jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1 */
+ * jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1 */
 typedef struct jam_crunch_options {
   uint32_t struct_size; /* sizeof(jam_crunch_options) */
   int32_t lp_solver;    /* jam_lp_solver, default IPM (optimizer) */
@@ -495,38 +495,39 @@ typedef struct jam_crunch_options {
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
-typedef struct jam_report {
-  uint32_t struct_size; /* set by the caller: sizeof(jam_report) */
+typedef struct jam_crunch_report {
+  uint32_t struct_size; /* set by the caller: sizeof(jam_crunch_report) */
   int32_t jammed;       /* 1: converged to a rigid network that carries balanced forces */
   int32_t stop_reason;  /* jam_stop_reason */
   int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
-  int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it */
-  int32_t reserved;        /* 0 */
-  double packing_fraction; /* phi_J when jammed */
-  double diameter_mean;    /* unit of box */
-  int64_t contacts;        /* pairs with a force, rattlers left out */
-  int64_t rattlers;        /* removed again and again until every sphere left has d+1 contacts */
-  int64_t stable;          /* n - rattlers = N' */
-  int64_t bucklers;        /* stable spheres with exactly d+1 contacts */
-  int64_t isostatic_contacts;          /* d (N' - 1) + 1: contacts of a single state of self-stress */
-  int64_t excess_contacts; /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
-  int64_t lp_solves;       /* LPs solved in full */
-  int64_t factorisations;  /* Cholesky factorisations */
-  double gain;             /* sqrt(Gamma) - 1 of the last LP */
-  double max_step;         /* largest |s_i| of a stable sphere in the last LP, mean diameters */
-  double max_overlap;      /* largest -h over all pairs, >= 0 */
-  double force_residual;   /* largest |sum_j f_ij n_ij| over mean force */
-  double gamma_residual;   /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
-  double min_force;        /* smallest contact force over the mean */
-  double min_gap;          /* smallest h of a pair of stable spheres that is no contact */
-  double max_contact_gap;  /* largest |h| of a contact */
-  double duality_gap;      /* of the last LP, relative to Gamma */
-  double force_scale;      /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
-  double seconds;          /* wall time of crunch */
-  double seconds_factor;   /* of it in factorisations */
-  double seconds_assemble; /* of it in neighbour lists and assembly */
-  double seconds_solve;    /* of it in triangular solves */
-} jam_report;
+  int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone
+                     did it */
+  int32_t reserved;           /* 0 */
+  double packing_fraction;    /* phi_J when jammed */
+  double diameter_mean;       /* unit of box */
+  int64_t contacts;           /* pairs with a force, rattlers left out */
+  int64_t rattlers;           /* removed again and again until every sphere left has d+1 contacts */
+  int64_t stable;             /* n - rattlers = N' */
+  int64_t bucklers;           /* stable spheres with exactly d+1 contacts */
+  int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
+  int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
+  int64_t lp_solves;          /* LPs solved in full */
+  int64_t factorisations;     /* Cholesky factorisations */
+  double gain;                /* sqrt(Gamma) - 1 of the last LP */
+  double max_step;            /* largest |s_i| of a stable sphere in the last LP, mean diameters */
+  double max_overlap;         /* largest -h over all pairs, >= 0 */
+  double force_residual;      /* largest |sum_j f_ij n_ij| over mean force */
+  double gamma_residual;      /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
+  double min_force;           /* smallest contact force over the mean */
+  double min_gap;             /* smallest h of a pair of stable spheres that is no contact */
+  double max_contact_gap;     /* largest |h| of a contact */
+  double duality_gap;         /* of the last LP, relative to Gamma */
+  double force_scale;         /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
+  double seconds;             /* wall time of crunch */
+  double seconds_factor;      /* of it in factorisations */
+  double seconds_assemble;    /* of it in neighbour lists and assembly */
+  double seconds_solve;       /* of it in triangular solves */
+} jam_crunch_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
@@ -536,7 +537,7 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
  * valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
  * JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
-JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report);
+JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
 /* What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1 */
 typedef struct jam_estimate {
@@ -556,7 +557,7 @@ typedef struct jam_estimate {
  * JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1 */
 JAM_API jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
 /* The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1 */
-JAM_API jam_status jam_report_get(const jam_system *sys, jam_report *report);
+JAM_API jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_report *report);
 
 /* What kind of step a row of the history is. @since 0.1 */
 typedef enum jam_step_phase {

@@ -2,7 +2,7 @@
  *
  *   jam::System packing = jam::System::random(1024, 3, 1);
  *   packing.compress();
- *   jam_report report = packing.crunch();
+ *   jam_crunch_report report = packing.crunch();
  *   for (double f : packing.forces()) ...
  *
  * System owns the C handle and moves but does not copy by accident (copy() does). A status below zero throws
@@ -175,8 +175,10 @@ class System {
     return verb<jam_md_report>(jam_compress, static_cast<const jam_compress_options *>(nullptr));
   }
   jam_md_report compress(const jam_compress_options &o) { return verb<jam_md_report>(jam_compress, &o); }
-  jam_report crunch() { return verb<jam_report>(jam_crunch, static_cast<const jam_crunch_options *>(nullptr)); }
-  jam_report crunch(const jam_crunch_options &o) { return verb<jam_report>(jam_crunch, &o); }
+  jam_crunch_report crunch() {
+    return verb<jam_crunch_report>(jam_crunch, static_cast<const jam_crunch_options *>(nullptr));
+  }
+  jam_crunch_report crunch(const jam_crunch_options &o) { return verb<jam_crunch_report>(jam_crunch, &o); }
   // Status of the last verb: 0 done, > 0 stopped early.
   jam_status status() const { return status_; }
   // From any thread or signal handler.
@@ -192,9 +194,9 @@ class System {
   }
 
   // The network of the last crunch.
-  jam_report last_report() const {
-    jam_report made = report<jam_report>();
-    check(jam_report_get(get(), &made));
+  jam_crunch_report last_report() const {
+    jam_crunch_report made = report<jam_crunch_report>();
+    check(jam_crunch_report_get(get(), &made));
     return made;
   }
   std::vector<std::int32_t> contacts() const { return array<std::int32_t>(jam_contacts); }    // (contacts, 2)

@@ -18,7 +18,7 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     take_options(o, full);
     GeometryResult result = contacts_from_geometry(sys->packing, full, cancel_point);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    jam_report r{};
+    jam_crunch_report r{};
     certify(sys->packing, result.network, r);
     r.jammed = result.status != JAM_NOT_JAMMED;
     r.stop_reason = JAM_STOP_NONE;

@@ -29,7 +29,7 @@ jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size) {
   return init_options(o, size, default_crunch_options());
 }
 
-jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_report *report) {
+jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report) {
   return guard_verb(sys, [&]() -> jam_status {
     check_out_struct(report, "report");
     jam_crunch_options full = default_crunch_options();
@@ -67,7 +67,7 @@ jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *
   });
 }
 
-jam_status jam_report_get(const jam_system *sys, jam_report *report) {
+jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_report *report) {
   return with_contacts(sys, [&](const ContactNetwork &) -> jam_status {
     need(report, "report");
     check_out_struct(report, "report");

@@ -12,7 +12,7 @@
 struct jam_system {
   jam::Packing packing;          // the view buffers; their addresses stay for the life of the handle
   jam::ContactNetwork contacts;  // valid when has_report
-  jam_report report{};
+  jam_crunch_report report{};
   bool has_report = false;
   std::vector<jam::HistoryRow> history;  // valid when has_history
   bool has_history = false;

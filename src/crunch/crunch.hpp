@@ -20,7 +20,7 @@ jam_crunch_options default_crunch_options();
 struct CrunchResult {
   Packing packing;          // always valid: the last good state
   ContactNetwork contacts;  // of the last LP; empty if none was solved
-  jam_report report{};
+  jam_crunch_report report{};
   jam_status status = JAM_OK;
   std::string text;  // why, when status < 0
 };

@@ -76,7 +76,7 @@ void SequentialLp::polish_step() {
 }
 
 void SequentialLp::finish() {
-  jam_report &r = out_.report;
+  jam_crunch_report &r = out_.report;
   r.method = paths_ ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(out_.packing, out_.contacts, r);
   r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 &&

@@ -31,7 +31,7 @@ double force_residual(const Packing &p, const ContactNetwork &net) {
 }
 
 // Smallest gap of two stable spheres that are no contact: the pairs of `net` are skipped image by image.
-void scan_gaps(const Packing &p, const ContactNetwork &net, jam_report &report) {
+void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &report) {
   const int d = p.dim;
   double r[JAM_MAX_DIM];
   report.min_gap = std::numeric_limits<double>::infinity();
@@ -60,7 +60,7 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, jam_report &report) 
 
 }  // namespace
 
-void certify(const Packing &p, const ContactNetwork &net, jam_report &report) {
+void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &report) {
   const int d = p.dim;
   report.packing_fraction = packing_fraction(p);
   report.diameter_mean = diameter_mean(p);

@@ -6,6 +6,6 @@
 
 namespace jam {
 
-void certify(const Packing &p, const ContactNetwork &contacts, jam_report &report);
+void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report);
 
 }  // namespace jam

@@ -166,7 +166,7 @@ int main(int argc, char **argv) {
     std::fprintf(stderr, "%s\n", jam_last_error());
     return 1;
   }
-  jam_report report{};
+  jam_crunch_report report{};
   report.struct_size = sizeof report;
   const Time crunch = timed(1, [&] { jam_crunch(sys, nullptr, &report); });
   const std::unique_ptr<jam_system, void (*)(jam_system *)> owner(sys, jam_destroy);

@@ -69,7 +69,7 @@ void test_errors(void **) {
 
 void test_crunch_and_forces(void **) {
   jam::System s = jam::System::random(60, 2, 3, 0.3, two_sizes(60));
-  const jam_report r = s.crunch();
+  const jam_crunch_report r = s.crunch();
   assert_int_equal(s.status(), JAM_OK);
   assert_int_equal(r.jammed, 1);
   assert_int_equal(s.last_report().contacts, r.contacts);

@@ -23,7 +23,7 @@ program fortran_layer
   type(c_ptr) :: sys, other, view
   type(jam_create_options) :: create
   type(jam_crunch_options) :: options
-  type(jam_report) :: report
+  type(jam_crunch_report) :: report
   type(jam_info) :: info
   real(c_double) :: x(d, n), sizes(n), net(d, n)
   real(c_double), pointer :: seen(:, :)

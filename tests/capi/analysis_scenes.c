@@ -123,7 +123,7 @@ static void four_images_of_a_neighbour(void **state) {
 /* Three disks jam with one state of self-stress although pairs touch through several images: everything works. */
 static void three_disks(void **state) {
   jam_create_options o;
-  jam_report r = {.struct_size = sizeof(jam_report)};
+  jam_crunch_report r = {.struct_size = sizeof(jam_crunch_report)};
   jam_geometry_report g;
   jam_system *s = NULL;
   double f[8], q[8], b[8];

@@ -97,7 +97,7 @@ static int32_t each_step(const jam_progress *p, void *user) {
 static void steps_add_up(int dim, int32_t method) {
   jam_system *sys = start(dim, 5 + dim);
   jam_crunch_options o;
-  jam_report r;
+  jam_crunch_report r;
   jam_info info;
   watch w;
   const double *x, *s;

@@ -40,8 +40,8 @@ static void spring(int32_t level, const char *line, void *user) {
   }
 }
 
-static jam_report crunch(jam_system *sys, const jam_crunch_options *o, jam_status expected) {
-  jam_report r;
+static jam_crunch_report crunch(jam_system *sys, const jam_crunch_options *o, jam_status expected) {
+  jam_crunch_report r;
   jam_status status;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
@@ -56,7 +56,7 @@ static void trap(const char *word, int wait, double sleep, const jam_crunch_opti
                  jam_stop_reason reason) {
   jam_system *sys = start(100);
   ambush a;
-  jam_report r, done;
+  jam_crunch_report r, done;
   memset(&a, 0, sizeof a);
   a.sys = sys, a.word = word, a.wait = wait, a.sleep = sleep;
   assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
@@ -101,7 +101,7 @@ static void wall_time_inside_an_lp(void **state) {
     const double *x;
     size_t len;
     ambush a;
-    jam_report r;
+    jam_crunch_report r;
     memset(&a, 0, sizeof a);
     a.sys = sys, a.word = solver ? "estimate" : "ipm", a.wait = 0, a.sleep = solver ? 0.0001 : 1.6;
     o.lp_solver = solver, o.wall_time = solver ? 0.05 : 1.5;
@@ -124,7 +124,7 @@ static int32_t count_calls(const jam_progress *p, void *user) {
 static void polish_is_stopped(void **state) {
   jam_system *plain = start(100);
   jam_crunch_options o;
-  jam_report b;
+  jam_crunch_report b;
   const double *x, *y;
   size_t len;
   int way;
@@ -136,7 +136,7 @@ static void polish_is_stopped(void **state) {
   for (way = 0; way < 3;
        ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
     jam_system *sys = start(100);
-    jam_report a;
+    jam_crunch_report a;
     ambush trap_set;
     int calls = 0;
     memset(&trap_set, 0, sizeof trap_set);

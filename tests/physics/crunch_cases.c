@@ -9,8 +9,8 @@
 
 #include "jam/jam.h"
 
-static jam_report crunch(jam_system *sys, const jam_crunch_options *o, jam_status expected) {
-  jam_report r;
+static jam_crunch_report crunch(jam_system *sys, const jam_crunch_options *o, jam_status expected) {
+  jam_crunch_report r;
   jam_status status;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
@@ -22,7 +22,7 @@ static jam_report crunch(jam_system *sys, const jam_crunch_options *o, jam_statu
 
 /* From positions, diameters, contacts and forces alone: no overlap over all images, forces balanced and positive,
  * contacts closed, rattlers without contacts, counts as reported. */
-static void certify(const jam_system *sys, const jam_report *r, double tolerance) {
+static void certify(const jam_system *sys, const jam_crunch_report *r, double tolerance) {
   const double *x, *s;
   size_t len, m = 0, k, i, j;
   int32_t *pairs, *z;
@@ -89,7 +89,7 @@ static void shared_file(void **state) {
   FILE *file = fopen(path, "r");
   jam_crunch_options o;
   jam_system *sys;
-  jam_report r;
+  jam_crunch_report r;
   int method;
   (void)state;
   if (!file) {
@@ -125,7 +125,7 @@ static void random_starts(void **state) {
     double diameters[256];
     int i;
     jam_system *sys;
-    jam_report r;
+    jam_crunch_report r;
     for (i = 0; i < cases[k].n; ++i) diameters[i] = i % 2 ? 1.0 : cases[k].ratio;
     sys = random_start(cases[k].n, cases[k].dim, cases[k].phi, diameters, cases[k].n, 3);
     r = crunch(sys, NULL, JAM_OK);
@@ -169,7 +169,7 @@ static void crystals(void **state) {
   (void)state;
   for (vacancy = 0; vacancy < 2; ++vacancy) {
     jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0.98, vacancy);
-    jam_report r = crunch(sys, NULL, JAM_OK);
+    jam_crunch_report r = crunch(sys, NULL, JAM_OK);
     print_message("FCC vacancy %d: phi %.12f contacts %d excess %d\n", vacancy, r.packing_fraction, (int)r.contacts,
                   (int)r.excess_contacts);
     assert_true(r.jammed && r.excess_contacts > 0);
@@ -179,7 +179,7 @@ static void crystals(void **state) {
   }
   {
     jam_system *sys = lattice(3, 3, bcc, 2, sqrt(0.75), 0.98, 0);
-    jam_report r;
+    jam_crunch_report r;
     memset(&r, 0, sizeof r);
     r.struct_size = sizeof r;
     /* BCC is a saddle: either held by symmetry at 0.6802 or left for something denser; never worse, never an error */
@@ -205,7 +205,7 @@ static void degenerate_forces(void **state) {
   for (solver = JAM_LP_IPM; solver <= JAM_LP_CLP; ++solver) {
     jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0.98, 0);
     jam_crunch_options o;
-    jam_report r;
+    jam_crunch_report r;
     double f[648];
     int k;
     jam_crunch_options_init(&o, sizeof o);
@@ -232,7 +232,7 @@ static void few_spheres(void **state) {
   for (d = 2; d <= 3; ++d)
     for (n = 2; n <= d + 2; ++n) {
       jam_system *sys = random_start(n, d, 0.1, NULL, 0, n);
-      jam_report r;
+      jam_crunch_report r;
       jam_status status;
       memset(&r, 0, sizeof r);
       r.struct_size = sizeof r;
@@ -272,7 +272,7 @@ static void cancel_and_resume(void **state) {
   for (calls = 1; calls < lps; calls += 6) {
     jam_system *sys = random_start(100, 3, 0.3, NULL, 0, 5);
     int left = calls;
-    jam_report r;
+    jam_crunch_report r;
     jam_crunch_options o;
     const double *s;
     size_t len;
@@ -308,7 +308,7 @@ static void cancel_waits(void **state) {
 static void limits_and_options(void **state) {
   jam_system *sys = random_start(100, 3, 0.3, NULL, 0, 5);
   jam_crunch_options o;
-  jam_report r;
+  jam_crunch_report r;
   size_t needed;
   (void)state;
   assert_int_equal(jam_forces(sys, NULL, 0, &needed), JAM_E_STATE);
@@ -330,7 +330,7 @@ static void limits_and_options(void **state) {
 }
 
 static void *crunch_thread(void *user) {
-  jam_report r;
+  jam_crunch_report r;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
   return (void *)(intptr_t)(jam_crunch((jam_system *)user, NULL, &r) == JAM_OK);
@@ -362,7 +362,7 @@ static void threads_and_determinism(void **state) {
 static void box_does_not_matter(void **state) {
   jam_system *small = random_start(100, 3, 0.3, NULL, 0, 4), *large;
   jam_create_options o;
-  jam_report a, b;
+  jam_crunch_report a, b;
   const double *x, *s;
   double y[300], t[100];
   size_t len, k;

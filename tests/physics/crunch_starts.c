@@ -40,7 +40,7 @@ static double smallest_gap(const jam_system *sys, int reach) {
 
 /* Every claim of the report that follows from the packing: no overlap; when jammed, closed contacts, positive balanced
  * forces, at least one state of self-stress, every stable sphere with d + 1 contacts or more. */
-static void certify(const jam_system *sys, const jam_report *r, int reach) {
+static void certify(const jam_system *sys, const jam_crunch_report *r, int reach) {
   const double *x, *s;
   size_t len, m = 0, k;
   int32_t *pair, *z;
@@ -90,8 +90,9 @@ static jam_system *random_start(int n, int dim, double phi, const double *sizes,
   return sys;
 }
 
-static jam_report crunched(jam_system *sys, const jam_crunch_options *o, const char *what, double value, int must_jam) {
-  jam_report r;
+static jam_crunch_report crunched(jam_system *sys, const jam_crunch_options *o, const char *what, double value,
+                                  int must_jam) {
+  jam_crunch_report r;
   jam_status status;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
@@ -140,7 +141,7 @@ static void pressures(void **state) {
   for (k = 0; k < 5; ++k) {
     jam_system *sys = random_start(60, 3, 0.3, NULL, 2);
     jam_compress_options c;
-    jam_report r;
+    jam_crunch_report r;
     jam_info info;
     info.struct_size = sizeof info;
     jam_compress_options_init(&c, sizeof c);
@@ -168,7 +169,7 @@ static void bends(void **state) {
     for (seed = 3; seed <= 5; ++seed) {
       jam_system *sys = random_start(256, 3, 0.2, NULL, seed);
       jam_compress_options c;
-      jam_report r;
+      jam_crunch_report r;
       jam_compress_options_init(&c, sizeof c);
       c.growth_rate = 1e-2, c.pressure = 500.0;
       assert_true(jam_compress(sys, &c, NULL) >= 0);
@@ -216,7 +217,7 @@ static void small_boxes(void **state) {
   for (dim = 2; dim <= 4; ++dim)
     for (n = dim + 1; n <= 3 * dim + 4; n += dim + 1) {
       jam_system *sys = random_start(n, dim, dim == 2 ? 0.3 : dim == 3 ? 0.15 : 0.06, NULL, n);
-      jam_report r = crunched(sys, NULL, "spheres", n, 0);
+      jam_crunch_report r = crunched(sys, NULL, "spheres", n, 0);
       assert_true(smallest_gap(sys, 2) > -1e-12);
       assert_true(r.packing_fraction > 0.06);
       jam_destroy(sys);
@@ -253,7 +254,7 @@ static void lattices(void **state) {
   (void)state;
   for (vacancy = 0; vacancy < 2; ++vacancy) {
     jam_system *sys = lattice(2, six, square, 1, 1.0, 0.98 / 6.0, vacancy);
-    jam_report r = crunched(sys, NULL, "square", vacancy, 0);
+    jam_crunch_report r = crunched(sys, NULL, "square", vacancy, 0);
     assert_true(r.packing_fraction > 0.785398163397 * (36 - vacancy) / 36.0 - 1e-9);
     jam_destroy(sys);
     sys = lattice(3, three, bcc, 2, 1.0, 0.98 * sqrt(0.75) / 3.0, vacancy);
@@ -272,7 +273,7 @@ static void lattices(void **state) {
 static void ordering_disks(void **state) {
   jam_system *sys = random_start(90, 2, 0.5, NULL, 1);
   jam_compress_options c;
-  jam_report r;
+  jam_crunch_report r;
   double x[2 * 90];
   const double sigma = 0.98 / 9.0;
   jam_create_options o;
@@ -303,7 +304,7 @@ static void jammed_input(void **state) {
   for (method = 0; method < 2; ++method) {
     jam_system *sys = random_start(80, 3, 0.3, NULL, 6);
     jam_crunch_options o;
-    jam_report first, again;
+    jam_crunch_report first, again;
     double f[400], g[400];
     size_t m, k;
     jam_crunch_options_init(&o, sizeof o);

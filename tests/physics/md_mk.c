@@ -63,7 +63,7 @@ static void chain_to_jamming(void **state) {
   jam_system *sys = planted(200, 3, 1.5, INFINITY, 1);
   jam_compress_options c;
   jam_md_report report;
-  jam_report q;
+  jam_crunch_report q;
   (void)state;
   report.struct_size = sizeof report;
   jam_compress_options_init(&c, sizeof c);

@@ -20,7 +20,8 @@ struct network {
   int32_t *node; /* sphere -> row, -1 */
 };
 
-static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
+static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int bidisperse,
+                                  jam_crunch_report *report) {
   jam_create_options o;
   jam_system *s = NULL;
   double *d = malloc((size_t)n * sizeof *d);
@@ -38,7 +39,7 @@ static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int
   return s;
 }
 
-static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_report *report) {
+static jam_system *crunched(int dim, int64_t n, double phi, int bidisperse, jam_crunch_report *report) {
   return crunched_model(JAM_MODEL_EUCLID, dim, n, phi, bidisperse, report);
 }
 
@@ -303,7 +304,7 @@ static void small_packings(void **state) {
   int dim;
   (void)state;
   for (dim = 2; dim <= 4; ++dim) {
-    jam_report report;
+    jam_crunch_report report;
     struct network w = open_network(crunched(dim, dim == 4 ? 150 : 80,
                                              dim == 2   ? 0.4
                                              : dim == 3 ? 0.2
@@ -320,7 +321,7 @@ static void small_packings(void **state) {
 
 /* The same with quenched random shifts of every pair: networks without geometry in space. */
 static void mari_kurchan(void **state) {
-  jam_report report;
+  jam_crunch_report report;
   struct network w = open_network(crunched_model(JAM_MODEL_MK, 3, 100, 0.5, 0, &report));
   (void)state;
   assert_int_equal(report.excess_contacts, 0);
@@ -333,7 +334,7 @@ static void mari_kurchan(void **state) {
 /* Spheres pushed about by a part of the smallest gap: contacts and near misses are no longer told apart by a clear
  * jump. The status says so, and the right network is among the candidates. */
 static void unclear_jump_of(double part) {
-  jam_report report;
+  jam_crunch_report report;
   jam_system *s = crunched(3, 80, 0.2, 0, &report);
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   const double *x;
@@ -412,7 +413,7 @@ static void fill_hole(double place[3][2], const double *radius, double gap, doub
 /* A rattler that all but touches its cage makes a second candidate of a contact more than isostatic: the null space
  * tells that the first one is the network, although the second jump is nearly as wide. */
 static void rattler_against_its_cage(void **state) {
-  jam_report report;
+  jam_crunch_report report;
   struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   jam_create_options o;
@@ -453,7 +454,7 @@ static void rattler_against_its_cage(void **state) {
 }
 
 static void compares(void **state) {
-  jam_report report;
+  jam_crunch_report report;
   jam_system *a = crunched(3, 60, 0.3, 0, &report), *b = NULL;
   jam_comparison c = {.struct_size = sizeof(jam_comparison)};
   const double *x;
@@ -477,7 +478,7 @@ static void compares(void **state) {
 
 static void shared_packing(void **state) {
   jam_system *s = NULL;
-  jam_report report = {.struct_size = sizeof(jam_report)};
+  jam_crunch_report report = {.struct_size = sizeof(jam_crunch_report)};
   struct network w;
   (void)state;
   if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, &s) != JAM_OK) {

@@ -37,7 +37,7 @@ class StatusCode(IntEnum):
 
 
 class StopReason(IntEnum):
-    """Why a run ended (jam_md_report.stop_reason, jam_report.stop_reason). @since 0.1"""
+    """Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1"""
     NONE = 0  # has not run
     PRESSURE = 1  # MD reached its pressure
     PACKING_FRACTION = 2  # MD reached its packing fraction
@@ -299,7 +299,7 @@ class Glass:
 
 
 @dataclass(frozen=True, repr=False)
-class Report:
+class CrunchReport:
     """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
 
     jammed: 1: converged to a rigid network that carries balanced forces
@@ -545,7 +545,7 @@ REPORTS = {
     "jam_progress": Progress,
     "jam_md_report": MdReport,
     "jam_glass": Glass,
-    "jam_report": Report,
+    "jam_crunch_report": CrunchReport,
     "jam_estimate": Estimate,
     "jam_geometry_report": GeometryReport,
     "jam_moduli": Moduli,
@@ -583,9 +583,9 @@ CALLS = {
     "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
-    "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_report"))),
+    "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
     "jam_crunch_estimate": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
-    "jam_report_get": (True, (("report", "struct_out", "jam_report"),)),
+    "jam_crunch_report_get": (True, (("report", "struct_out", "jam_crunch_report"),)),
     "jam_crunch_history": (True, (("column", "scalar", "HistoryColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from . import _calls, raw
-from ._generated import HistoryColumn, ModesWhich, Report, StatusCode
+from ._generated import HistoryColumn, ModesWhich, CrunchReport, StatusCode
 from ._handle import Base
 from ._methods import StressStatesResult
 from .results import Contacts, Modes
@@ -16,13 +16,13 @@ class Network(Base):
     """What crunch, or contacts_from_geometry, found."""
 
     @property
-    def report(self) -> Report:
-        """Report and certificate of the last crunch."""
+    def report(self) -> CrunchReport:
+        """CrunchReport and certificate of the last crunch."""
         if self._carried:
             return self._carried[0]
-        made = _calls.new_report("jam_report")
-        raw.jam_report_get(self.handle, made)
-        return _calls.freeze(made, "jam_report")
+        made = _calls.new_report("jam_crunch_report")
+        raw.jam_crunch_report_get(self.handle, made)
+        return _calls.freeze(made, "jam_crunch_report")
 
     @property
     def history(self) -> np.ndarray:

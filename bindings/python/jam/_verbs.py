@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
 from . import _calls, raw
-from ._generated import MdReport, Report, StatusCode
+from ._generated import MdReport, CrunchReport, StatusCode
 from ._observe import Observing, Step
 from ._progress import reporter
 
@@ -58,8 +58,8 @@ class Verbs(Observing):
             raise ValueError("stages is empty")
         return report
 
-    def crunch(self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any) -> Report:
-        """Iterated linear programming down to the jamming point. Returns the Report with the certificate.
+    def crunch(self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any) -> CrunchReport:
+        """Iterated linear programming down to the jamming point. Returns the CrunchReport with the certificate.
 
         on_step: a callable(Step) that is given every step with its displacements and linear network (and makes each LP be
         solved in full, which is slower); a true answer stops the call.
@@ -70,14 +70,14 @@ class Verbs(Observing):
                 return self._verb(
                     "jam_crunch",
                     "jam_crunch_options",
-                    "jam_report",
+                    "jam_crunch_report",
                     self._stepper(on_step, user),
                     {**options, "steps": 1},
                 )
             finally:
                 if hasattr(user, "close"):
                     user.close()
-        return self._verb("jam_crunch", "jam_crunch_options", "jam_report", progress, options or None)
+        return self._verb("jam_crunch", "jam_crunch_options", "jam_crunch_report", progress, options or None)
 
     def cancel(self) -> None:
         """Stops the call that runs on this system in another thread; without one, the next call."""

@@ -32,7 +32,7 @@ typedef struct options {
 /* What the program has done, for the report and the summary. */
 typedef struct outcome {
   jam_info info;
-  jam_report crunch;
+  jam_crunch_report crunch;
   int has_md, has_crunch;
   int32_t md_stop;
   int64_t collisions;

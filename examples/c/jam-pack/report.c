@@ -106,7 +106,7 @@ static void put_count(FILE *f, const char *key, int64_t x, int known) {
 
 int write_report(const outcome *result, const char *path) {
   const jam_info *info = &result->info;
-  const jam_report *r = &result->crunch;
+  const jam_crunch_report *r = &result->crunch;
   const int crunched = result->has_crunch;
   const int certified = crunched && r->contacts > 0; /* without contacts zeros would look like perfect balance */
   const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
@@ -193,7 +193,7 @@ int write_contacts(const jam_system *sys, const char *path) {
 }
 
 void print_summary(const outcome *result) {
-  const jam_report *r = &result->crunch;
+  const jam_crunch_report *r = &result->crunch;
   const jam_info *info = &result->info;
   printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
          (long long)info->seed, info->packing_fraction);

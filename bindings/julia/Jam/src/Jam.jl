@@ -234,10 +234,10 @@ end
 """
     crunch!(s; max_lps, gain_tolerance, ..., progress)
 
-Iterated linear programming down to the jamming point; returns the jam_report with the certificate.
+Iterated linear programming down to the jamming point; returns the jam_crunch_report with the certificate.
 """
 function crunch!(s::System; progress = nothing, given...)
-    o, made = options(jam_crunch_options, jam_crunch_options_init, given), jam_report()
+    o, made = options(jam_crunch_options, jam_crunch_options_init, given), jam_crunch_report()
     verb(h -> jam_crunch(h, o, made), s, progress)
     return made
 end
@@ -247,8 +247,8 @@ cancel(s::System) = (check(jam_cancel(handle(s))); nothing)
 
 "Report of the last crunch."
 function report(s::System)
-    made = jam_report()
-    check(jam_report_get(handle(s), made))
+    made = jam_crunch_report()
+    check(jam_crunch_report_get(handle(s), made))
     return made
 end
 

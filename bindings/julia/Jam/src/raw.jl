@@ -36,7 +36,7 @@ const JAM_E_BUSY = Int32(-15)  # another call is running on this handle
 const JAM_E_UNSUPPORTED = Int32(-16)  # not available in this build or for this model
 const JAM_E_INTERNAL = Int32(-17)  # a bug in libjam; please report the text
 
-# jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_report.stop_reason). @since 0.1
+# jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1
 const JAM_STOP_NONE = Int32(0)  # has not run
 const JAM_STOP_PRESSURE = Int32(1)  # MD reached its pressure
 const JAM_STOP_PACKING_FRACTION = Int32(2)  # MD reached its packing fraction
@@ -302,7 +302,7 @@ CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units
 sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
 zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
 every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
-jam_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
+jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
 """
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
@@ -325,8 +325,8 @@ end
 """
 Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
 """
-mutable struct jam_report
-    struct_size::UInt32  # set by the caller: sizeof(jam_report)
+mutable struct jam_crunch_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_crunch_report)
     jammed::Int32  # 1: converged to a rigid network that carries balanced forces
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
@@ -356,7 +356,7 @@ mutable struct jam_report
     seconds_factor::Cdouble  # of it in factorisations
     seconds_assemble::Cdouble  # of it in neighbour lists and assembly
     seconds_solve::Cdouble  # of it in triangular solves
-    jam_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_crunch_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -812,7 +812,7 @@ JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E
 JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_crunch(sys, o, report)
-    return ccall((:jam_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_report}), sys, _ref(jam_crunch_options, o), _ref(jam_report, report))
+    return ccall((:jam_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_options, o), _ref(jam_crunch_report, report))
 end
 
 """
@@ -827,8 +827,8 @@ end
 """
 The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1
 """
-function jam_report_get(sys, report)
-    return ccall((:jam_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_report}), sys, _ref(jam_report, report))
+function jam_crunch_report_get(sys, report)
+    return ccall((:jam_crunch_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
 end
 
 """

@@ -2,7 +2,7 @@
 using Jam, Test, LinearAlgebra
 
 @testset "layout" begin
-    @test sizeof(Jam.jam_report) == Jam.jam_report().struct_size
+    @test sizeof(Jam.jam_crunch_report) == Jam.jam_crunch_report().struct_size
     @test unsafe_string(Jam.jam_version()) != ""
     @test Jam.jam_abi_version() == Jam.JAM_ABI
 end

@@ -76,7 +76,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->history = src->history;
     sys->has_history = src->has_history;
     sys->note_diameters();
-    if (src->paused) sys->paused = read_stage(sys->packing, write_stage(*src->paused));
+    if (src->paused) sys->paused = read_dynamics(sys->packing, write_dynamics(*src->paused));
     *out = sys.release();
     return JAM_OK;
   });
@@ -100,7 +100,7 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
     full.model = p.model;
     full.monodisperse = sys->monodisperse;
     full.masses = p.masses;
-    full.paused = !sys->paused ? 0 : growing(*sys->paused) ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN;
+    full.paused = sys->paused ? sys->paused->phase() : 0;
     give_struct(full, info);
     return JAM_OK;
   });

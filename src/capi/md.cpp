@@ -5,17 +5,18 @@
 #include "capi/guard.hpp"
 #include "core/create.hpp"
 #include "dynamics/equation_of_state.hpp"
+#include "dynamics/stage.hpp"
 #include "io/checkpoint.hpp"
 
 using namespace jam;
 
 namespace {
 
-// While a stage runs, callbacks may look at it: jam_checkpoint_write takes it as it is between two events. Snapshots
-// show in the views; should the call fail later, the handle gets its state back.
+// While a stage runs, callbacks may read it: jam_checkpoint_write saves its state between two events. Snapshots appear
+// in the views. If the call fails later, the handle gets its earlier state back.
 class Live {
  public:
-  Live(jam_system *sys, const Stage *stage, bool shows) : sys_(sys) {
+  Live(jam_system *sys, const Dynamics *stage, bool shows) : sys_(sys) {
     if (shows) before_ = std::make_unique<Packing>(sys->packing);
     sys->live = stage;
   }
@@ -31,9 +32,9 @@ class Live {
   std::unique_ptr<Packing> before_;
 };
 
-// Runs a stage; the handle changes only when nothing is thrown. A stage that was stopped early stays with the handle.
-jam_status run_md(jam_system *sys, StagePtr stage, const MdStage &limits, jam_md_report &report) {
-  MdListeners listeners;
+// Runs a stage; the handle changes only when nothing is thrown. The handle keeps a stage that was stopped early.
+jam_status run_md(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &limits, jam_md_report &report) {
+  Listeners listeners;
   listeners.monitor = &sys->monitor;
   if (sys->observing) listeners.observer = sys->observer.get();
   const bool shows = listeners.observer && listeners.observer->has_snapshots();
@@ -41,21 +42,25 @@ jam_status run_md(jam_system *sys, StagePtr stage, const MdStage &limits, jam_md
   jam_status status = JAM_OK;
   {
     const Live live(sys, stage.get(), shows);
-    status = run(*stage, limits, listeners, report);
+    stage->report = report;
+    status = stage->run(limits, listeners);
+    report = stage->report;
   }
-  sys->commit(packing_of(*stage));
+  sys->commit(stage->packing());
   sys->drop_results();
   if (status == JAM_CANCELLED || status == JAM_LIMIT) sys->paused = std::move(stage);
   return status;
 }
 
-// The stage that waits on the handle, or one that begins.
-StagePtr take_stage(jam_system *sys, bool resume, const MdStage &stage) {
-  if (!resume) return begin_stage(sys->packing, stage);
+// The stage that the handle keeps, or a new one.
+std::unique_ptr<Stage> take_stage(jam_system *sys, bool resume, const MdStage &stage) {
+  if (!resume) return std::make_unique<Stage>(sys->packing, stage);
   if (!sys->paused) fail(JAM_E_STATE, "resume is 1 but no stage was stopped early on this handle");
-  if (growing(*sys->paused) != (stage.growth > 0.0))
-    fail(JAM_E_STATE, "the stage that was stopped early is one of %s", stage.growth > 0.0 ? "jam_run" : "jam_compress");
-  return std::move(sys->paused);  // a failure from here on loses the stage, not the packing
+  const int32_t phase = stage.growth > 0.0 ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN, paused = sys->paused->phase();
+  if (paused != phase)
+    fail(JAM_E_STATE, "resume is 1 but the paused stage has jam_phase %d, this call resumes %d", paused, phase);
+  // The phase says that it is a Stage. A failure from here on loses the stage, not the packing.
+  return std::unique_ptr<Stage>(static_cast<Stage *>(sys->paused.release()));
 }
 
 template <class Options, class Check>
@@ -65,7 +70,7 @@ jam_status verb(jam_system *sys, const Options *o, Options full, Check &&check, 
   check(full);
   const MdStage stage = stage_of(full);
   jam_md_report made{};
-  const jam_status status = run_md(sys, take_stage(sys, full.resume == 1, stage), stage, made);
+  const jam_status status = run_md(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
   give_struct(made, report);
   return status;
 }
@@ -94,7 +99,7 @@ jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_r
     jam_status status = JAM_OK;
     try {
       for (const MdStage &stage : default_protocol)
-        if (status == JAM_OK) status = run_md(sys, begin_stage(sys->packing, stage), stage, made);
+        if (status == JAM_OK) status = run_md(sys, std::make_unique<Stage>(sys->packing, stage), stage.limits(), made);
     } catch (...) {
       sys->commit(before);  // one call, one change
       throw;
@@ -108,9 +113,9 @@ jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
     if (sys->live)
-      write_checkpoint(current(*sys->live), write_stage(*sys->live), path);
+      write_checkpoint(sys->live->current(), write_dynamics(*sys->live), path);
     else
-      write_checkpoint(sys->packing, sys->paused ? write_stage(*sys->paused) : std::string(), path);
+      write_checkpoint(sys->packing, sys->paused ? write_dynamics(*sys->paused) : std::string(), path);
     return JAM_OK;
   });
 }
@@ -124,7 +129,7 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     sys->packing = read_checkpoint(path, stage);
     settle_overlaps(sys->packing, JAM_OVERLAP_REFUSE);
     sys->note_diameters();
-    if (!stage.empty()) sys->paused = read_stage(sys->packing, std::move(stage));
+    if (!stage.empty()) sys->paused = read_dynamics(sys->packing, std::move(stage));
     *out = sys.release();
     return JAM_OK;
   });

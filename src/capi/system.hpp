@@ -5,7 +5,8 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
-#include "dynamics/md.hpp"
+#include "dynamics/dynamics.hpp"
+#include "dynamics/observer.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
 
@@ -19,10 +20,10 @@ struct jam_system {
   const jam::CrunchStep *step = nullptr;  // of the crunch that runs
   jam::Monitor monitor;
   std::atomic<bool> busy{false};
-  jam::StagePtr paused;                     // a stage of molecular dynamics that was stopped early, to go on with
-  const jam::Stage *live = nullptr;         // the one that runs now, while callbacks are called
-  std::unique_ptr<jam::Observer> observer;  // what was observed
-  bool observing = false;                   // and still is
+  std::unique_ptr<jam::Dynamics> paused;               // was stopped early and can be resumed
+  const jam::Dynamics *live = nullptr;                 // runs now, while callbacks are called
+  std::unique_ptr<jam::Observer> observer;             // what was observed
+  bool observing = false;                              // and still is
   double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: note_diameters()
   bool monodisperse = true;
 

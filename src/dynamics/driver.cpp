@@ -1,4 +1,7 @@
-// Options of molecular dynamics and the choice of an engine.
+// Options of molecular dynamics, the choice of an engine, and the order of spheres in memory.
+#include <algorithm>
+#include <numeric>
+
 #include "core/error.hpp"
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
@@ -41,6 +44,22 @@ void flag(int32_t value, const char *name) {
 }
 
 }  // namespace
+
+// Numbers of the spheres along a Morton curve: neighbours in space become neighbours in memory.
+std::vector<int32_t> curve_order(const Packing &p) {
+  const size_t n = p.n(), d = static_cast<size_t>(p.dim);
+  const int bits = static_cast<int>(std::min<size_t>(16, 62 / d));
+  std::vector<uint64_t> key(n, 0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t c = 0; c < d; ++c) {
+      const auto x = static_cast<uint64_t>(wrap(p.position[i * d + c] / p.box, 1.0) * static_cast<double>(1u << bits));
+      for (int b = 0; b < bits; ++b) key[i] |= (x >> b & 1u) << (static_cast<size_t>(b) * d + c);
+    }
+  std::vector<int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return key[a] < key[b]; });
+  return order;
+}
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
   const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(diameter_max(p) / p.box);

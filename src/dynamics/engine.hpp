@@ -36,11 +36,11 @@ enum class Halt { window, packing_fraction, time, box_full, stalled, cancelled, 
 
 // Sums since the last reset_sums; all in box units and masses of 1.
 struct MdSums {
-  double virial = 0.0;     // of momentum exchanged without the growth part, r . dp
-  double kinetic_integral = 0.0;     // integral of sum v^2 over time
-  int64_t collisions = 0;  // since construction, never reset
-  int64_t events = 0;      // likewise
-  double time = 0.0;       // likewise
+  double virial = 0.0;            // of momentum exchanged without the growth part, r . dp
+  double kinetic_integral = 0.0;  // integral of sum v^2 over time
+  int64_t collisions = 0;         // since construction, never reset
+  int64_t events = 0;             // likewise
+  double time = 0.0;              // likewise
 };
 
 class EngineBase {

@@ -1,16 +1,8 @@
-// Event-driven molecular dynamics of hard spheres: what the C interface calls.
+// Options of event-driven molecular dynamics, and one call that runs a stage from its beginning to its end.
 #pragma once
-#include <functional>
-#include <memory>
-#include <string>
-
-#include "core/monitor.hpp"
-#include "core/packing.hpp"
-#include "dynamics/observer.hpp"
+#include "dynamics/dynamics.hpp"
 
 namespace jam {
-
-constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 // One stage: whichever target or limit comes first ends it. growth == 0 is NVE.
 struct MdStage {
@@ -22,20 +14,7 @@ struct MdStage {
   double time = no_limit;                // simulated, from the beginning of the stage
   double growth_end = 0.0;               // > 0: growth falls as a power of p, to this at the target pressure
   int64_t relative = 0;                  // 1: constant relative rate of growth
-};
-
-// A stage that has begun and not ended; holds the engine. Made by begin_stage or read_stage.
-class Stage;
-struct StageDeleter {
-  void operator()(Stage *stage) const;
-};
-using StagePtr = std::unique_ptr<Stage, StageDeleter>;
-
-// What a run tells while it goes on; observer and the functions may be empty.
-struct MdListeners {
-  Monitor *monitor = nullptr;
-  Observer *observer = nullptr;
-  std::function<void(const Packing &)> show;  // before a snapshot is reported
+  Limits limits() const { return {collisions_per_particle, time, wall_time}; }
 };
 
 jam_run_options default_run_options();
@@ -46,19 +25,7 @@ void check_compress_options(const jam_compress_options &o);
 MdStage stage_of(const jam_run_options &o);
 MdStage stage_of(const jam_compress_options &o);
 
-StagePtr begin_stage(Packing p, const MdStage &stage);
-// Takes limits (collisions, time, wall time) from `limits`, all else is as the stage began. Adds to the report, so that
-// stages run one after the other give one. On return packing_of(stage) is of one moment, also when the status says
-// stopped early.
-jam_status run(Stage &stage, const MdStage &limits, const MdListeners &listeners, jam_md_report &report);
-const Packing &packing_of(const Stage &stage);
-bool growing(const Stage &stage);
-// The state of this moment, between two events; bytes that read_stage turns into a stage with the same future.
-Packing current(const Stage &stage);
-std::string write_stage(const Stage &stage);
-StagePtr read_stage(const Packing &p, std::string bytes);
-
-// Begin, run, take the packing: for tests and benchmarks.
+// Begins a stage, runs it and takes its packing: for tests and benchmarks.
 jam_status run_stage(Packing &p, const MdStage &stage, Monitor &monitor, jam_md_report &report);
 // The stages of jam_compress(sys, NULL, ..).
 extern const MdStage default_protocol[2];

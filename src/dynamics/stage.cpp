@@ -64,7 +64,7 @@ Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage),
   if (growing()) scale_velocities(p_);
   growth_ = stage_.growth;
   if (stage_.relative) growth_ *= diameter_mean(p_) / p_.box * std::pow(n_, 1.0 / p_.dim);
-  take_limits(stage);
+  take_limits(stage.limits());
   engine_ = make_engine(p_, options());
   if (engine_->max_overlap > 1e-10)
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of molecular dynamics", engine_->max_overlap);
@@ -73,10 +73,7 @@ Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage),
   begin_part();
 }
 
-Stage::Stage(Packing p, Archive &from) : p_(std::move(p)), n_(static_cast<double>(p_.n())) {
-  archive(from);
-  from.end();
-}
+Stage::Stage(Packing p, Archive &from) : p_(std::move(p)), n_(static_cast<double>(p_.n())) { archive(from); }
 
 void Stage::archive(Archive &a) {
   a(stage_);
@@ -98,8 +95,8 @@ void Stage::archive(Archive &a) {
   }
 }
 
-void Stage::take_limits(const MdStage &limits) {
-  stage_.collisions_per_particle = limits.collisions_per_particle;
+void Stage::take_limits(const Limits &limits) {
+  stage_.collisions_per_particle = limits.per_particle;
   stage_.time = limits.time;
   goal_ = stage_.collisions_per_particle * n_ / 2.0;  // each collision is one for two spheres
 }
@@ -142,7 +139,7 @@ void Stage::end_part() {
 }
 
 // Runs to the end of the part, of the stage, or of patience; JAM_STOP_NONE at the end of the part.
-int32_t Stage::advance_part(const MdListeners &listeners, double wall_end) {
+int32_t Stage::advance_part(const Listeners &listeners, double wall_end) {
   const double most = std::min(goal_, 9e18);
   while (collisions() < part_goal_) {
     if (static_cast<double>(collisions()) >= most) return JAM_STOP_COLLISIONS;
@@ -161,7 +158,7 @@ int32_t Stage::advance_part(const MdListeners &listeners, double wall_end) {
   return JAM_STOP_NONE;
 }
 
-int32_t Stage::go_on(const MdListeners &listeners, double wall_end) {
+int32_t Stage::go_on(const Listeners &listeners, double wall_end) {
   for (;;) {
     const int32_t reason = advance_part(listeners, wall_end);
     if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
@@ -254,7 +251,7 @@ Packing Stage::current() const {
   return p;
 }
 
-jam_status Stage::run(const MdStage &limits, const MdListeners &listeners, jam_md_report &report) {
+jam_status Stage::run(const Limits &limits, const Listeners &listeners) {
   const double begin = now_seconds(), begin_time = time(), wall_end = begin + limits.wall_time;
   const int64_t begin_events = events();
   call_collisions_ = collisions();
@@ -272,37 +269,18 @@ jam_status Stage::run(const MdStage &limits, const MdListeners &listeners, jam_m
   report.events += events() - begin_events;
   report.time += time() - begin_time;
   report.seconds += now_seconds() - begin;
-  finish(reason, report);
+  finish(reason);
   return status_of(reason);
 }
 
-// ---- what md.hpp promises
-
-void StageDeleter::operator()(Stage *stage) const { delete stage; }
-
-StagePtr begin_stage(Packing p, const MdStage &stage) { return StagePtr(new Stage(std::move(p), stage)); }
-StagePtr read_stage(const Packing &p, std::string bytes) {
-  Archive from(std::move(bytes));
-  return StagePtr(new Stage(p, from));
-}
-std::string write_stage(const Stage &stage) {
-  Archive a;
-  const_cast<Stage &>(stage).archive(a);  // writing changes nothing
-  return a.bytes();
-}
-jam_status run(Stage &stage, const MdStage &limits, const MdListeners &listeners, jam_md_report &report) {
-  return stage.run(limits, listeners, report);
-}
-const Packing &packing_of(const Stage &stage) { return stage.packing(); }
-bool growing(const Stage &stage) { return stage.growing(); }
-Packing current(const Stage &stage) { return stage.current(); }
-
 jam_status run_stage(Packing &p, const MdStage &stage, Monitor &monitor, jam_md_report &report) {
-  MdListeners listeners;
+  Listeners listeners;
   listeners.monitor = &monitor;
-  const StagePtr made = begin_stage(p, stage);
-  const jam_status status = run(*made, stage, listeners, report);
-  p = packing_of(*made);
+  Stage made(p, stage);
+  made.report = report;
+  const jam_status status = made.run(stage.limits(), listeners);
+  p = made.packing();
+  report = made.report;
   return status;
 }
 

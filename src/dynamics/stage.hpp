@@ -3,27 +3,31 @@
 #pragma once
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
+#include "dynamics/observer.hpp"
 
 namespace jam {
 
 double twice_kinetic(const Packing &p);
 
-class Stage {
+class Stage final : public Dynamics {
  public:
   Stage(Packing p, const MdStage &stage);
   Stage(Packing p, Archive &from);
 
-  jam_status run(const MdStage &limits, const MdListeners &listeners, jam_md_report &report);
-  const Packing &packing() const { return p_; }
-  bool growing() const { return stage_.growth > 0.0; }
-  Packing current() const;
-  void archive(Archive &a);
+  int32_t phase() const override { return growing() ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN; }
+  jam_status run(const Limits &limits, const Listeners &listeners) override;
+  const Packing &packing() const override { return p_; }
+  Packing current() const override;
+  void archive(Archive &a) override;
+  // Each run adds to it, so that stages that follow each other give one report. Not part of the archive.
+  jam_md_report report{};
 
  private:
-  void take_limits(const MdStage &limits);
+  bool growing() const { return stage_.growth > 0.0; }
+  void take_limits(const Limits &limits);
   EngineOptions options() const;
-  int32_t go_on(const MdListeners &listeners, double wall_end);
-  int32_t advance_part(const MdListeners &listeners, double wall_end);
+  int32_t go_on(const Listeners &listeners, double wall_end);
+  int32_t advance_part(const Listeners &listeners, double wall_end);
   void begin_part();
   void end_part();
   void plan_window();
@@ -35,11 +39,11 @@ class Stage {
   void attach(Observer *observer);
   void detach(Observer *observer);
   void update(Observer &observer) const;
-  bool observe(const MdListeners &listeners);
+  bool observe(const Listeners &listeners);
   void sample(Observer &observer) const;
   jam_progress progress() const;
 
-  void finish(int32_t reason, jam_md_report &report) const;
+  void finish(int32_t reason);
   double standard_error() const;
   jam_status status_of(int32_t reason) const;
   int64_t collisions() const { return old_collisions_ + engine_->sums.collisions; }

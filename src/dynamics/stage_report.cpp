@@ -29,7 +29,7 @@ void Stage::detach(Observer *observer) {
 }
 
 // What is due at this collision; true when the callback asks to stop.
-bool Stage::observe(const MdListeners &listeners) {
+bool Stage::observe(const Listeners &listeners) {
   Observer &observer = *listeners.observer;
   update(observer);
   seen_collisions_ = collisions();
@@ -67,7 +67,7 @@ jam_progress Stage::progress() const {
 }
 
 // Adds to the report, so that stages run one after the other give one.
-void Stage::finish(int32_t reason, jam_md_report &report) const {
+void Stage::finish(int32_t reason) {
   report.stop_reason = reason;
   report.collisions_per_second = static_cast<double>(report.collisions) / std::max(report.seconds, 1e-9);
   report.pressure = p_.pressure;

@@ -1,0 +1,34 @@
+#include "dynamics/dynamics.hpp"
+
+#include "core/error.hpp"
+#include "dynamics/stage.hpp"
+
+namespace jam {
+
+std::string write_dynamics(const Dynamics &dynamics) {
+  Archive a;
+  int32_t phase = dynamics.phase();
+  a(phase);
+  const_cast<Dynamics &>(dynamics).archive(a);  // writing changes nothing
+  return a.bytes();
+}
+
+std::unique_ptr<Dynamics> read_dynamics(const Packing &p, std::string bytes) {
+  Archive from(std::move(bytes));
+  int32_t phase = 0;
+  from(phase);
+  std::unique_ptr<Dynamics> dynamics;
+  switch (phase) {
+    case JAM_PHASE_RUN:
+    case JAM_PHASE_COMPRESS:
+      dynamics = std::make_unique<Stage>(p, from);
+      break;
+    default:
+      Archive::check(false);
+  }
+  from.end();
+  Archive::check(dynamics->phase() == phase);
+  return dynamics;
+}
+
+}  // namespace jam

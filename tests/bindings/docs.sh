@@ -5,6 +5,4 @@ set -eu
 html=$2/docs/html
 grep -q 'Brings the packing to its jamming point' "$html/jam_8h.html"      # a function
 grep -q 'relative complementarity and residual' "$html"/structjam__crunch__options.html  # a member
-grep -rq 'a layer calls only to the right' "$html"                            # the map of the layers
-grep -rq 'For users of CALiPPSO' "$html"
 grep -rq 'class.*System' "$html/classjam_1_1System.html"                      # C++

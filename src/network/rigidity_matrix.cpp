@@ -29,6 +29,25 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
   return g;
 }
 
+RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
+  RigidityMatrix out;
+  const size_t d = static_cast<size_t>(out.dim = g.dim);
+  out.node.assign(static_cast<size_t>(g.nodes), -1);
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (on[k]) out.node[g.a[k]] = out.node[g.b[k]] = 0;
+  for (int32_t i = 0; i < g.nodes; ++i)
+    if (out.node[i] == 0) out.node[i] = out.nodes++, out.sphere.push_back(i);
+  for (size_t k = 0; k < g.contacts(); ++k) {
+    if (!on[k]) continue;
+    out.a.push_back(out.node[g.a[k]]), out.b.push_back(out.node[g.b[k]]);
+    out.normal.insert(out.normal.end(), &g.normal[k * d], &g.normal[k * d] + d);
+    if (!g.distance.empty()) out.distance.push_back(g.distance[k]);
+    if (!g.sigma.empty()) out.sigma.push_back(g.sigma[k]);
+    if (!g.force.empty()) out.force.push_back(g.force[k]);
+  }
+  return out;
+}
+
 void apply_compatibility(const RigidityMatrix &g, const double *x, double *y) {
   const int d = g.dim;
   for (size_t k = 0; k < g.contacts(); ++k) {

@@ -25,6 +25,8 @@ struct RigidityMatrix {
 };
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network);
+// The rows that are `on`, and the nodes that they touch; its `sphere` are nodes of g, its `node` those of g too.
+RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
 
 // y (contacts) = S x: relative normal displacement of every contact, n . (x_a - x_b).
 void apply_compatibility(const RigidityMatrix &g, const double *x, double *y);

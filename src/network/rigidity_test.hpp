@@ -17,12 +17,13 @@
 #include "core/cancellation.hpp"
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
+#include "network/rattlers.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam {
 
 // Relative gaps |h| of a contact, and of a pair that doubles cannot tell from one.
-constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7;
+constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7, listed_gap_limit = 1e-5;
 // Eigenvalues of S^T S on K+: a smaller one is a flex, up to the second one it is undecided.
 constexpr double flex_eigenvalue = 1e-12, undecided_eigenvalue = 1e-10;
 
@@ -50,23 +51,19 @@ struct RigidityResult {
 RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
                              const CancellationPoint &cancel_point = CancellationPoint());
 
-// Of a packing: all pairs closed below contact_gap_limit, and those of `listed` (which may be NULL) up to
-// undecided_gap_limit. Undecided pairs are taken as closed and as open; where the two verdicts differ, the packing is
+// Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
+// below undecided_gap_limit. Undecided are other pairs below undecided_gap_limit, and those of `listed` below
+// listed_gap_limit. Undecided pairs are taken as closed, then as open; where the two verdicts differ, the packing is
 // undecided.
 struct PackingVerdict {
   RigidityResult result;
-  ContactNetwork contacts;         // all that the test looked at, force as in result
-  std::vector<int32_t> sphere;     // node of result.flex -> sphere
-  int64_t undecided_contacts = 0;  // gaps between the two limits, beside those of `listed`
+  ContactNetwork contacts;      // all that the test looked at, force as in result
+  std::vector<int32_t> sphere;  // node of result.flex -> sphere
+  int64_t undecided_contacts = 0;
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
                             const CancellationPoint &cancel_point = CancellationPoint());
-
-// Turns contacts off, again and again, on spheres where no non-negative forces can balance: where all contact vectors
-// lie on one side of a plane. Every sphere of B survives. normal: (contacts, dim), from j to i.
-void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
-                     const std::vector<double> &normal, std::vector<char> &on);
 
 }  // namespace jam

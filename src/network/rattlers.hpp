@@ -1,0 +1,27 @@
+// The one rule for rattlers: a sphere is a rattler when no contact on it can carry force in a balance of non-negative
+// forces. The number of its contacts does not matter: two opposite contacts can squeeze a sphere, and d + 1 contacts on
+// one side cannot. Here each sphere is looked at by itself, which finds most of them at once; rigidity_test.hpp decides
+// on the whole network.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace jam {
+
+// Turns contacts off, again and again, on spheres whose contact vectors all lie clearly on one side of a plane.
+// Contacts of a sphere with its own image (i == j) balance by themselves and stay. normal: (contacts, dim), from j to
+// i.
+void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
+                     const std::vector<double> &normal, std::vector<char> &on);
+
+// The same, and how each sphere can leave its contacts: in the order in which spheres were taken out.
+struct Release {
+  int32_t sphere;
+  std::vector<size_t> contacts;   // that were still on
+  std::vector<double> direction;  // unit vector with a positive component along each of them
+};
+std::vector<Release> release_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
+                                        const std::vector<double> &normal, std::vector<char> &on);
+
+}  // namespace jam

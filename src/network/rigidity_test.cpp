@@ -1,0 +1,219 @@
+#include "network/rigidity_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair_rule.hpp"
+#include "linalg/blas.hpp"
+#include "network/softest_modes.hpp"
+#include "network/stress_cone.hpp"
+
+namespace jam {
+namespace {
+
+// Flexes are counted up to this many.
+constexpr size_t most_flexes = 512;
+// A flex may close a contact by no more than this, where the largest displacement is 1.
+constexpr double flex_rounding = 1e-9;
+
+// Spheres of `sub` (a subset of g): displacements of its nodes put in the place of those of g.
+void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v) {
+  for (int32_t i = 0; i < sub.nodes; ++i)
+    for (int c = 0; c < sub.dim; ++c)
+      v[static_cast<size_t>(sub.sphere[i]) * sub.dim + c] += factor * x[i * sub.dim + c];
+}
+
+// A motion of all nodes: `x` on those of `sub`, and each released sphere, the last one first, moves out of the way of
+// its contacts. Empty where a contact closes by more than rounding.
+void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const ConstraintRows &sub_rows,
+                   const std::vector<double> &x, const std::vector<Release> &released, bool strain,
+                   RigidityResult &out) {
+  const int d = g.dim;
+  const ConstraintRows rows(g, strain);
+  std::vector<double> v(rows.columns(), 0.0), y(rows.rows());
+  if (!x.empty()) {
+    scatter(sub, x.data(), 1.0, v);
+    for (int q = 0; q < rows.strains && q < sub_rows.strains; ++q)
+      v[g.unknowns() + q] = x[sub.unknowns() + q] * rows.length / sub_rows.length;
+  }
+  for (auto r = released.rbegin(); r != released.rend(); ++r) {
+    double t = x.empty() ? 1.0 : 0.0;
+    for (const size_t k : r->contacts) {
+      double value = 0.0, along = 0.0;
+      const double *n = &g.normal[k * d], sign = g.a[k] == r->sphere ? 1.0 : -1.0;
+      for (int c = 0; c < d; ++c) {
+        value += n[c] * (v[static_cast<size_t>(g.a[k]) * d + c] - v[static_cast<size_t>(g.b[k]) * d + c]);
+        along += sign * n[c] * r->direction[c];
+      }
+      for (int q = 0; q < rows.strains; ++q) value += rows.e[k * rows.strains + q] * v[g.unknowns() + q];
+      t = std::max(t, -value / along);
+    }
+    for (int c = 0; c < d; ++c) v[static_cast<size_t>(r->sphere) * d + c] += t * r->direction[c];
+  }
+  double largest = 0.0;
+  for (int32_t i = 0; i < g.nodes; ++i) {
+    double s = 0.0;
+    for (int c = 0; c < d; ++c) s += v[static_cast<size_t>(i) * d + c] * v[static_cast<size_t>(i) * d + c];
+    largest = std::max(largest, std::sqrt(s));
+  }
+  for (int q = 0; q < rows.strains; ++q) largest = std::max(largest, std::fabs(v[g.unknowns() + q]));
+  if (!(largest > 0.0)) return;
+  for (double &value : v) value /= largest;
+  rows.multiply(v.data(), y.data());
+  for (const double opening : y)
+    if (opening < -flex_rounding) return;
+  if (strain) out.strain = rows.strain_of(v.data());
+  v.resize(g.unknowns());
+  out.flex = std::move(v);
+}
+
+// On K+: counts, rank and verdict. modes: of K+.
+void judge(const RigidityMatrix &carrying, int strains, const SoftestModes &modes, RigidityResult &out) {
+  const int d = carrying.dim;
+  out.spheres = carrying.nodes;
+  out.contacts = static_cast<int64_t>(carrying.contacts());
+  out.flexes = static_cast<int64_t>(modes.flexes.size());
+  out.margin = modes.margin;
+  const int64_t motions = d * (out.spheres - 1) + strains;
+  out.contacts_needed = motions + 1;
+  out.self_stresses = out.contacts - (motions - out.flexes);
+  std::vector<int32_t> z(carrying.nodes, 0);
+  for (size_t k = 0; k < carrying.contacts(); ++k)
+    if (carrying.a[k] != carrying.b[k]) ++z[carrying.a[k]], ++z[carrying.b[k]];
+  out.bridges = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
+  out.jammed = out.flexes > 0 ? Verdict::no : modes.margin < undecided_eigenvalue ? Verdict::undecided : Verdict::yes;
+}
+
+}  // namespace
+
+RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
+  const BlasSingleThread single;
+  const bool strain = kind == Jamming::strict;
+  const size_t m = g.contacts();
+  RigidityResult out;
+  out.carrying.assign(m, 0), out.force.assign(m, 0.0);
+  std::vector<char> on(m, 1);
+  int64_t self = 0;
+  for (size_t k = 0; k < m && !strain; ++k)  // a sphere and its own image keep their distance in a fixed cell
+    if (g.a[k] == g.b[k]) on[k] = 0, ++self;
+  const std::vector<Release> released = release_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on);
+  const RigidityMatrix sub = subset(g, on);
+  const ConstraintRows rows(sub, strain);
+  out.idle_contacts = static_cast<int64_t>(m) - self;
+  if (sub.contacts() == 0) {
+    complete_flex(g, sub, rows, {}, released, strain, out);
+    return out;
+  }
+  NormalSolver solver(rows);
+  solver.factorise(std::vector<double>(sub.contacts(), 1.0), flex_eigenvalue);
+  SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, most_flexes, cancel_point);
+  const int64_t rank = static_cast<int64_t>(rows.columns()) - g.dim - static_cast<int64_t>(modes.flexes.size());
+  const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(sub.contacts()) - rank) : -1;
+  const StressCone cone = find_stress_cone(rows, solver, states, cancel_point);
+  if (!cone.decided) {
+    out.jammed = out.stressed = Verdict::undecided;
+    out.margin = modes.margin;
+    return out;
+  }
+  size_t at = 0, count = 0;
+  for (size_t k = 0; k < m; ++k)
+    if (on[k]) {
+      count += out.carrying[k] = cone.carrying[at];
+      out.force[k] = cone.force[at++];
+    }
+  out.idle_contacts -= static_cast<int64_t>(count);
+  if (count == 0) {
+    complete_flex(g, sub, rows, cone.motion, released, strain, out);
+    return out;
+  }
+  out.stressed = Verdict::yes;
+  const RigidityMatrix carrying = subset(sub, cone.carrying);
+  const ConstraintRows kept(carrying, strain);
+  if (count < sub.contacts()) {
+    NormalSolver inner(kept);
+    inner.factorise(std::vector<double>(count, 1.0), flex_eigenvalue);
+    modes = softest_modes(kept, inner, flex_eigenvalue, most_flexes, cancel_point);
+  }
+  judge(carrying, rows.strains, modes, out);
+  std::vector<double> f;
+  for (size_t k = 0; k < sub.contacts(); ++k)
+    if (cone.carrying[k]) f.push_back(cone.force[k]);
+  out.force_residual = balance_residual(carrying, f.data());
+  if (out.flexes == 0) return out;
+  // A flex of B, and as much of the motion that opens all other contacts as keeps them open.
+  std::vector<double> x(rows.columns(), 0.0), y0(rows.rows()), y1(rows.rows());
+  scatter(carrying, modes.flexes[0].data(), 1.0, x);
+  for (int q = 0; q < rows.strains; ++q)
+    x[sub.unknowns() + q] = modes.flexes[0][carrying.unknowns() + q] * rows.length / kept.length;
+  if (!cone.motion.empty()) {
+    rows.multiply(x.data(), y0.data());
+    rows.multiply(cone.motion.data(), y1.data());
+    double factor = 0.0;
+    for (size_t k = 0; k < rows.rows(); ++k)
+      if (!cone.carrying[k]) factor = std::max(factor, -y0[k] / y1[k]);
+    for (size_t k = 0; k < x.size(); ++k) x[k] += factor * cone.motion[k];
+  }
+  complete_flex(g, sub, rows, x, released, strain, out);
+  return out;
+}
+
+ContactNetwork PackingVerdict::carrying(int dim) const { return subset(contacts, result.carrying, dim); }
+
+namespace {
+
+// Result on the rows that are `on`, with its arrays as long as those of the whole list.
+RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, Jamming kind,
+                         const CancellationPoint &cancel_point) {
+  const RigidityMatrix part = subset(g, on);
+  RigidityResult r = test_rigidity(part, kind, cancel_point);
+  std::vector<char> carrying(g.contacts(), 0);
+  std::vector<double> force(g.contacts(), 0.0);
+  for (size_t k = 0, at = 0; k < g.contacts(); ++k)
+    if (on[k]) carrying[k] = r.carrying[at], force[k] = r.force[at++];
+  r.carrying = std::move(carrying), r.force = std::move(force);
+  if (!r.flex.empty()) {
+    std::vector<double> v(g.unknowns(), 0.0);
+    scatter(part, r.flex.data(), 1.0, v);
+    r.flex = std::move(v);
+  }
+  return r;
+}
+
+}  // namespace
+
+PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
+                            const CancellationPoint &cancel_point) {
+  PackingVerdict out;
+  ContactNetwork &net = out.contacts;
+  ContactNetwork near;
+  near.pairs = find_pairs(p, 0.0, 1.0 + listed_gap_limit);
+  measure_contacts(p, near);
+  near.coordination.assign(p.n(), 0);
+  near.force.assign(near.size(), 0.0);
+  std::vector<double> in_list(near.size(), 0.0);
+  if (listed) in_list = carry_over(listed->pairs, std::vector<double>(listed->size(), 1.0), near.pairs);
+  std::vector<char> wanted(near.size());
+  for (size_t k = 0; k < near.size(); ++k) wanted[k] = near.gap[k] < undecided_gap_limit || in_list[k] > 0.0;
+  net = subset(near, wanted, p.dim);
+  std::vector<char> closed;
+  for (size_t k = 0; k < near.size(); ++k)
+    if (wanted[k]) closed.push_back(near.gap[k] < (in_list[k] > 0.0 ? undecided_gap_limit : contact_gap_limit));
+  out.undecided_contacts = std::count(closed.begin(), closed.end(), 0);
+  const RigidityMatrix g = make_rigidity_matrix(p, net);
+  out.sphere = g.sphere;
+  out.result = test_rigidity(g, kind, cancel_point);
+  if (out.undecided_contacts > 0) {
+    RigidityResult open = test_part(g, closed, kind, cancel_point);
+    if (open.jammed == Verdict::yes && out.result.jammed == Verdict::yes)
+      out.result = std::move(open);
+    else if (open.jammed != out.result.jammed)
+      out.result.jammed = Verdict::undecided;
+  }
+  net.force = out.result.force;
+  double sum = 0.0;
+  for (size_t k = 0; k < g.contacts(); ++k) sum += net.force[k] * g.sigma[k] * g.sigma[k] / g.distance[k];
+  net.force_scale = sum > 0.0 ? 1.0 / sum : 0.0;
+  return out;
+}
+
+}  // namespace jam

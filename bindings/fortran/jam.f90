@@ -181,12 +181,14 @@ module jam
     integer(c_int32_t) :: masses = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
+    ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
+    real(c_double) :: non_additivity = 0
   end type jam_create_options
 
   ! What the system is now. @since 0.1
   type, bind(c) :: jam_info
     ! set by the caller: sizeof(jam_info)
-    integer(c_int32_t) :: struct_size = 72
+    integer(c_int32_t) :: struct_size = 80
     ! d
     integer(c_int32_t) :: dim = 0
     ! number of spheres
@@ -209,6 +211,8 @@ module jam
     integer(c_int32_t) :: masses = 0
     ! jam_phase of the MD stage that was stopped early and can be resumed, or 0
     integer(c_int32_t) :: paused = 0
+    ! Delta of a non-additive mixture, 0 for additive diameters
+    real(c_double) :: non_additivity = 0
   end type jam_info
 
   ! Given to the progress callback; valid during the call only. @since 0.1

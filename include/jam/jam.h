@@ -147,6 +147,8 @@ typedef struct jam_create_options {
   double mk_zeta;          /* MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted */
   int32_t masses;          /* jam_masses, default EQUAL */
   int32_t reserved;        /* 0 */
+  double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
+                          * default 0. A file's own value wins. */
 } jam_create_options;
 
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
@@ -184,6 +186,7 @@ typedef struct jam_info {
   int32_t monodisperse;    /* 1 when all diameters are equal */
   int32_t masses;          /* jam_masses */
   int32_t paused;          /* jam_phase of the MD stage that was stopped early and can be resumed, or 0 */
+  double non_additivity;   /* Delta of a non-additive mixture, 0 for additive diameters */
 } jam_info;
 
 /* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */

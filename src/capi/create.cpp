@@ -5,6 +5,7 @@
 
 #include "capi/guard.hpp"
 #include "core/create.hpp"
+#include "core/limits.hpp"
 #include "core/pairs.hpp"
 
 using namespace jam;
@@ -100,6 +101,7 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
     full.model = p.model;
     full.monodisperse = sys->monodisperse;
     full.masses = p.masses;
+    full.non_additivity = p.non_additivity;
     full.paused = sys->paused ? sys->paused->phase() : 0;
     give_struct(full, info);
     return JAM_OK;
@@ -138,6 +140,8 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
     if (velocities_len != v.size())
       fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
     check_array_in(velocities, velocities_len, "velocities");
+    for (size_t k = 0; k < velocities_len; ++k)
+      check_range("a velocity component", velocities[k], -limits::velocity_max, limits::velocity_max);
     std::copy(velocities, velocities + velocities_len, v.begin());
     sys->packing.has_velocity = true;
     sys->paused.reset();
@@ -151,6 +155,7 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
       fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
+    check_diameters(p.diameter, p.box);
     if (factor > 1.0) settle_overlaps(p, JAM_OVERLAP_REFUSE);
     sys->commit(p);
     sys->drop_results();

@@ -83,24 +83,41 @@ inline void need(const void *pointer, const char *name) {
   if (!pointer) fail(JAM_E_NULL, "%s is NULL", name);
 }
 
+// The size that a caller states for a struct. The size of every older, shorter version is a multiple of the alignment,
+// and such a size never ends inside a field.
+template <class T>
+void check_struct_size(size_t size, const char *name) {
+  if (size < sizeof(uint32_t) || size > sizeof(T))
+    fail(JAM_E_STRUCT_SIZE, "%s is %zu, this library knows up to %zu", name, size, sizeof(T));
+  if (size % alignof(T) != 0) fail(JAM_E_STRUCT_SIZE, "%s is %zu, which cuts a field in two", name, size);
+}
+
+template <class T>
+auto check_reserved(const T &options, int) -> decltype(options.reserved, void()) {
+  if (options.reserved != 0)
+    fail(JAM_E_ARGUMENT, "reserved is %lld, it must be 0", static_cast<long long>(options.reserved));
+}
+template <class T>
+void check_reserved(const T &, long) {}  // structs without such a field
+
 // Copies a caller's option struct into a full one: fields the caller's header did not know keep their defaults.
 // `full` holds the defaults; NULL options leave it so.
 template <class T>
 void take_options(const T *options, T &full) {
   if (!options) return;
   const uint32_t size = options->struct_size;
-  if (size < sizeof(uint32_t) || size > sizeof(T))
-    fail(JAM_E_STRUCT_SIZE, "struct_size is %u, this library knows up to %zu", size, sizeof(T));
+  check_struct_size<T>(size, "struct_size");
   std::memcpy(static_cast<void *>(&full), options, size);
   full.struct_size = sizeof(T);
+  check_reserved(full, 0);
 }
 
 // Writes as much of `full` as the caller's struct holds and leaves the caller's struct_size.
 template <class T>
 void check_out_struct(const T *out, const char *name) {
   if (!out) return;
-  if (out->struct_size < sizeof(uint32_t) || out->struct_size > sizeof(T))
-    fail(JAM_E_STRUCT_SIZE, "%s->struct_size is %u, this library knows up to %zu", name, out->struct_size, sizeof(T));
+  if (out->struct_size < sizeof(uint32_t) || out->struct_size > sizeof(T) || out->struct_size % alignof(T) != 0)
+    fail(JAM_E_STRUCT_SIZE, "%s->struct_size is %u, this library knows %zu", name, out->struct_size, sizeof(T));
 }
 template <class T>
 void give_struct(const T &full, T *out) {
@@ -114,8 +131,7 @@ template <class T>
 jam_status init_options(T *out, size_t size, T defaults) noexcept {
   return guard([&]() -> jam_status {
     need(out, "o");
-    if (size < sizeof(uint32_t) || size > sizeof(T))
-      fail(JAM_E_STRUCT_SIZE, "size is %zu, this library knows up to %zu", size, sizeof(T));
+    check_struct_size<T>(size, "size");
     defaults.struct_size = static_cast<uint32_t>(size);
     std::memcpy(static_cast<void *>(out), &defaults, size);
     return JAM_OK;

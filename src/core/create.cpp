@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
@@ -13,10 +14,10 @@ namespace jam {
 namespace {
 
 void check_options(const jam_create_options &o) {
-  if (o.dim < 2 || o.dim > JAM_MAX_DIM) fail(JAM_E_DIMENSION, "dim is %d, supported are 2..%d", o.dim, JAM_MAX_DIM);
-  if (o.n < 0 || o.n > INT32_MAX)
-    fail(JAM_E_ARGUMENT, "n is %lld, it must be in 1..2^31-1", static_cast<long long>(o.n));
-  if (!(o.box > 0.0) || !std::isfinite(o.box)) fail(JAM_E_ARGUMENT, "box is %g, it must be positive and finite", o.box);
+  check_dim(o.dim);
+  if (o.n != 0) check_n(o.n);  // 0: taken from the arrays
+  check_box(o.box);
+  check_non_additivity(o.non_additivity);
   if (o.overlap != JAM_OVERLAP_REFUSE && o.overlap != JAM_OVERLAP_SHRINK)
     fail(JAM_E_ARGUMENT, "overlap is %d, not a jam_overlap_policy", o.overlap);
   if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK)
@@ -32,7 +33,7 @@ size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t d
     fail(JAM_E_ARGUMENT, "positions_len is %zu, not a multiple of dim %d", positions_len, o.dim);
   if (n == 0) n = positions_len ? positions_len / o.dim : diameters_len;
   if (n == 0) fail(JAM_E_ARGUMENT, "n is 0 and no arrays are given");
-  if (n > INT32_MAX) fail(JAM_E_ARGUMENT, "n is %zu, it must be in 1..2^31-1", n);
+  check_n(static_cast<int64_t>(n));
   if (positions_len && positions_len != n * o.dim)
     fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, n * o.dim);
   if (diameters_len > 1 && diameters_len != n)
@@ -103,6 +104,40 @@ class GrowingCells {
   std::vector<int32_t> head_, next_;
 };
 
+// Factor by which all diameters must shrink before the spheres could fit at all, wherever they lie; 1 when they could.
+// Without this test a search for the worst pair would list images without end. Conditions: no sphere is wider than the
+// box; no contact distance exceeds sqrt(d)/2 box, the largest distance of nearest images; the volume of the hard cores,
+// which are (1 + Delta) sigma when Delta < 0, is at most that of the box. Mari-Kurchan spheres share space: there is no
+// such bound on their volume.
+double fitting_factor(const Packing &p) {
+  double widest = 0.0, other = 0.0;  // the two largest diameters that differ
+  for (double s : p.diameter) {
+    if (s > widest)
+      other = widest, widest = s;
+    else if (s < widest && s > other)
+      other = s;
+  }
+  double scale = widest / p.box;
+  const double unlike = 0.5 * (1.0 + p.non_additivity) * (widest + other);
+  if (other > 0.0) scale = std::max(scale, unlike / (0.5 * std::sqrt(static_cast<double>(p.dim)) * p.box));
+  if (p.model == JAM_MODEL_EUCLID) {
+    double volume = 0.0;  // of the spheres, in units of widest^d: no overflow whatever the diameters are
+    for (double s : p.diameter) volume += unit_sphere_volume(p.dim) * std::pow(s / widest, p.dim);
+    const double core = 1.0 + std::min(0.0, p.non_additivity);
+    scale = std::max(scale, core * std::pow(volume, 1.0 / p.dim) * widest / p.box);
+  }
+  return scale > 1.0 + overlap_tolerance ? 1.0 / scale : 1.0;
+}
+
+[[noreturn]] void refuse_unfitting(const Packing &p) {
+  const auto widest = std::max_element(p.diameter.begin(), p.diameter.end());
+  if (*widest > p.box)
+    fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g", widest - p.diameter.begin(),
+         *widest, p.box);
+  fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", p.box,
+       *widest, packing_fraction(p));
+}
+
 }  // namespace
 
 jam_create_options default_create_options() {
@@ -122,9 +157,10 @@ void place_at_random(Packing &p) {
   const size_t n = p.n();
   const int d = p.dim;
   p.position.assign(n * d, 0.0);
-  if (diameter_max(p) > p.box)
-    fail(JAM_E_UNPLACEABLE, "the largest diameter %g does not fit the box %g; packing fraction reached: 0",
-         diameter_max(p), p.box);
+  if (fitting_factor(p) < 1.0)
+    fail(JAM_E_UNPLACEABLE,
+         "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: 0",
+         packing_fraction(p), diameter_max(p), p.box);
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
@@ -181,13 +217,9 @@ void plant(Packing &p) {
 }
 
 void settle_overlaps(Packing &p, int32_t policy) {
-  // A sphere wider than the box overlaps its own images, and the list of images would have no end.
-  const auto widest = std::max_element(p.diameter.begin(), p.diameter.end());
-  if (p.model == JAM_MODEL_EUCLID && *widest > p.box * (1.0 + overlap_tolerance)) {
-    if (policy == JAM_OVERLAP_REFUSE)
-      fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g",
-           widest - p.diameter.begin(), *widest, p.box);
-    const double factor = p.box / *widest;
+  check_diameters(p.diameter, p.box);
+  if (const double factor = fitting_factor(p); factor < 1.0) {
+    if (policy == JAM_OVERLAP_REFUSE) refuse_unfitting(p);
     for (double &s : p.diameter) s *= factor;
   }
   const ClosestPair worst = closest_pair(p);
@@ -197,6 +229,7 @@ void settle_overlaps(Packing &p, int32_t policy) {
   if (worst.gap <= -1.0 + 1e-12)
     fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
   for (double &s : p.diameter) s *= 1.0 + worst.gap;
+  check_diameters(p.diameter, p.box);
 }
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
@@ -214,6 +247,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   p.seed = o.seed;
   p.model = o.model;
   p.mk_zeta = o.mk_zeta;
+  p.non_additivity = o.non_additivity;
   p.masses = o.masses;
   p.diameter = take_diameters(n, diameters, diameters_len);
   if (positions_len) {
@@ -225,6 +259,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
     const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
+    check_diameters(p.diameter, p.box);
     if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
       plant(p);
     else

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
 
@@ -62,6 +63,9 @@ std::vector<int32_t> curve_order(const Packing &p) {
 }
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
+  if (p.non_additivity != 0.0)
+    fail(JAM_E_UNSUPPORTED, "molecular dynamics of non-additive mixtures is not available: non_additivity is %g",
+         p.non_additivity);
   const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(diameter_max(p) / p.box);
   return choose(p, o, images, nullptr);
 }
@@ -102,7 +106,8 @@ void check_run_options(const jam_run_options &o) {
 void check_compress_options(const jam_compress_options &o) {
   flag(o.resume, "resume");
   positive(o.growth_rate, "growth_rate");
-  if (o.growth_rate == no_limit) fail(JAM_E_ARGUMENT, "growth_rate is %g", o.growth_rate);
+  if (o.growth_rate > limits::growth_rate_max)
+    fail(JAM_E_ARGUMENT, "growth_rate is %g, supported are values up to %g", o.growth_rate, limits::growth_rate_max);
   if (!(o.pressure > 1.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be greater than 1", o.pressure);
   positive(o.packing_fraction, "packing_fraction");
   positive(o.collisions_per_particle, "collisions_per_particle");

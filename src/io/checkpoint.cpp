@@ -7,19 +7,20 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/rng.hpp"
 #include "io/output_file.hpp"
 
 namespace jam {
 namespace {
 
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '2'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '3'};
 
 struct Header {
   char magic[8];
   int64_t n, seed, redrawn, stage;
   int32_t dim, model, has_velocity, masses;
-  double box, mk_zeta, pressure;
+  double box, mk_zeta, pressure, non_additivity;
 };
 
 uint64_t checksum(const char *data, size_t size) {
@@ -70,6 +71,7 @@ void write_checkpoint(const Packing &p, const std::string &stage, const char *pa
   h.box = p.box;
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
+  h.non_additivity = p.non_additivity;
   std::string &text = file.text();
   text.assign(reinterpret_cast<const char *>(&h), sizeof h);
   put(text, p.position);
@@ -108,6 +110,7 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   p.masses = h.masses;
   p.mk_zeta = h.mk_zeta;
   p.pressure = h.pressure;
+  p.non_additivity = h.non_additivity;
   p.has_velocity = h.has_velocity != 0;
   const char *at = all.data() + sizeof h;
   const size_t n = static_cast<size_t>(h.n), d = static_cast<size_t>(h.dim);
@@ -116,10 +119,14 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   take(at, p.velocity, n * d);
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
   stage.assign(at, static_cast<size_t>(h.stage));
-  bool good = h.box > 0.0 && std::isfinite(h.box) && (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
+  check_dim(h.dim);
+  check_box(h.box);
+  check_non_additivity(h.non_additivity);
+  bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
   for (double x : p.position) good = good && x >= 0.0 && x < h.box;
   for (double s : p.diameter) good = good && s > 0.0 && s <= h.box;
+  if (good) check_diameters(p.diameter, p.box);
   for (double v : p.velocity) good = good && std::isfinite(v);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {

@@ -1,33 +1,43 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "io/files.hpp"
 #include "io/text.hpp"
 
 namespace jam {
 namespace {
 
-int check_dim(const LineReader &in, int64_t dim) {
-  if (dim < 2 || dim > JAM_MAX_DIM)
-    in.fail(JAM_E_DIMENSION, "the dimension is %lld, supported are 2..%d", static_cast<long long>(dim), JAM_MAX_DIM);
+// Runs a check of core/limits.hpp; its error gets the path and the line in front.
+template <class Check>
+void at_line(const LineReader &in, Check &&check) {
+  try {
+    check();
+  } catch (const Error &e) {
+    in.fail(e.code(), "%s", e.what());
+  }
+}
+
+int take_dim(const LineReader &in, int64_t dim) {
+  at_line(in, [&] { check_dim(dim); });
   return static_cast<int>(dim);
 }
 
-int64_t check_count(const LineReader &in, int64_t n) {
-  if (n < 1 || n > INT32_MAX)
-    in.fail(JAM_E_ARGUMENT, "the number of spheres is %lld, it must be in 1..2^31-1", static_cast<long long>(n));
+int64_t take_count(const LineReader &in, int64_t n) {
+  at_line(in, [&] { check_n(n); });
   return n;
 }
-
-// Lengths below this would lose their digits, and their squares everything.
-constexpr double least_length = 1e-150, most_length = 1e150;
 
 double positive(const LineReader &in, std::string_view word, const char *what) {
   const double x = parse_number(in, word);
   if (!(x > 0.0)) in.fail(JAM_E_ARGUMENT, "the %s is %g, it must be positive", what, x);
-  if (x < least_length || x > most_length)
-    in.fail(JAM_E_ARGUMENT, "the %s is %g, supported are %g..%g", what, x, least_length, most_length);
   return x;
+}
+
+double take_box(const LineReader &in, std::string_view word) {
+  const double side = positive(in, word, "box side");
+  at_line(in, [&] { check_box(side); });
+  return side;
 }
 
 [[noreturn]] void ends_early(const LineReader &in, int64_t found, int64_t n) {
@@ -53,7 +63,7 @@ bool read_diameter_line(LineReader &in, FileContent &content) {
             shown(line).c_str());
   const bool each = words[0] == "diameters";
   if (!each) content.diameter.push_back(positive(in, words[0], "diameter"));
-  if (words.size() == 3) content.box = positive(in, words[2], "box side");
+  if (words.size() == 3) content.box = take_box(in, words[2]);
   return each;
 }
 
@@ -63,7 +73,7 @@ FileContent read_plain(LineReader &in, int dim, std::string_view count_line) {
   std::vector<std::string_view> words;
   split(count_line, words);
   if (words.size() != 1) in.fail(JAM_E_FORMAT, "'%s' is not one number of spheres", shown(count_line).c_str());
-  const int64_t n = check_count(in, parse_count(in, words[0], "a number of spheres"));
+  const int64_t n = take_count(in, parse_count(in, words[0], "a number of spheres"));
   const bool each = read_diameter_line(in, content);
   const size_t columns = static_cast<size_t>(content.dim) + (each ? 1 : 0);
   std::string_view line;
@@ -141,7 +151,7 @@ double read_lattice(const LineReader &in, std::string_view lattice, int dim) {
   std::vector<std::string_view> words;
   split(lattice, words);
   if (words.size() != 9) in.fail(JAM_E_FORMAT, "Lattice has %zu numbers, 9 are needed", words.size());
-  const double side = positive(in, words[0], "box side");
+  const double side = take_box(in, words[0]);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
       const double x = parse_number(in, words[3 * row + column]);
@@ -153,18 +163,23 @@ double read_lattice(const LineReader &in, std::string_view lattice, int dim) {
 }
 
 FileContent read_xyz(LineReader &in, int64_t n, std::string_view comment) {
-  check_count(in, n);
+  take_count(in, n);
   std::string_view value;
   FileContent content;
   if (!find_key(in, comment, "Properties", value)) in.fail(JAM_E_FORMAT, "no Properties=");
   const Columns columns = read_properties(in, value);
   int64_t dim = static_cast<int64_t>(columns.pos_count);
   if (find_key(in, comment, "dim", value)) dim = parse_count(in, value, "a dimension");
-  content.dim = check_dim(in, dim);
+  content.dim = take_dim(in, dim);
   if (dim != static_cast<int64_t>(columns.pos_count) && !(dim == 2 && columns.pos_count == 3))
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
   if (!find_key(in, comment, "Lattice", value)) in.fail(JAM_E_FORMAT, "no Lattice=");
   content.box = read_lattice(in, value, content.dim);
+  if (find_key(in, comment, "non_additivity", value)) {
+    content.non_additivity = parse_number(in, value);
+    content.has_non_additivity = true;
+    at_line(in, [&] { check_non_additivity(content.non_additivity); });
+  }
   std::string_view line;
   std::vector<std::string_view> words;
   for (int64_t k = 0; k < n; ++k) {
@@ -195,8 +210,8 @@ FileContent read_file(const char *path) {
   const std::string second(line);  // the number of spheres in a plain file, key=value pairs in XYZ
   if (second.find('=') != std::string::npos) return read_xyz(in, first, second);
   if (first < 2 || first > JAM_MAX_DIM)
-    fail(JAM_E_DIMENSION, "%s line %lld: the dimension is %lld, supported are 2..%d", path,
-         static_cast<long long>(first_line), static_cast<long long>(first), JAM_MAX_DIM);
+    fail(JAM_E_DIMENSION, "%s line %lld: dim is %lld, supported are 2..%d", path, static_cast<long long>(first_line),
+         static_cast<long long>(first), JAM_MAX_DIM);
   return read_plain(in, static_cast<int>(first), second);
 }
 

@@ -56,7 +56,12 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
   out += "\" Properties=id:I:1:pos:R:" + std::to_string(columns) + ":radius:R:1";
   if (coordination) out += ":contacts:I:1";
   out += p.dim == 2 ? " pbc=\"T T F\"" : " pbc=\"T T T\"";
-  out += " dim=" + std::to_string(p.dim) + "\n";
+  out += " dim=" + std::to_string(p.dim);
+  if (p.non_additivity != 0.0) {
+    out += " non_additivity=";
+    append_number(out, p.non_additivity);
+  }
+  out += '\n';
   for (size_t i = 0; i < p.n(); ++i) {
     out += std::to_string(i);
     for (int c = 0; c < columns; ++c) {
@@ -81,6 +86,9 @@ void write_file(const Packing &p, const std::vector<int32_t> *coordination, cons
     fail(JAM_E_ARGUMENT, "format is %d, not a jam_format", format);
   const bool xyz = format == JAM_FORMAT_XYZ ||
                    (format == JAM_FORMAT_AUTO && (ends_with(path, ".xyz") || ends_with(path, ".extxyz")));
+  if (!xyz && p.non_additivity != 0.0)
+    fail(JAM_E_UNSUPPORTED, "plain text cannot hold non_additivity = %g: write extended XYZ or a checkpoint",
+         p.non_additivity);
   OutputFile file(path);
   if (xyz)
     write_xyz(p, coordination, file);

@@ -9,7 +9,7 @@
 #define CHECK(type, member, at, size) \
   typedef char check_##type##_##member[offsetof(type, member) == (at) && sizeof(((type *)0)->member) == (size) ? 1 : -1]
 
-CHECK_SIZE(jam_create_options, 64);
+CHECK_SIZE(jam_create_options, 72);
 CHECK(jam_create_options, struct_size, 0, 4);
 CHECK(jam_create_options, dim, 4, 4);
 CHECK(jam_create_options, n, 8, 8);
@@ -21,7 +21,8 @@ CHECK(jam_create_options, model, 44, 4);
 CHECK(jam_create_options, mk_zeta, 48, 8);
 CHECK(jam_create_options, masses, 56, 4);
 CHECK(jam_create_options, reserved, 60, 4);
-CHECK_SIZE(jam_info, 72);
+CHECK(jam_create_options, non_additivity, 64, 8);
+CHECK_SIZE(jam_info, 80);
 CHECK(jam_info, struct_size, 0, 4);
 CHECK(jam_info, dim, 4, 4);
 CHECK(jam_info, n, 8, 8);
@@ -34,6 +35,7 @@ CHECK(jam_info, model, 56, 4);
 CHECK(jam_info, monodisperse, 60, 4);
 CHECK(jam_info, masses, 64, 4);
 CHECK(jam_info, paused, 68, 4);
+CHECK(jam_info, non_additivity, 72, 8);
 CHECK_SIZE(jam_progress, 88);
 CHECK(jam_progress, struct_size, 0, 4);
 CHECK(jam_progress, phase, 4, 4);
@@ -233,6 +235,7 @@ int main(void) {
   SHOW(jam_create_options, mk_zeta);
   SHOW(jam_create_options, masses);
   SHOW(jam_create_options, reserved);
+  SHOW(jam_create_options, non_additivity);
   printf("jam_info sizeof %zu\n", sizeof(jam_info));
   SHOW(jam_info, struct_size);
   SHOW(jam_info, dim);
@@ -246,6 +249,7 @@ int main(void) {
   SHOW(jam_info, monodisperse);
   SHOW(jam_info, masses);
   SHOW(jam_info, paused);
+  SHOW(jam_info, non_additivity);
   printf("jam_progress sizeof %zu\n", sizeof(jam_progress));
   SHOW(jam_progress, struct_size);
   SHOW(jam_progress, phase);

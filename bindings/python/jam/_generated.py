@@ -210,7 +210,8 @@ class Info:
     model: jam_model
     monodisperse: 1 when all diameters are equal
     masses: jam_masses
-    paused: jam_phase of the MD stage that was stopped early and can be resumed, or 0"""
+    paused: jam_phase of the MD stage that was stopped early and can be resumed, or 0
+    non_additivity: Delta of a non-additive mixture, 0 for additive diameters"""
     dim: int
     n: int
     seed: int
@@ -222,6 +223,7 @@ class Info:
     monodisperse: int
     masses: Masses
     paused: Phase
+    non_additivity: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -472,6 +474,7 @@ OPTIONS = {
         "model": ("Model", 'jam_model, default EUCLID'),
         "mk_zeta": ("float", 'MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted'),
         "masses": ("Masses", 'jam_masses, default EQUAL'),
+        "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
     },
     "jam_run_options": {
         "resume": ("int", '1: go on with the run that stopped early; default 0'),

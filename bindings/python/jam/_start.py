@@ -71,6 +71,7 @@ def start(o: argparse.Namespace) -> System:
     model = {
         "model": "mk" if o.model == "mk" or o.zeta is not None or o.plant is not None else "euclid",
         "mk_zeta": o.zeta,
+        "non_additivity": o.non_additivity,
     }
     if o.input:
         return System.read(o.input, seed=o.seed, box=o.box, overlap="shrink" if o.shrink else "refuse", **model)

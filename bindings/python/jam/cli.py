@@ -36,6 +36,12 @@ def _not_negative(text: str) -> float:
     return 0.0 if float(text) == 0 else _positive(text)
 
 
+def _delta(text: str) -> float:
+    if not -1 < float(text) <= 1:
+        raise argparse.ArgumentTypeError(f"{text!r} must be a number above -1 and at most 1")
+    return float(text)
+
+
 def _whole(text: str) -> int:
     if int(text) < 0:
         raise argparse.ArgumentTypeError(f"{text!r} must be an integer >= 0")
@@ -74,6 +80,13 @@ def parser() -> argparse.ArgumentParser:
         metavar="WHAT",
         help="bidisperse:R as above; lognormal:S with S the standard "
         "deviation over the mean; or a file of diameters, of which the ratios count",
+    )
+    p.add_argument(
+        "--non-additivity",
+        type=_delta,
+        default=0.0,
+        metavar="D",
+        help="spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)",
     )
     p.add_argument(
         "--model", choices=["euclid", "mk"], default="euclid", help="distance: Euclidean (default) or Mari-Kurchan"
@@ -277,6 +290,8 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
             p.error(f"--{key} would overwrite the input")
         if o.no_crunch and key in ("contacts", "spectrum", "gaps", "structure"):
             p.error(f"--{key} needs the crunch that --no-crunch leaves out")
+    if o.non_additivity and o.output and not o.output.endswith((".xyz", ".extxyz")):
+        p.error("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it")
     if o.resume and o.input:
         p.error("--resume and --input are two starts")
     if o.modes is not None and not o.spectrum:

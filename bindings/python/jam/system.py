@@ -40,7 +40,7 @@ class System(State, Verbs, Network):
 
         n: number of spheres. dim: 2..8. seed: of every random stream. packing_fraction: of the start.
         diameters: None (all equal) or n values of which only the ratios count.
-        options: box, model ('euclid' or 'mk'), mk_zeta.
+        options: box, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity.
         """
         sizes = None if diameters is None else _calls.as_array(diameters, name="diameters").reshape(-1)
         return cls._create(dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction), None, sizes)
@@ -50,7 +50,7 @@ class System(State, Verbs, Network):
         """From positions (n, d), unit of box, wrapped into [0, box), and diameters (n,) or one number.
 
         Any real dtype, order and stride; what is not C-contiguous float64 is copied once.
-        options: overlap ('refuse' or 'shrink'), seed, model, mk_zeta.
+        options: overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity.
         """
         x = _calls.as_array(positions, name="positions")
         if x.ndim != 2:
@@ -62,7 +62,8 @@ class System(State, Verbs, Network):
 
     @classmethod
     def read(cls, path: str | os.PathLike, **options: Any) -> "System":
-        """From a file, plain text or extended XYZ, told by its content. options: box, overlap, seed, model, mk_zeta."""
+        """From a file, plain text or extended XYZ, told by its content. options: box, overlap, seed, model, mk_zeta,
+        masses, non_additivity; what the file holds wins."""
         made = _calls.options("jam_create_options", options)
         return cls(raw.jam_read(os.fspath(path), made)[1])
 

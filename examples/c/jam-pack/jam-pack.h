@@ -25,7 +25,7 @@ typedef struct options {
   int64_t modes; /* how many --spectrum writes, 0: all; -1: not given */
   const char *spectrum, *gaps, *structure;
   int32_t model, n_given;
-  double zeta, lognormal;
+  double zeta, lognormal, non_additivity;
   const char *diameters_file, *checkpoint, *resume;
 } options;
 

@@ -21,6 +21,8 @@ static const char help[] =
     "  --diameters-ratio R    half of the spheres are R times as large (1)\n"
     "  --diameters WHAT       bidisperse:R as above; lognormal:S with S the standard deviation\n"
     "                         over the mean; or a file of diameters, of which the ratios count\n"
+    "  --non-additivity D     spheres of unequal diameters touch at (1 + D) times their mean\n"
+    "                         diameter, -1 < D <= 1 (0)\n"
     "  --model euclid|mk      distance: Euclidean (default) or Mari-Kurchan\n"
     "  --zeta Z               strength of the Mari-Kurchan shifts (infinite)\n"
     "  --plant F              Mari-Kurchan start, planted in equilibrium at packing fraction F\n"
@@ -77,6 +79,14 @@ static int take_number(const char *name, const char *value, double *out, int zer
   return 0;
 }
 
+static int take_delta(const char *name, const char *value, double *out) {
+  char *end;
+  *out = strtod(value, &end);
+  if (end == value || *end || !(*out > -1 && *out <= 1))
+    return bad_value(name, value, "a number above -1 and at most 1");
+  return 0;
+}
+
 static int take_integer(const char *name, const char *value, int64_t least, int64_t most, int64_t *out) {
   char *end, need[80];
   long long x;
@@ -126,6 +136,8 @@ static int take_value(const char *name, const char *value, options *o) {
     status = take_number(name, value, &o->phi0, 0);
   else if (!strcmp(name, "--diameters-ratio"))
     status = take_number(name, value, &o->ratio, 0);
+  else if (!strcmp(name, "--non-additivity"))
+    status = take_delta(name, value, &o->non_additivity);
   else if (!strcmp(name, "--diameters")) {
     if (take_diameters(value, o))
       status = bad_value(name, value, "lognormal:S or bidisperse:R with a finite number > 0, or a file");
@@ -230,10 +242,19 @@ static int settle_files(const options *o) {
   return 0;
 }
 
+static int is_xyz(const char *path) {
+  const char *dot = strrchr(path, '.');
+  return dot && (!strcmp(dot, ".xyz") || !strcmp(dot, ".extxyz"));
+}
+
 /* What contradicts itself, and what follows from the rest. */
 static int settle(options *o) {
   int k;
   if (settle_files(o)) return -1;
+  if (o->non_additivity != 0 && o->output && !is_xyz(o->output)) {
+    complain("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it");
+    return -1;
+  }
   if (o->no_md && (o->stage_count || o->nve > 0)) {
     complain("--no-md contradicts %s", o->stage_count ? "--growth" : "--nve");
     return -1;

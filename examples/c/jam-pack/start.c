@@ -87,6 +87,7 @@ int start(const options *o, jam_system **sys) {
   create.overlap = o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE;
   create.model = o->model;
   create.mk_zeta = o->zeta;
+  create.non_additivity = o->non_additivity;
   create.n = o->n;
   if (o->resume)
     status = jam_checkpoint_read(o->resume, sys);

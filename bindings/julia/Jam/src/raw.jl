@@ -174,7 +174,8 @@ mutable struct jam_create_options
     mk_zeta::Cdouble  # MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
-    jam_create_options() = new(64, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
+    jam_create_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -193,7 +194,8 @@ mutable struct jam_info
     monodisperse::Int32  # 1 when all diameters are equal
     masses::Int32  # jam_masses
     paused::Int32  # jam_phase of the MD stage that was stopped early and can be resumed, or 0
-    jam_info() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
+    jam_info() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """

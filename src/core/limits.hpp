@@ -1,0 +1,33 @@
+// Every limit of libjam's input, in one place. The table "Limits" at the head of jam.h states the same numbers for
+// users; every entrance checks through the functions below, so that an error names the quantity and its value.
+#pragma once
+#include <cstdint>
+
+#include "core/packing.hpp"
+
+namespace jam {
+namespace limits {
+
+constexpr int64_t n_max = INT32_MAX;
+constexpr double box_min = 1e-30, box_max = 1e30;  // the eighth power and its inverse are doubles
+constexpr double diameter_min = 1e-9;              // over the box: coordinates resolve 1e-16 of it
+constexpr double size_ratio_max = 1e4;             // largest diameter over smallest
+constexpr double non_additivity_max = 1.0;         // and above -1: contact distances are positive
+constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
+constexpr double growth_rate_max = 1e3;            // of molecular dynamics, dimensionless
+constexpr double velocity_max = 1e6;               // of a component, thermal units
+
+}  // namespace limits
+
+// Throws JAM_E_ARGUMENT "NAME is VALUE, supported are LOW..HIGH" unless low <= value <= high; NaN is refused.
+void check_range(const char *name, double value, double low, double high);
+// Throws JAM_E_DIMENSION or JAM_E_ARGUMENT.
+void check_dim(int64_t dim);
+void check_n(int64_t n);
+void check_box(double box);
+void check_non_additivity(double delta);
+// Diameters in the unit of `box`: the smallest, and the ratio of the largest to it. That no sphere is wider than the
+// box is a question of overlaps (core/create.hpp).
+void check_diameters(const std::vector<double> &diameter, double box);
+
+}  // namespace jam

@@ -1,0 +1,155 @@
+/* Non-additive mixtures: unlike spheres touch at (1 + Delta) (sigma_i + sigma_j) / 2. Jammed from random starts by
+ * crunch alone in d = 2, 3, certified, and looked at pair by pair with a rule written out here. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "test.h"
+
+#include "jam/jam.h"
+
+enum { N = 80 };
+
+static double touch(double a, double b, double delta) { return 0.5 * (a + b) * (a == b ? 1.0 : 1.0 + delta); }
+
+/* Smallest gap over all pairs of nearest images by the rule above; *unlike: contacts of unequal spheres. */
+static double worst_gap(const jam_system *sys, double delta, double tolerance, int *unlike) {
+  const double *x, *s;
+  size_t len, i, j;
+  double worst = 1e300;
+  jam_info info;
+  int c;
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_true(info.non_additivity == delta);
+  jam_positions_view(sys, &x, &len);
+  jam_diameters_view(sys, &s, &len);
+  *unlike = 0;
+  for (i = 0; i < len; ++i)
+    for (j = 0; j < i; ++j) {
+      double r2 = 0.0, gap;
+      for (c = 0; c < info.dim; ++c) {
+        double dx = x[i * (size_t)info.dim + (size_t)c] - x[j * (size_t)info.dim + (size_t)c];
+        dx -= info.box * nearbyint(dx / info.box);
+        r2 += dx * dx;
+      }
+      gap = sqrt(r2) / touch(s[i], s[j], delta) - 1.0;
+      if (gap < worst) worst = gap;
+      if (gap < tolerance && s[i] != s[j]) ++*unlike;
+    }
+  return worst;
+}
+
+static jam_system *mixture(int dim, double delta, int64_t seed) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  double diameter[N];
+  int i;
+  for (i = 0; i < N; ++i) diameter[i] = i < N / 2 ? 1.0 : 1.4;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim, o.n = N, o.seed = seed, o.box = 2.0, o.packing_fraction = 0.25, o.non_additivity = delta;
+  assert_int_equal(jam_create(&o, NULL, 0, diameter, N, &sys), JAM_OK);
+  return sys;
+}
+
+static void jams_and_certifies(void **state) {
+  const double deltas[] = {-0.1, 0.1};
+  int dim, k, unlike;
+  (void)state;
+  for (dim = 2; dim <= 3; ++dim)
+    for (k = 0; k < 2; ++k) {
+      jam_system *sys = mixture(dim, deltas[k], 3 + k);
+      jam_crunch_report r;
+      double start = worst_gap(sys, deltas[k], 0.0, &unlike), end;
+      assert_true(start >= 0.0);
+      r.struct_size = sizeof r;
+      assert_int_equal(jam_crunch(sys, NULL, &r), JAM_OK);
+      end = worst_gap(sys, deltas[k], 1e-9, &unlike);
+      print_message("d %d Delta %g: phi %.6f, %d contacts (%d unlike), excess %d, residual %g, worst gap %g\n", dim,
+                    deltas[k], r.packing_fraction, (int)r.contacts, unlike, (int)r.excess_contacts, r.force_residual,
+                    end);
+      assert_int_equal(r.jammed, 1);
+      assert_true(end > -1e-13); /* rounding of coordinates over a diameter */
+      assert_true(r.force_residual < 1e-12);
+      assert_true(r.min_force > 0.0 && r.excess_contacts >= 0);
+      assert_true(unlike > N / 8); /* the rule of unlike pairs holds the network up */
+      jam_destroy(sys);
+    }
+}
+
+/* The same positions jam at another density when Delta changes: it is not lost on the way. */
+static void delta_changes_the_packing(void **state) {
+  double phi[3];
+  int k;
+  (void)state;
+  for (k = 0; k < 3; ++k) {
+    jam_system *sys = mixture(2, 0.1 * (k - 1), 5);
+    jam_crunch_report r;
+    r.struct_size = sizeof r;
+    assert_true(jam_crunch(sys, NULL, &r) >= 0);
+    phi[k] = r.packing_fraction;
+    jam_destroy(sys);
+  }
+  assert_true(phi[0] > phi[1] + 0.01 && phi[1] > phi[2] + 0.01);
+}
+
+/* Files, checkpoints and copies keep Delta; plain text refuses it. */
+static void is_kept(void **state) {
+  char folder[] = "/tmp/jam-delta-XXXXXX", xyz[64], plain[64], saved[64];
+  jam_system *sys = mixture(2, -0.1, 7), *copy, *read, *restored;
+  jam_create_options o;
+  int unlike;
+  double gap = worst_gap(sys, -0.1, 0.0, &unlike);
+  (void)state;
+  assert_non_null(mkdtemp(folder));
+  sprintf(xyz, "%s/a.xyz", folder), sprintf(plain, "%s/a.dat", folder), sprintf(saved, "%s/a.jam", folder);
+  assert_int_equal(jam_write(sys, plain, JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
+  assert_non_null(strstr(jam_last_error(), "non_additivity = -0.1"));
+  assert_int_not_equal(access(plain, F_OK), 0);
+  assert_int_equal(jam_write(sys, xyz, JAM_FORMAT_AUTO), JAM_OK);
+  assert_int_equal(jam_checkpoint_write(sys, saved), JAM_OK);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  jam_create_options_init(&o, sizeof o);
+  o.non_additivity = 0.5; /* the file's own value wins */
+  assert_int_equal(jam_read(xyz, &o, &read), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(saved, &restored), JAM_OK);
+  assert_true(worst_gap(copy, -0.1, 0.0, &unlike) == gap);
+  assert_true(worst_gap(read, -0.1, 0.0, &unlike) == gap);
+  assert_true(worst_gap(restored, -0.1, 0.0, &unlike) == gap);
+  jam_destroy(sys), jam_destroy(copy), jam_destroy(read), jam_destroy(restored);
+  unlink(xyz), unlink(saved), rmdir(folder);
+}
+
+static void bad_values_are_refused(void **state) {
+  const double bad[] = {-1.0, -3.0, 1.5, NAN, INFINITY};
+  const double x[4] = {0.2, 0.5, 0.62, 0.5}, s[2] = {0.4, 0.3};
+  jam_create_options o;
+  jam_system *sys = NULL;
+  size_t k;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = 2;
+  for (k = 0; k < sizeof bad / sizeof *bad; ++k) {
+    o.non_additivity = bad[k];
+    assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), "non_additivity is"));
+  }
+  /* 0.42 apart: free at Delta = 0.15 (0.4025), an overlap at 0.25 (0.4375), which shrinking settles. */
+  o.non_additivity = 0.15;
+  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_OK);
+  jam_destroy(sys);
+  o.non_additivity = 0.25;
+  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_E_OVERLAP);
+  o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_OK);
+  assert_true(fabs(worst_gap(sys, 0.25, 0.0, (int[1]){0})) < 1e-14);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(jams_and_certifies), cmocka_unit_test(delta_changes_the_packing),
+                                     cmocka_unit_test(is_kept), cmocka_unit_test(bad_values_are_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -7,7 +7,8 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 . tests/debian.sh
 need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev libcmocka-dev \
-  libmetis-dev libopenblas-dev voro++-dev swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib abigail-tools clang doxygen locales
+  libmetis-dev libopenblas-dev voro++-dev swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib abigail-tools clang doxygen \
+  python3-sphinx python3-breathe python3-myst-parser furo locales
 
 jobs=$(nproc)
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi

@@ -1,14 +1,34 @@
-"""Doxygen input filter: turns the plain comments of the public headers into documentation comments, to standard output."""
+"""Doxygen input filter: makes documentation comments of the plain comments of the public headers, to standard output."""
 import re
 import sys
 
-text = open(sys.argv[1], encoding="utf-8").read()
-if sys.argv[1].endswith(".h"):
-    text = text.replace("<sigma>", "&lt;sigma&gt;")
+# A rule between sections, and the comment on the whole section that may follow it (a blank line ends it).
+RULE = re.compile(r"^/\* (-{10,}) (.*?) (?:-+ )?\*/\n(?:/\* ((?:(?!\*/).)*)\*/\n\n)?", re.M | re.S)
+
+
+def header(text):
+    text = RULE.sub("", text).replace("<sigma>", "&lt;sigma&gt;")
     text = re.sub(r"/\* libjam:", "/** @file jam.h\n * libjam:", text, count=1)
-    text = re.sub(r"^/\* -{10,} (.*) \*/$", r"", text, flags=re.M)  # section rules
+    # One declaration each: Sphinx takes `typedef struct X {...} X` for two.
+    text = re.sub(r"^typedef (struct|enum) (\w+) \{(.*?)^\} \2;", r"\1 \2 {\3};", text, flags=re.S | re.M)
     text = re.sub(r"(;|,|\d|\w)([ \t]*)/\* ", r"\1\2/**< ", text)  # behind a member
     text = re.sub(r"^/\* ", "/** ", text, flags=re.M)  # above a declaration
-elif sys.argv[1].endswith(".hpp"):
-    text = re.sub(r"^(\s*)// ", r"\1/// ", text, flags=re.M)
-sys.stdout.write(text)
+    text = re.sub(r"@since \d+\.\d+\s*(?=\*/)", "", text)
+
+    def parts(found):
+        """What a comment says under a label of its own becomes a paragraph with that label."""
+        comment = found.group(0)
+        for label in ("Status", "Errors", "Threads"):
+            comment = re.sub(rf"(?<=[\s*.]){label}:? ?(?=[^:\s])", f"\n *\n * @par {label}\n * ", comment, count=1)
+        return re.sub(r"Example: (\S+)", r"Example: `\1`.\n *\n *", comment)
+
+    return re.sub(r"^/\*\*(?!<)(?:(?!\*/).)*\*/\n(?=JAM_API)", parts, text, flags=re.S | re.M)
+
+
+if __name__ == "__main__":
+    source = open(sys.argv[1], encoding="utf-8").read()
+    if sys.argv[1].endswith(".h"):
+        source = header(source)
+    elif sys.argv[1].endswith(".hpp"):
+        source = re.sub(r"^(\s*)// ", r"\1/// ", source, flags=re.M)
+    sys.stdout.write(source)

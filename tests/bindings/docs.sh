@@ -1,8 +1,21 @@
 #!/bin/sh
-# Makes the API reference (a warning is an error) and looks for what a reader needs in it.  usage: docs.sh CMAKE BUILD_FOLDER
+# Makes the site (a warning is an error) and looks for what a reader needs in it.  usage: docs.sh CMAKE BUILD_FOLDER ROOT
 set -eu
 "$1" --build "$2" --target docs
 html=$2/docs/html
-grep -q 'Brings the packing to its jamming point' "$html/jam_8h.html"      # a function
-grep -q 'relative complementarity and residual' "$html"/structjam__crunch__options.html  # a member
-grep -rq 'class.*System' "$html/classjam_1_1System.html"                      # C++
+has() { grep -q "$2" "$html/$1" || { echo "$1 does not show: $2"; exit 1; }; }
+has index.html 'makes and analyses jammed packings'                      # start page
+has index.html 'search.html'
+has bindings/docs/certificates.html 'Collectively jammed'                # user's guide
+has bindings/docs/coming_from.html 'CALiPPSO'
+has tests/bench/README.html '_images/crunch_size.png'                    # figures with their pictures
+has api/cpp.html 'class.*System'
+has api/python.html 'jam.System.crunch'
+has src/README.html 'A layer includes only layers to its right'
+for page in "$3"/bindings/docs/*.md; do                                  # no page is left out
+  name=$(basename "$page" .md)
+  [ "$name" = index ] || has index.html "bindings/docs/$name.html"
+done
+grep -o 'jam_[a-z_0-9]*(' "$3/include/jam/jam.h" | sort -u | while read -r call; do  # every function has its entry
+  grep -rq "id=\"c.${call%(}\"" "$html/api" || { echo "no entry for $call)"; exit 1; }
+done

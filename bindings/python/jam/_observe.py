@@ -69,7 +69,7 @@ class Observing(Base):
 
     @contextmanager
     def observing(self, **options: Any) -> Iterator[Observed]:
-        """Records what run and compress do inside a with block; the Observed stays readable behind it.
+        """Records what run and compress do inside a with block; the Observed stays readable behind it. ::
 
             with packing.observing(sample_every=5, gap_bins=40) as seen:
                 packing.run(200)

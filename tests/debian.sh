@@ -12,7 +12,14 @@ need_packages() {
     exit 2
   fi
   echo "installing$missing"
-  apt-get update -q >/dev/null
+  # Another apt may be at work: wait for its locks. `update` does not wait for the lock of its lists by itself.
+  tries=0
+  until log=$(apt-get update -q 2>&1); do
+    tries=$((tries + 1))
+    case $log in *"Could not get lock"*) [ $tries -lt 120 ] && sleep 5 && continue ;; esac
+    echo "$log" >&2
+    exit 2
+  done
   # shellcheck disable=SC2086
-  DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing >/dev/null
+  DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -q -y --no-install-recommends $missing >/dev/null
 }

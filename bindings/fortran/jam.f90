@@ -82,6 +82,14 @@ module jam
   integer(c_int32_t), parameter :: JAM_GROWTH_DIAMETER = 0
   integer(c_int32_t), parameter :: JAM_GROWTH_DENSITY = 1
 
+  ! jam_series_column: Columns of jam_observed_series. @since 0.1
+  integer(c_int32_t), parameter :: JAM_SERIES_TIME = 0
+  integer(c_int32_t), parameter :: JAM_SERIES_COLLISIONS = 1
+  integer(c_int32_t), parameter :: JAM_SERIES_FRACTION = 2
+  integer(c_int32_t), parameter :: JAM_SERIES_PRESSURE = 3
+  integer(c_int32_t), parameter :: JAM_SERIES_ERROR = 4
+  integer(c_int32_t), parameter :: JAM_SERIES_MSD = 5
+
   ! jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
   integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
   integer(c_int32_t), parameter :: JAM_EOS_PY_VIRIAL = 1
@@ -135,6 +143,12 @@ module jam
   integer(c_int32_t), parameter :: JAM_MODES_NEAR = 2
   integer(c_int32_t), parameter :: JAM_MODES_ALL = 3
 
+  ! jam_candidate_column: Columns of jam_contact_candidates. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CANDIDATE_LIMIT = 0
+  integer(c_int32_t), parameter :: JAM_CANDIDATE_JUMP = 1
+  integer(c_int32_t), parameter :: JAM_CANDIDATE_CONTACTS = 2
+  integer(c_int32_t), parameter :: JAM_CANDIDATE_EXCESS = 3
+
   ! jam_contact_class: Flags of a contact. @since 0.1
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
@@ -156,6 +170,21 @@ module jam
   integer(c_int32_t), parameter :: JAM_CLASS_EXTENDED = 2
   integer(c_int32_t), parameter :: JAM_CLASS_SMALLEST = 3
   integer(c_int32_t), parameter :: JAM_CLASS_MEDIAN = 4
+
+  ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1
+  integer(c_int32_t), parameter :: JAM_FLOPPY_MEDIAN = 0
+  integer(c_int32_t), parameter :: JAM_FLOPPY_WEIGHT = 1
+  integer(c_int32_t), parameter :: JAM_FLOPPY_S_PLUS = 2
+  integer(c_int32_t), parameter :: JAM_FLOPPY_S_STAR = 3
+  integer(c_int32_t), parameter :: JAM_FLOPPY_STABILITY = 4
+
+  ! jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1
+  integer(c_int32_t), parameter :: JAM_DOS_OMEGA = 0
+  integer(c_int32_t), parameter :: JAM_DOS_DENSITY = 1
+  integer(c_int32_t), parameter :: JAM_DOS_ERROR = 2
+  integer(c_int32_t), parameter :: JAM_DOS_EDGE = 3
+  integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE = 4
+  integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE_ERROR = 5
 
   ! Options of jam_create and jam_read. @since 0.1
   type, bind(c) :: jam_create_options
@@ -967,33 +996,21 @@ module jam
       integer(c_int32_t) :: status
     end function jam_observe_stop
 
-    ! Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
-    ! before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
-    ! NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
-    function jam_observed_series(sys, time, time_len, collisions, collisions_len, fraction, fraction_len, &
-      pressure, pressure_len, error, error_len, msd, msd_len, needed) &
+    ! Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
+    ! Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+    function jam_observed_series(sys, table, table_len, needed) &
         bind(c, name="jam_observed_series") result(status)
       import
       type(c_ptr), value :: sys
-      real(c_double), intent(inout), optional :: time(*)
-      integer(c_size_t), value :: time_len
-      real(c_double), intent(inout), optional :: collisions(*)
-      integer(c_size_t), value :: collisions_len
-      real(c_double), intent(inout), optional :: fraction(*)
-      integer(c_size_t), value :: fraction_len
-      real(c_double), intent(inout), optional :: pressure(*)
-      integer(c_size_t), value :: pressure_len
-      real(c_double), intent(inout), optional :: error(*)
-      integer(c_size_t), value :: error_len
-      real(c_double), intent(inout), optional :: msd(*)
-      integer(c_size_t), value :: msd_len
+      real(c_double), intent(inout), optional :: table(*)
+      integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_observed_series
 
-    ! Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+    ! Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
     ! length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
-    function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, needed) &
+    function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, rows) &
         bind(c, name="jam_observed_spheres") result(status)
       import
       type(c_ptr), value :: sys
@@ -1001,15 +1018,15 @@ module jam
       integer(c_size_t), value :: collisions_len
       real(c_double), intent(inout), optional :: displacement(*)
       integer(c_size_t), value :: displacement_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_observed_spheres
 
-    ! Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+    ! Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
     ! sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
     ! may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
     function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, &
-      needed) &
+      rows) &
         bind(c, name="jam_observed_pairs") result(status)
       import
       type(c_ptr), value :: sys
@@ -1020,14 +1037,14 @@ module jam
       real(c_double), intent(inout), optional :: momentum(*)
       integer(c_size_t), value :: momentum_len
       real(c_double), intent(out), optional :: time
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_observed_pairs
 
-    ! Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+    ! Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
     ! limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
     ! with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
-    function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, needed) &
+    function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows) &
         bind(c, name="jam_observed_gaps") result(status)
       import
       type(c_ptr), value :: sys
@@ -1037,13 +1054,13 @@ module jam
       integer(c_size_t), value :: density_len
       real(c_double), intent(inout), optional :: error(*)
       integer(c_size_t), value :: error_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_observed_gaps
 
-    ! g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+    ! g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
     ! Errors: as jam_observed_series. @since 0.1
-    function jam_observed_correlation(sys, r, r_len, g, g_len, needed) &
+    function jam_observed_correlation(sys, r, r_len, g, g_len, rows) &
         bind(c, name="jam_observed_correlation") result(status)
       import
       type(c_ptr), value :: sys
@@ -1051,7 +1068,7 @@ module jam
       integer(c_size_t), value :: r_len
       real(c_double), intent(inout), optional :: g(*)
       integer(c_size_t), value :: g_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_observed_correlation
 
@@ -1281,10 +1298,10 @@ module jam
       integer(c_int32_t) :: status
     end function jam_hessian_map
 
-    ! Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+    ! Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
     ! Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
     ! 0.1
-    function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed) &
+    function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, rows) &
         bind(c, name="jam_hessian") result(status)
       import
       type(c_ptr), value :: sys
@@ -1295,16 +1312,16 @@ module jam
       integer(c_size_t), value :: column_len
       real(c_double), intent(inout), optional :: value(*)
       integer(c_size_t), value :: value_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_hessian
 
-    ! Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+    ! Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
     ! participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
     ! is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
     ! JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, &
-      participation_len, needed) &
+      participation_len, rows) &
         bind(c, name="jam_modes") result(status)
       import
       type(c_ptr), value :: sys
@@ -1316,7 +1333,7 @@ module jam
       integer(c_size_t), value :: vector_len
       real(c_double), intent(inout), optional :: participation(*)
       integer(c_size_t), value :: participation_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_modes
 
@@ -1345,33 +1362,26 @@ module jam
       integer(c_int32_t) :: status
     end function jam_contacts_from_geometry
 
-    ! Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
-    ! jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
-    ! (m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
-    ! needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
-    function jam_contact_candidates(sys, window, limit, limit_len, jump, jump_len, contacts, contacts_len, excess, &
-      excess_len, needed) &
+    ! Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
+    ! jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
+    ! with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+    function jam_contact_candidates(sys, window, table, table_len, needed) &
         bind(c, name="jam_contact_candidates") result(status)
       import
       type(c_ptr), value :: sys
       real(c_double), value :: window
-      real(c_double), intent(inout), optional :: limit(*)
-      integer(c_size_t), value :: limit_len
-      real(c_double), intent(inout), optional :: jump(*)
-      integer(c_size_t), value :: jump_len
-      integer(c_int32_t), intent(inout), optional :: contacts(*)
-      integer(c_size_t), value :: contacts_len
-      integer(c_int32_t), intent(inout), optional :: excess(*)
-      integer(c_size_t), value :: excess_len
+      real(c_double), intent(inout), optional :: table(*)
+      integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_contact_candidates
 
-    ! States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+    ! States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
     ! (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
     ! with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
     ! = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
-    function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed) &
+    function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows) &
         bind(c, name="jam_stress_states") result(status)
       import
       type(c_ptr), value :: sys
@@ -1380,14 +1390,14 @@ module jam
       real(c_double), intent(inout), optional :: basis(*)
       integer(c_size_t), value :: basis_len
       real(c_double), intent(out), optional :: residual
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_stress_states
 
-    ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+    ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
     ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
     ! JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1
-    function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed) &
+    function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows) &
         bind(c, name="jam_gaps") result(status)
       import
       type(c_ptr), value :: sys
@@ -1397,7 +1407,7 @@ module jam
       integer(c_size_t), value :: gap_len
       integer(c_int32_t), intent(inout), optional :: pair(*)
       integer(c_size_t), value :: pair_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_gaps
 
@@ -1413,8 +1423,8 @@ module jam
     end function jam_contact_classes
 
     ! c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-    ! *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, needed) &
+    ! *rows = n. Threads: const. Errors: as jam_contacts. @since 0.1
+    function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, rows) &
         bind(c, name="jam_sphere_structure") result(status)
       import
       type(c_ptr), value :: sys
@@ -1423,13 +1433,13 @@ module jam
       integer(c_size_t), value :: c_len
       real(c_double), intent(inout), optional :: s(*)
       integer(c_size_t), value :: s_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_sphere_structure
 
-    ! n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+    ! n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
     ! pairs. Threads: const. Errors: as jam_contacts. @since 0.1
-    function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, needed) &
+    function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows) &
         bind(c, name="jam_contact_dots") result(status)
       import
       type(c_ptr), value :: sys
@@ -1438,7 +1448,7 @@ module jam
       integer(c_size_t), value :: dot_len
       integer(c_int32_t), intent(inout), optional :: sphere(*)
       integer(c_size_t), value :: sphere_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_contact_dots
 
@@ -1495,7 +1505,7 @@ module jam
     ! S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
     ! No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
     ! Threads: alone. @since 0.1
-    function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed) &
+    function jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows) &
         bind(c, name="jam_structure_factor") result(status)
       import
       type(c_ptr), value :: sys
@@ -1504,7 +1514,7 @@ module jam
       integer(c_size_t), value :: q_len
       real(c_double), intent(inout), optional :: s(*)
       integer(c_size_t), value :: s_len
-      integer(c_size_t), intent(out), optional :: needed
+      integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_structure_factor
 
@@ -1558,27 +1568,14 @@ module jam
       integer(c_int32_t) :: status
     end function jam_floppy_mode
 
-    ! The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
-    ! localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
-    ! at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
-    ! second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
-    ! force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
-    ! jam_floppy_mode. Threads: alone. @since 0.1
-    function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, &
-      s_star_len, stability, stability_len, needed) &
+    ! The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+    ! JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+    function jam_floppy_modes(sys, table, table_len, needed) &
         bind(c, name="jam_floppy_modes") result(status)
       import
       type(c_ptr), value :: sys
-      real(c_double), intent(inout), optional :: median(*)
-      integer(c_size_t), value :: median_len
-      real(c_double), intent(inout), optional :: weight(*)
-      integer(c_size_t), value :: weight_len
-      real(c_double), intent(inout), optional :: s_plus(*)
-      integer(c_size_t), value :: s_plus_len
-      real(c_double), intent(inout), optional :: s_star(*)
-      integer(c_size_t), value :: s_star_len
-      real(c_double), intent(inout), optional :: stability(*)
-      integer(c_size_t), value :: stability_len
+      real(c_double), intent(inout), optional :: table(*)
+      integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_floppy_modes
@@ -1592,45 +1589,21 @@ module jam
       integer(c_int32_t) :: status
     end function jam_dos_options_init
 
-    ! Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
-    ! computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
-    ! `points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
-    ! is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
-    ! Threads: alone. @since 0.1
-    function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed) &
+    ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
+    ! left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
+    ! -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+    ! JAM_E_TOO_FEW. Threads: alone. @since 0.1
+    function jam_density_of_states(sys, h, o, table, table_len, needed) &
         bind(c, name="jam_density_of_states") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
       type(jam_dos_options), intent(in), optional :: o
-      real(c_double), intent(inout), optional :: omega(*)
-      integer(c_size_t), value :: omega_len
-      real(c_double), intent(inout), optional :: density(*)
-      integer(c_size_t), value :: density_len
-      real(c_double), intent(inout), optional :: error(*)
-      integer(c_size_t), value :: error_len
+      real(c_double), intent(inout), optional :: table(*)
+      integer(c_size_t), value :: table_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function jam_density_of_states
-
-    ! Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
-    ! standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
-    function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, &
-      needed) &
-        bind(c, name="jam_cumulative_spectrum") result(status)
-      import
-      type(c_ptr), value :: sys
-      type(jam_hessian_options), intent(in), optional :: h
-      type(jam_dos_options), intent(in), optional :: o
-      real(c_double), intent(inout), optional :: omega(*)
-      integer(c_size_t), value :: omega_len
-      real(c_double), intent(inout), optional :: cumulative(*)
-      integer(c_size_t), value :: cumulative_len
-      real(c_double), intent(inout), optional :: error(*)
-      integer(c_size_t), value :: error_len
-      integer(c_size_t), intent(out), optional :: needed
-      integer(c_int32_t) :: status
-    end function jam_cumulative_spectrum
 
     ! Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
     ! all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1

@@ -261,6 +261,25 @@ def read_header(header, swig="swig"):
     return api
 
 
+def columns_of(f, api):
+    """Of a function that fills a `table`: the enum of its columns, which its comment names."""
+    if not any(a.name == "table" for a in f.args):
+        return None
+    named = [e for e in api.enums for word in re.findall(r"jam_\w+", f.doc) if e.name == word and word.endswith("_column")]
+    if not named:
+        raise HeaderError(f"{f.name} fills a table, and its comment names no enum of columns")
+    return named[0]
+
+
+def item_names(e):
+    """Names of an enum's items without what they have in common."""
+    names = [n for n, _, _ in e.items]
+    prefix = names[0][: names[0].rindex("_") + 1]
+    while not all(n.startswith(prefix) for n in names):
+        prefix = prefix[: prefix.rstrip("_").rindex("_") + 1]
+    return [n[len(prefix) :] for n in names]
+
+
 def options_init(api):
     """{struct: init function} for the option structs."""
     return {s.name: s.name + "_init" for s in api.structs if any(f.name == s.name + "_init" for f in api.functions)}

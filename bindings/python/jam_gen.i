@@ -3,20 +3,17 @@
 %apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
 %apply (const double **VIEW, size_t *VIEW_LEN) {(const double **view, size_t *view_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *velocities, size_t velocities_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *time, size_t time_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *collisions, size_t collisions_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *fraction, size_t fraction_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *pressure, size_t pressure_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *msd, size_t msd_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
 %apply size_t *RESULT {size_t *needed};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *displacement, size_t displacement_len)};
+%apply size_t *RESULT {size_t *rows};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *momentum, size_t momentum_len)};
 %apply double *RESULT {double *time};
 %apply (double *FILL, size_t FILL_LEN) {(double *edge, size_t edge_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *density, size_t density_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *error, size_t error_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *r, size_t r_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *g, size_t g_len)};
 %apply double *RESULT {double *pressure};
@@ -30,10 +27,6 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *lambda, size_t lambda_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *vector, size_t vector_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *participation, size_t participation_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *limit, size_t limit_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *jump, size_t jump_len)};
-%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *contacts, size_t contacts_len)};
-%apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *excess, size_t excess_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
@@ -45,13 +38,6 @@
 %apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kind, size_t kind_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *q, size_t q_len)};
 %apply double *RESULT {double *score};
-%apply (double *FILL, size_t FILL_LEN) {(double *median, size_t median_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *weight, size_t weight_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *s_plus, size_t s_plus_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *s_star, size_t s_star_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *stability, size_t stability_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *omega, size_t omega_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *cumulative, size_t cumulative_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
 %apply double *RESULT {double *value};
@@ -300,18 +286,17 @@ dropped. Nothing that is recorded changes the dynamics, and when off nothing is 
 show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
 it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_observe_stop "Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_observed_series "Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
-before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
-NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_observed_spheres "Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+%feature("docstring") jam_observed_series "Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
+Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_observed_spheres "Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
 length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_pairs "Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+%feature("docstring") jam_observed_pairs "Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
 sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
 may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_gaps "Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
 limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
 with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_correlation "g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+%feature("docstring") jam_observed_correlation "g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
 Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_eos "pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"
@@ -356,10 +341,10 @@ Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_modes_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_hessian_map "The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
 Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_hessian "Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+%feature("docstring") jam_hessian "Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
 Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
 0.1"
-%feature("docstring") jam_modes "Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+%feature("docstring") jam_modes "Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
 participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
 is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
 JAM_E_BUSY. Threads: alone. @since 0.1"
@@ -371,21 +356,21 @@ state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS 
 states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
 or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
 Threads: alone. @since 0.1"
-%feature("docstring") jam_contact_candidates "Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
-jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
-(m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
-needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_stress_states "States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+%feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
+jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
+with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
 (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
 with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
 = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
-%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
 %feature("docstring") jam_contact_classes "Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_sphere_structure "c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-*needed = n. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+*rows = n. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
 pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
 Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1"
@@ -406,20 +391,13 @@ JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since
 %feature("docstring") jam_floppy_mode "Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
 a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
 (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
-%feature("docstring") jam_floppy_modes "The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
-localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
-at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
-second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
-force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
-jam_floppy_mode. Threads: alone. @since 0.1"
+%feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_density_of_states "Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
-computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
-`points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
-is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
-Threads: alone. @since 0.1"
-%feature("docstring") jam_cumulative_spectrum "Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
-standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1"
+%feature("docstring") jam_density_of_states "Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
+left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
+-sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+JAM_E_TOO_FEW. Threads: alone. @since 0.1"
 %feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
 all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"

@@ -16,8 +16,11 @@
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
  *   and a Julia d-by-n matrix. Indices are 0-based.
  * - Arrays in: pointer and length in elements, checked. Arrays out: the caller's buffer,
- *   its length in elements and `needed`; NULL and 0 only ask for the size; a buffer that
- *   is too short gives JAM_E_BUFFER with `needed` set and nothing written.
+ *   its length in elements, and `needed`, in elements too. NULL and 0 only ask for the
+ *   size. A buffer that is too short gives JAM_E_BUFFER with `needed` set and nothing
+ *   written. A `table` has shape (rows, columns); an enum names its columns. A call with
+ *   several arrays gives `rows` instead of `needed`: the shapes told there, for that many
+ *   rows, are the lengths. Each of these arrays may be NULL with length 0.
  * - Status: 0 done; > 0 stopped early, state valid and kept; < 0 failed, state as before
  *   the call unless said otherwise. The text of the last failure of this thread is in
  *   jam_last_error(). Outputs are written only when the status is >= 0.
@@ -399,32 +402,37 @@ JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size)
 JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
 /* Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_observe_stop(jam_system *sys);
-/* Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
- * before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
- * NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1 */
-JAM_API jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions,
-                                       size_t collisions_len, double *fraction, size_t fraction_len, double *pressure,
-                                       size_t pressure_len, double *error, size_t error_len, double *msd,
-                                       size_t msd_len, size_t *needed);
-/* Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+/* Columns of jam_observed_series. @since 0.1 */
+typedef enum jam_series_column {
+  JAM_SERIES_TIME = 0,       /* simulated time, unit box / sqrt(kT/m) */
+  JAM_SERIES_COLLISIONS = 1, /* collisions per particle */
+  JAM_SERIES_FRACTION = 2,   /* packing fraction */
+  JAM_SERIES_PRESSURE = 3,   /* reduced pressure since the sample before */
+  JAM_SERIES_ERROR = 4,      /* its standard error, from eight parts */
+  JAM_SERIES_MSD = 5         /* mean-square displacement since jam_observe, unit box^2 */
+} jam_series_column;
+/* Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
+ * Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_observed_series(const jam_system *sys, double *table, size_t table_len, size_t *needed);
+/* Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
  * length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
-                                        double *displacement, size_t displacement_len, size_t *needed);
-/* Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+                                        double *displacement, size_t displacement_len, size_t *rows);
+/* Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
  * sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
  * may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
-                                      size_t *needed);
-/* Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+                                      size_t *rows);
+/* Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
  * limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
  * with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
-                                     size_t density_len, double *error, size_t error_len, size_t *needed);
-/* g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+                                     size_t density_len, double *error, size_t error_len, size_t *rows);
+/* g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
  * Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
-                                            size_t *needed);
+                                            size_t *rows);
 
 /* Equations of state p(phi) in closed form. @since 0.1 */
 typedef enum jam_eos_form {
@@ -680,19 +688,19 @@ JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
 /* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
  * Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
-/* Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+/* Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
  * Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
  * 0.1 */
 JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
                                size_t row_start_len, int32_t *column, size_t column_len, double *value,
-                               size_t value_len, size_t *needed);
-/* Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+                               size_t value_len, size_t *rows);
+/* Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
  * participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
  * is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda,
                              size_t lambda_len, double *vector, size_t vector_len, double *participation,
-                             size_t participation_len, size_t *needed);
+                             size_t participation_len, size_t *rows);
 
 /* ------------- network from geometry, states of self-stress */
 /* Options of jam_contacts_from_geometry. @since 0.1 */
@@ -736,19 +744,25 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
-/* Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
- * jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
- * (m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
- * needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
-JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len,
-                                          double *jump, size_t jump_len, int32_t *contacts, size_t contacts_len,
-                                          int32_t *excess, size_t excess_len, size_t *needed);
-/* States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+/* Columns of jam_contact_candidates. @since 0.1 */
+typedef enum jam_candidate_column {
+  JAM_CANDIDATE_LIMIT = 0,    /* tolerance on |h| */
+  JAM_CANDIDATE_JUMP = 1,     /* ratio of the gaps above and below it */
+  JAM_CANDIDATE_CONTACTS = 2, /* contacts of stable spheres within it */
+  JAM_CANDIDATE_EXCESS = 3    /* contacts - (d (N' - 1) + 1) */
+} jam_candidate_column;
+/* Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
+ * jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
+ * with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
+                                          size_t *needed);
+/* States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
  * (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
  * with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
  * = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
-                                     double *residual, size_t *needed);
+                                     double *residual, size_t *rows);
 
 /* ------------- gaps, classes and angles of contacts */
 /* Flags of a contact. @since 0.1 */
@@ -758,21 +772,21 @@ typedef enum jam_contact_class {
   JAM_CONTACT_MEDIAN = 4     /* has the (lower) median force of one of its spheres */
 } jam_contact_class;
 
-/* Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+/* Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
  * stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
  * JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1 */
 JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
-                            int32_t *pair, size_t pair_len, size_t *needed);
+                            int32_t *pair, size_t pair_len, size_t *rows);
 /* Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 /* c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
- * *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1 */
+ * *rows = n. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
-                                        size_t s_len, size_t *needed);
-/* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+                                        size_t s_len, size_t *rows);
+/* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
  * pairs. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
-                                    int32_t *sphere, size_t sphere_len, size_t *needed);
+                                    int32_t *sphere, size_t sphere_len, size_t *rows);
 /* What jam_class_values and jam_histogram look at. @since 0.1 */
 typedef enum jam_quantity {
   JAM_QUANTITY_FORCE = 0,        /* contacts: f over its mean in the class */
@@ -811,7 +825,7 @@ JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *ki
  * No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
  * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
-                                        size_t *needed);
+                                        size_t *rows);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
  * 3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1 */
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
@@ -828,15 +842,18 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
  * a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
  * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
- * localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
- * at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
- * second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
- * force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
- * jam_floppy_mode. Threads: alone. @since 0.1 */
-JAM_API jam_status jam_floppy_modes(jam_system *sys, double *median, size_t median_len, double *weight,
-                                    size_t weight_len, double *s_plus, size_t s_plus_len, double *s_star,
-                                    size_t s_star_len, double *stability, size_t stability_len, size_t *needed);
+/* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1 */
+typedef enum jam_floppy_column {
+  JAM_FLOPPY_MEDIAN = 0,   /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
+  JAM_FLOPPY_WEIGHT = 1,   /* W = f / median |dr_i|: f equals W times the displacement far away */
+  JAM_FLOPPY_S_PLUS = 2,   /* opening at which, to first order, the next contact forms */
+  JAM_FLOPPY_S_STAR = 3,   /* opening f / B at which, to second order, the diameters are least; B = sum_k f_k
+                            * |dr_perp|^2 / r_k */
+  JAM_FLOPPY_STABILITY = 4 /* s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F) */
+} jam_floppy_column;
+/* The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+ * JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* ------------- spectrum, moduli, comparison */
 /* Options of jam_density_of_states. @since 0.1 */
@@ -875,19 +892,21 @@ typedef struct jam_comparison {
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
-/* Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
- * computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
- * `points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
- * is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
- * Threads: alone. @since 0.1 */
+/* Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1 */
+typedef enum jam_dos_column {
+  JAM_DOS_OMEGA = 0,           /* middle of the bin */
+  JAM_DOS_DENSITY = 1,         /* density of states D there, integral 1 */
+  JAM_DOS_ERROR = 2,           /* its standard error over the random vectors; smoothing is not in it */
+  JAM_DOS_EDGE = 3,            /* upper end of the bin */
+  JAM_DOS_CUMULATIVE = 4,      /* share of modes below the edge */
+  JAM_DOS_CUMULATIVE_ERROR = 5 /* its standard error */
+} jam_dos_column;
+/* Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
+ * left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
+ * -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+ * JAM_E_TOO_FEW. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
-                                         double *omega, size_t omega_len, double *density, size_t density_len,
-                                         double *error, size_t error_len, size_t *needed);
-/* Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
- * standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1 */
-JAM_API jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
-                                           double *omega, size_t omega_len, double *cumulative, size_t cumulative_len,
-                                           double *error, size_t error_len, size_t *needed);
+                                         double *table, size_t table_len, size_t *needed);
 /* Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
  * all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
 JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,

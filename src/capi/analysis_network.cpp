@@ -1,5 +1,6 @@
 // Header section "analysis": the network from geometry, states of self-stress.
 #include "capi/analysis.hpp"
+#include "capi/table.hpp"
 #include "crunch/crunch.hpp"
 #include "network/contacts_from_geometry.hpp"
 
@@ -32,23 +33,16 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
   });
 }
 
-jam_status jam_contact_candidates(const jam_system *sys, double window, double *limit, size_t limit_len, double *jump,
-                                  size_t jump_len, int32_t *contacts, size_t contacts_len, int32_t *excess,
-                                  size_t excess_len, size_t *needed) {
+jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
+                                  size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    if (!needed && !limit && !jump && !contacts && !excess)
-      fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    constexpr size_t columns = JAM_CANDIDATE_EXCESS + 1;
     const ContactCandidates c = contact_candidates(sys->packing, window);
-    const size_t m = c.limit.size();
-    if (needed) *needed = m;
-    check_output(limit, limit_len, m, "limit");
-    check_output(jump, jump_len, m, "jump");
-    check_output(contacts, contacts_len, m, "contacts");
-    check_output(excess, excess_len, m, "excess");
-    put_output(c.limit, limit, m);
-    put_output(c.jump, jump, m);
-    put_output(c.contacts, contacts, m);
-    put_output(c.excess, excess, m);
+    if (!table_wanted(c.limit.size(), columns, table, table_len, needed)) return JAM_OK;
+    put_column(c.limit, JAM_CANDIDATE_LIMIT, columns, table);
+    put_column(c.jump, JAM_CANDIDATE_JUMP, columns, table);
+    put_column(c.contacts, JAM_CANDIDATE_CONTACTS, columns, table);
+    put_column(c.excess, JAM_CANDIDATE_EXCESS, columns, table);
     return JAM_OK;
   });
 }

@@ -2,50 +2,9 @@
 #include <algorithm>
 #include "analysis/spectrum.hpp"
 #include "capi/analysis.hpp"
+#include "capi/table.hpp"
 
 using namespace jam;
-
-namespace {
-
-struct SpectralArrays {
-  double *omega;
-  size_t omega_len;
-  double *value;
-  size_t value_len;
-  double *error;
-  size_t error_len;
-};
-
-// Density of states or its integral: omega stands in the middle or at the upper end of a bin.
-jam_status spectral_call(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
-                         const SpectralArrays &out, bool cumulative, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
-    const jam_hessian_options options = take_hessian_options(h);
-    jam_dos_options full = default_dos_options();
-    take_options(o, full);
-    need_network(sys);
-    if (empty_network(sys)) return JAM_NOT_JAMMED;
-    const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
-    if (!needed && !out.omega && !out.value && !out.error)
-      fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    if (needed) *needed = points;
-    check_output(out.omega, out.omega_len, points, "omega");
-    check_output(out.value, out.value_len, points, cumulative ? "cumulative" : "density");
-    check_output(out.error, out.error_len, points, "error");
-    if (!out.omega && !out.value && !out.error) return JAM_OK;
-    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    DensityOfStates dos =
-        density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full, cancel_point);
-    if (cumulative)
-      for (double &x : dos.omega) x += 0.5 * dos.step;
-    put_output(dos.omega, out.omega, points);
-    put_output(cumulative ? dos.cumulative : dos.density, out.value, points);
-    put_output(cumulative ? dos.cumulative_error : dos.density_error, out.error, points);
-    return JAM_OK;
-  });
-}
-
-}  // namespace
 
 extern "C" {
 
@@ -53,16 +12,30 @@ jam_status jam_dos_options_init(jam_dos_options *o, size_t size) {
   return init_options(o, size, default_dos_options());
 }
 
-jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *omega,
-                                 size_t omega_len, double *density, size_t density_len, double *error, size_t error_len,
-                                 size_t *needed) {
-  return spectral_call(sys, h, o, {omega, omega_len, density, density_len, error, error_len}, false, needed);
-}
-
-jam_status jam_cumulative_spectrum(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
-                                   double *omega, size_t omega_len, double *cumulative, size_t cumulative_len,
-                                   double *error, size_t error_len, size_t *needed) {
-  return spectral_call(sys, h, o, {omega, omega_len, cumulative, cumulative_len, error, error_len}, true, needed);
+jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *table,
+                                 size_t table_len, size_t *needed) {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+    constexpr size_t columns = JAM_DOS_CUMULATIVE_ERROR + 1;
+    const jam_hessian_options options = take_hessian_options(h);
+    jam_dos_options full = default_dos_options();
+    take_options(o, full);
+    need_network(sys);
+    if (empty_network(sys)) return JAM_NOT_JAMMED;
+    const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
+    if (!table_wanted(points, columns, table, table_len, needed)) return JAM_OK;
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
+    const DensityOfStates dos =
+        density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full, cancel_point);
+    std::vector<double> edge = dos.omega;
+    for (double &x : edge) x += 0.5 * dos.step;
+    put_column(dos.omega, JAM_DOS_OMEGA, columns, table);
+    put_column(dos.density, JAM_DOS_DENSITY, columns, table);
+    put_column(dos.density_error, JAM_DOS_ERROR, columns, table);
+    put_column(edge, JAM_DOS_EDGE, columns, table);
+    put_column(dos.cumulative, JAM_DOS_CUMULATIVE, columns, table);
+    put_column(dos.cumulative_error, JAM_DOS_CUMULATIVE_ERROR, columns, table);
+    return JAM_OK;
+  });
 }
 
 jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,

@@ -1,7 +1,7 @@
 // Header section "molecular dynamics": what is recorded while it runs.
 #include <memory>
 
-#include "capi/guard.hpp"
+#include "capi/table.hpp"
 
 using namespace jam;
 
@@ -69,25 +69,16 @@ jam_status jam_observe_stop(jam_system *sys) {
   });
 }
 
-jam_status jam_observed_series(const jam_system *sys, double *time, size_t time_len, double *collisions,
-                               size_t collisions_len, double *fraction, size_t fraction_len, double *pressure,
-                               size_t pressure_len, double *error, size_t error_len, double *msd, size_t msd_len,
-                               size_t *needed) {
+jam_status jam_observed_series(const jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
-    const struct {
-      const char *name;
-      double Sample::*member;
-      double *out;
-      size_t len;
-    } columns[] = {{"time", &Sample::time, time, time_len},
-                   {"collisions", &Sample::collisions, collisions, collisions_len},
-                   {"fraction", &Sample::packing_fraction, fraction, fraction_len},
-                   {"pressure", &Sample::pressure, pressure, pressure_len},
-                   {"error", &Sample::error, error, error_len},
-                   {"msd", &Sample::displacement2, msd, msd_len}};
-    if (needed) *needed = o.samples().size();
-    for (const auto &c : columns) check_room(c.name, o.samples().size(), c.out, c.len);
-    for (const auto &c : columns) give(column(o.samples(), c.member), c.out, c.len);
+    constexpr size_t columns = JAM_SERIES_MSD + 1;
+    if (!table_wanted(o.samples().size(), columns, table, table_len, needed)) return JAM_OK;
+    put_column(column(o.samples(), &Sample::time), JAM_SERIES_TIME, columns, table);
+    put_column(column(o.samples(), &Sample::collisions), JAM_SERIES_COLLISIONS, columns, table);
+    put_column(column(o.samples(), &Sample::packing_fraction), JAM_SERIES_FRACTION, columns, table);
+    put_column(column(o.samples(), &Sample::pressure), JAM_SERIES_PRESSURE, columns, table);
+    put_column(column(o.samples(), &Sample::error), JAM_SERIES_ERROR, columns, table);
+    put_column(column(o.samples(), &Sample::displacement2), JAM_SERIES_MSD, columns, table);
     return JAM_OK;
   });
 }

@@ -159,7 +159,8 @@ void place_at_random(Packing &p) {
   p.position.assign(n * d, 0.0);
   if (fitting_factor(p) < 1.0)
     fail(JAM_E_UNPLACEABLE,
-         "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: 0",
+         "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: "
+         "0",
          packing_fraction(p), diameter_max(p), p.box);
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);

@@ -489,6 +489,12 @@ int main(void) {
   printf("JAM_FORMAT_XYZ value %d\n", (int)JAM_FORMAT_XYZ);
   printf("JAM_GROWTH_DIAMETER value %d\n", (int)JAM_GROWTH_DIAMETER);
   printf("JAM_GROWTH_DENSITY value %d\n", (int)JAM_GROWTH_DENSITY);
+  printf("JAM_SERIES_TIME value %d\n", (int)JAM_SERIES_TIME);
+  printf("JAM_SERIES_COLLISIONS value %d\n", (int)JAM_SERIES_COLLISIONS);
+  printf("JAM_SERIES_FRACTION value %d\n", (int)JAM_SERIES_FRACTION);
+  printf("JAM_SERIES_PRESSURE value %d\n", (int)JAM_SERIES_PRESSURE);
+  printf("JAM_SERIES_ERROR value %d\n", (int)JAM_SERIES_ERROR);
+  printf("JAM_SERIES_MSD value %d\n", (int)JAM_SERIES_MSD);
   printf("JAM_EOS_CARNAHAN_STARLING value %d\n", (int)JAM_EOS_CARNAHAN_STARLING);
   printf("JAM_EOS_PY_VIRIAL value %d\n", (int)JAM_EOS_PY_VIRIAL);
   printf("JAM_EOS_PY_COMPRESSIBILITY value %d\n", (int)JAM_EOS_PY_COMPRESSIBILITY);
@@ -527,6 +533,10 @@ int main(void) {
   printf("JAM_MODES_HIGHEST value %d\n", (int)JAM_MODES_HIGHEST);
   printf("JAM_MODES_NEAR value %d\n", (int)JAM_MODES_NEAR);
   printf("JAM_MODES_ALL value %d\n", (int)JAM_MODES_ALL);
+  printf("JAM_CANDIDATE_LIMIT value %d\n", (int)JAM_CANDIDATE_LIMIT);
+  printf("JAM_CANDIDATE_JUMP value %d\n", (int)JAM_CANDIDATE_JUMP);
+  printf("JAM_CANDIDATE_CONTACTS value %d\n", (int)JAM_CANDIDATE_CONTACTS);
+  printf("JAM_CANDIDATE_EXCESS value %d\n", (int)JAM_CANDIDATE_EXCESS);
   printf("JAM_CONTACT_LOCALISED value %d\n", (int)JAM_CONTACT_LOCALISED);
   printf("JAM_CONTACT_SMALLEST value %d\n", (int)JAM_CONTACT_SMALLEST);
   printf("JAM_CONTACT_MEDIAN value %d\n", (int)JAM_CONTACT_MEDIAN);
@@ -543,5 +553,16 @@ int main(void) {
   printf("JAM_CLASS_EXTENDED value %d\n", (int)JAM_CLASS_EXTENDED);
   printf("JAM_CLASS_SMALLEST value %d\n", (int)JAM_CLASS_SMALLEST);
   printf("JAM_CLASS_MEDIAN value %d\n", (int)JAM_CLASS_MEDIAN);
+  printf("JAM_FLOPPY_MEDIAN value %d\n", (int)JAM_FLOPPY_MEDIAN);
+  printf("JAM_FLOPPY_WEIGHT value %d\n", (int)JAM_FLOPPY_WEIGHT);
+  printf("JAM_FLOPPY_S_PLUS value %d\n", (int)JAM_FLOPPY_S_PLUS);
+  printf("JAM_FLOPPY_S_STAR value %d\n", (int)JAM_FLOPPY_S_STAR);
+  printf("JAM_FLOPPY_STABILITY value %d\n", (int)JAM_FLOPPY_STABILITY);
+  printf("JAM_DOS_OMEGA value %d\n", (int)JAM_DOS_OMEGA);
+  printf("JAM_DOS_DENSITY value %d\n", (int)JAM_DOS_DENSITY);
+  printf("JAM_DOS_ERROR value %d\n", (int)JAM_DOS_ERROR);
+  printf("JAM_DOS_EDGE value %d\n", (int)JAM_DOS_EDGE);
+  printf("JAM_DOS_CUMULATIVE value %d\n", (int)JAM_DOS_CUMULATIVE);
+  printf("JAM_DOS_CUMULATIVE_ERROR value %d\n", (int)JAM_DOS_CUMULATIVE_ERROR);
   return 0;
 }

@@ -60,8 +60,8 @@ class Network(unittest.TestCase):
         c = s.project(every.vectors, u)
         np.testing.assert_allclose(c, every.vectors.reshape(len(every), -1) @ u.reshape(-1), atol=1e-12)
         self.assertAlmostEqual((c**2).sum() / (u**2).sum(), 1, 11)
-        low = s.cumulative_spectrum(points=60, vectors=32)
-        exact = np.searchsorted(every.values[2:], low.omega**2) / (len(every) - 2)
+        low = s.density_of_states(points=60, vectors=32)
+        exact = np.searchsorted(every.values[2:], low.edge**2) / (len(every) - 2)
         self.assertLess(np.abs(low.cumulative - exact).max(), 0.05)
         self.assertGreater(s.moduli(prestress=1e-6).bulk, 0)
 

@@ -26,9 +26,9 @@ static jam_geometry_report look(jam_system *s, jam_status expected) {
 }
 
 static void refuses_floppy_modes(jam_system *s, const char *word) {
-  double x[200];
+  double x[1000];
   size_t m;
-  assert_int_equal(jam_floppy_modes(s, x, 200, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_floppy_modes(s, x, 1000, &m), JAM_E_STATE);
   assert_non_null(strstr(jam_last_error(), word));
 }
 
@@ -126,7 +126,7 @@ static void three_disks(void **state) {
   jam_crunch_report r = {.struct_size = sizeof(jam_crunch_report)};
   jam_geometry_report g;
   jam_system *s = NULL;
-  double f[8], q[8], b[8];
+  double f[8], q[8], b[25];
   size_t m, k;
   (void)state;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
@@ -139,8 +139,8 @@ static void three_disks(void **state) {
   assert_true(g.contacts == 5 && g.self_stresses == 1);
   assert_int_equal(jam_forces(s, q, 8, &m), JAM_OK);
   for (k = 0; k < 5; ++k) assert_true(fabs(f[k] - q[k]) < 1e-9);
-  assert_int_equal(jam_floppy_modes(s, b, 8, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_OK);
-  assert_int_equal(m, 5);
+  assert_int_equal(jam_floppy_modes(s, b, 25, &m), JAM_OK);
+  assert_int_equal(m, 5 * (JAM_FLOPPY_STABILITY + 1)); /* elements */
   jam_destroy(s);
 }
 

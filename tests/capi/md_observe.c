@@ -45,7 +45,8 @@ static void series_pairs_and_ways(void **state) {
   jam_system *sys = fluid(0.25), *bare = NULL;
   jam_observe_options o;
   jam_md_report report, second;
-  static double start[3 * N], end[3 * N], way[3 * N], time[100], count[100], pressure[100], error[100], msd[100];
+  static double start[3 * N], end[3 * N], way[3 * N], time[100], count[100], pressure[100], error[100], msd[100],
+      table[480];
   static int64_t collisions[N];
   const double *d, *v;
   double mean = 0, total_time, virial = 0, square = 0, furthest = 0, twice_kinetic = 0;
@@ -61,13 +62,14 @@ static void series_pairs_and_ways(void **state) {
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
   report = run(sys, 400);
   second = run(sys, 400); /* observations go on over calls */
-  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
-  assert_int_equal(needed, 80);
-  assert_int_equal(jam_observed_series(sys, time, 79, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed),
-                   JAM_E_BUFFER);
-  assert_int_equal(
-      jam_observed_series(sys, time, 100, count, 100, NULL, 0, pressure, 100, error, 100, msd, 100, &needed), JAM_OK);
-  for (k = 0; k < needed; ++k) {
+  assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 80 * 6);
+  assert_int_equal(jam_observed_series(sys, table, 479, &needed), JAM_E_BUFFER);
+  assert_int_equal(jam_observed_series(sys, table, 480, &needed), JAM_OK);
+  for (k = 0; k < 80; ++k) {
+    const double *row = table + 6 * k;
+    time[k] = row[JAM_SERIES_TIME], count[k] = row[JAM_SERIES_COLLISIONS], pressure[k] = row[JAM_SERIES_PRESSURE];
+    error[k] = row[JAM_SERIES_ERROR], msd[k] = row[JAM_SERIES_MSD];
     assert_true(fabs(count[k] - 10.0 * (double)(k + 1)) < 1e-9);
     assert_true(time[k] > (k ? time[k - 1] : 0.0) && error[k] > 0.0);
     mean += pressure[k] / 80.0;
@@ -113,8 +115,8 @@ static void series_pairs_and_ways(void **state) {
   assert_memory_equal(start, end, sizeof start);
   assert_int_equal(jam_observe_stop(sys), JAM_OK);
   run(sys, 100);
-  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
-  assert_int_equal(needed, 80); /* stopped, and still there */
+  assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 80 * 6); /* stopped, and still there */
   jam_destroy(sys);
   jam_destroy(bare);
 }
@@ -235,8 +237,7 @@ static void refuses(void **state) {
   c.n = 8;
   assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
   assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_observed_series(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed),
-                   JAM_E_STATE);
+  assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(needed, 77);
   assert_int_equal(jam_observe_options_init(&o, 3), JAM_E_STRUCT_SIZE);
@@ -258,7 +259,7 @@ static void refuses(void **state) {
   assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, x, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 0);
-  assert_int_equal(jam_observed_series(sys, NULL, 4, NULL, 0, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_NULL);
+  assert_int_equal(jam_observed_series(sys, NULL, 4, &needed), JAM_E_NULL);
   jam_destroy(sys);
 }
 

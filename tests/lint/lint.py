@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """lint.py RULE ROOT: checks one rule of the source tree; prints every violation, exit status 1 if there is one."""
+import fnmatch
 import pathlib
 import re
 import sys
@@ -178,7 +179,11 @@ def file_sizes():
         "examples",
         "pkgconfig",
     }
+    # what git ignores, such as the picture of the quickstart, is no part of the tree
+    ignored = [line.strip("/") for line in (root / ".gitignore").read_text().split()]
     for path in root.iterdir():
+        if any(fnmatch.fnmatch(path.name, pattern) for pattern in ignored):
+            continue
         if path.name not in allowed and not path.name.startswith((".", "build", "__pycache__")):
             problem(path, 0, "does not belong into the root folder")
 

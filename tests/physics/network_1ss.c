@@ -168,7 +168,7 @@ static double bend(const struct network *w, const double *u, double s) {
 static void floppy_keeps_contacts(const struct network *w, int check_next) {
   double *u = malloc(ROOM * sizeof *u), *b = malloc(ROOM * sizeof *b), *sp = malloc(ROOM * sizeof *sp),
          *ss = malloc(ROOM * sizeof *ss);
-  double *wt = malloc(ROOM * sizeof *wt), *st = malloc(ROOM * sizeof *st);
+  double *wt = malloc(ROOM * sizeof *wt), *st = malloc(ROOM * sizeof *st), *table = malloc(5 * ROOM * sizeof *table);
   double fs = 0.0;
   size_t m;
   int64_t k, l;
@@ -184,7 +184,13 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     for (k = 0; k < w->stable; ++k) mean += u[k * w->d];
     assert_true(fabs(mean) < 1e-9 * size * (double)w->stable);
   }
-  assert_int_equal(jam_floppy_modes(w->sys, b, ROOM, wt, ROOM, sp, ROOM, ss, ROOM, st, ROOM, &m), JAM_OK);
+  assert_int_equal(jam_floppy_modes(w->sys, table, 5 * ROOM, &m), JAM_OK);
+  assert_int_equal(m, 5 * w->contacts);
+  for (k = 0; k < w->contacts; ++k) {
+    const double *row = table + 5 * k;
+    b[k] = row[JAM_FLOPPY_MEDIAN], wt[k] = row[JAM_FLOPPY_WEIGHT], sp[k] = row[JAM_FLOPPY_S_PLUS];
+    ss[k] = row[JAM_FLOPPY_S_STAR], st[k] = row[JAM_FLOPPY_STABILITY];
+  }
   for (k = 0; k < w->contacts; ++k) {
     assert_true(b[k] > 0.0 && b[k] < 1.5 / sqrt((double)w->stable));
     assert_true(sp[k] > 0.0 && ss[k] > 0.0);
@@ -208,7 +214,7 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
                 1e-4); /* the least diameter is at s_star */
     if (check_next) assert_true(fabs(sp[l] / next_contact(w, u, -w->force[l] / fs) - 1.0) < 1e-6);
   }
-  free(u), free(b), free(sp), free(ss), free(wt), free(st);
+  free(u), free(b), free(sp), free(ss), free(wt), free(st), free(table);
 }
 
 /* In a state with one self-stress f, a harmonic network of elongations e keeps only its part along f: the modulus is
@@ -273,29 +279,29 @@ static void spectrum_identities(const struct network *w) {
   for (k = 0; k < 8; ++k) assert_true(fabs(low[k] - l[k + (size_t)w->d]) < 1e-11);
   { /* the density of states integrates to one, and its second moment is the trace */
     jam_dos_options q;
-    double *omega = malloc(400 * sizeof *omega), *d = malloc(400 * sizeof *d), *e = malloc(400 * sizeof *e), zero = 0.0,
-           two = 0.0, error = 0.0;
+    enum { POINTS = 400, COLUMNS = JAM_DOS_CUMULATIVE_ERROR + 1 };
+    double *table = malloc(POINTS * COLUMNS * sizeof *table), zero = 0.0, two = 0.0, error = 0.0, step;
     assert_int_equal(jam_dos_options_init(&q, sizeof q), JAM_OK);
-    q.points = 400;
+    q.points = POINTS;
     q.vectors = 32;
     q.moments = 256;
-    assert_int_equal(jam_density_of_states(w->sys, NULL, &q, omega, 400, d, 400, e, 400, &m), JAM_OK);
-    for (k = 0; k < 400; ++k) {
-      zero += d[k] * (omega[1] - omega[0]);
-      two += d[k] * omega[k] * omega[k] * (omega[1] - omega[0]);
-      error += e[k] * (omega[1] - omega[0]);
+    assert_int_equal(jam_density_of_states(w->sys, NULL, &q, table, POINTS * COLUMNS, &m), JAM_OK);
+    assert_int_equal(m, POINTS * COLUMNS);
+    step = table[COLUMNS + JAM_DOS_OMEGA] - table[JAM_DOS_OMEGA];
+    for (k = 0; k < POINTS; ++k) {
+      const double *row = table + k * COLUMNS, edge = row[JAM_DOS_EDGE];
+      size_t below = (size_t)w->d;
+      zero += row[JAM_DOS_DENSITY] * step;
+      two += row[JAM_DOS_DENSITY] * row[JAM_DOS_OMEGA] * row[JAM_DOS_OMEGA] * step;
+      error += row[JAM_DOS_ERROR] * step;
+      assert_true(fabs(edge - row[JAM_DOS_OMEGA] - 0.5 * step) < 1e-12); /* upper ends of the bins */
+      while (below < rows && l[below] <= edge * edge) ++below;           /* against the modes one by one */
+      assert_true(fabs(row[JAM_DOS_CUMULATIVE] - (double)(below - (size_t)w->d) / (double)(rows - (size_t)w->d)) <
+                  0.03);
     }
     assert_true(fabs(zero - 1.0) < 0.02);
     assert_true(error > 0.0 && fabs(two - trace / (double)(rows - (size_t)w->d)) < 0.05 * two);
-    zero = omega[0], two = omega[1];
-    assert_int_equal(jam_cumulative_spectrum(w->sys, NULL, &q, omega, 400, d, 400, e, 400, &m), JAM_OK);
-    assert_true(fabs(omega[0] - 0.5 * (zero + two)) < 1e-12); /* upper ends of the bins, not their middles */
-    for (k = 0; k < 400; ++k) {                               /* against the modes one by one */
-      size_t below = (size_t)w->d;
-      while (below < rows && l[below] <= omega[k] * omega[k]) ++below;
-      assert_true(fabs(d[k] - (double)(below - (size_t)w->d) / (double)(rows - (size_t)w->d)) < 0.03);
-    }
-    free(omega), free(d), free(e);
+    free(table);
   }
   free(l), free(v), free(y);
 }
@@ -338,8 +344,7 @@ static void unclear_jump_of(double part) {
   jam_system *s = crunched(3, 80, 0.2, 0, &report);
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   const double *x;
-  double *y, limit[12], jump[12];
-  int32_t contacts[12], excess[12];
+  double *y, table[48];
   size_t m, k;
   int right = 0;
   const double size = part * report.min_gap * report.diameter_mean;
@@ -350,12 +355,13 @@ static void unclear_jump_of(double part) {
   assert_int_equal(jam_set_positions(s, y, m), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_AMBIGUOUS);
   assert_true(g.jump < 100.0 && g.second_contacts > 0);
-  assert_int_equal(jam_contact_candidates(s, 0.1, limit, 12, jump, 12, contacts, 12, excess, 12, &m), JAM_OK);
-  assert_true(m >= 2);
-  for (k = 0; k < m; ++k) right |= contacts[k] == report.contacts && excess[k] == 0;
+  assert_int_equal(jam_contact_candidates(s, 0.1, table, 48, &m), JAM_OK);
+  assert_true(m >= 2 * 4 && m % 4 == 0);
+  for (k = 0; k < m; k += 4)
+    right |= table[k + JAM_CANDIDATE_CONTACTS] == (double)report.contacts && table[k + JAM_CANDIDATE_EXCESS] == 0.0;
   assert_true(right);
-  assert_int_equal(jam_contact_candidates(s, 0.1, limit, 1, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_BUFFER);
-  assert_int_equal(jam_contact_candidates(s, 0.0, limit, 12, NULL, 0, NULL, 0, NULL, 0, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_contact_candidates(s, 0.1, table, 4, &m), JAM_E_BUFFER);
+  assert_int_equal(jam_contact_candidates(s, 0.0, table, 48, &m), JAM_E_ARGUMENT);
   free(y);
   jam_destroy(s);
 }

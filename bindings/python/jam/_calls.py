@@ -6,7 +6,7 @@ from typing import Any, Callable
 import numpy as np
 
 from . import _generated, _methods, errors, raw
-from ._generated import CALLS, OPTIONS, REPORTS, ROWS, StatusCode
+from ._generated import CALLS, OPTIONS, REPORTS, ROWS, TABLES, StatusCode
 
 raw.set_error_factory(errors.make)
 _DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint64_t": np.uint64, "size_t": np.uint64}
@@ -79,7 +79,7 @@ def describe(struct: str) -> str:
     return "\n".join(f"    {name}: {text}" for name, (_, text) in OPTIONS[struct].items())
 
 
-# Shapes of the arrays that calls fill, by name of function and array: m is *needed, d the dimension. Others are flat (m,).
+# Shapes of the arrays that calls fill, by name of function and array: m is *needed or *rows, d the dimension. Others are flat (m,).
 SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
     "contacts": {"iout": lambda m, d: (m // 2, 2)},
     "contact_vectors": {"out": lambda m, d: (m // d, d)},
@@ -153,8 +153,9 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
     function, first = getattr(raw, "jam_" + name), (handle,) if on_system else ()
     answer = function(*first, *passed)
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
-    if fills and "needed" in asked and status in (0, StatusCode.AMBIGUOUS):
-        m = scalars[asked.index("needed")]
+    count = next((k for k, arg in enumerate(asked) if arg in ("needed", "rows")), None)
+    if fills and count is not None and status in (0, StatusCode.AMBIGUOUS):
+        m = scalars[count]
         for arg, at, ctype in fills:
             shape = SHAPES.get(name, {}).get(arg, lambda m, d: (m,))(m, dim)
             outputs[arg] = np.empty(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else _DTYPES[ctype])
@@ -163,7 +164,11 @@ def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any])
         if status in (StatusCode.CANCELLED,):
             outputs.update({arg: None for arg, _, _ in fills})
     results = {a: freeze(*o) if isinstance(o, tuple) else o for a, o in outputs.items()}
-    results.update({a: v for a, v in zip(asked, scalars) if a != "needed"})
+    results.update({a: v for a, v in zip(asked, scalars) if a not in ("needed", "rows")})
+    if (columns := TABLES.get("jam_" + name)) and results["table"] is not None:
+        flat = results["table"]
+        made = getattr(_methods, camel(name) + "Result")
+        return StatusCode(status), made(*(np.ascontiguousarray(flat[k::columns]) for k in range(columns)))
     if len(results) > 1:
         made = getattr(_methods, camel(name) + "Result", None)
         return StatusCode(status), made(*results.values()) if made else tuple(results.values())

@@ -101,6 +101,16 @@ class GrowthLaw(IntEnum):
     DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a per cent of sigma); d times it is the relative rate of density. The same number at every n
 
 
+class SeriesColumn(IntEnum):
+    """Columns of jam_observed_series. @since 0.1"""
+    TIME = 0  # simulated time, unit box / sqrt(kT/m)
+    COLLISIONS = 1  # collisions per particle
+    FRACTION = 2  # packing fraction
+    PRESSURE = 3  # reduced pressure since the sample before
+    ERROR = 4  # its standard error, from eight parts
+    MSD = 5  # mean-square displacement since jam_observe, unit box^2
+
+
 class EosForm(IntEnum):
     """Equations of state p(phi) in closed form. @since 0.1"""
     CARNAHAN_STARLING = 0  # d = 3, as the next three
@@ -168,6 +178,14 @@ class ModesWhich(IntEnum):
     ALL = 3  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
 
+class CandidateColumn(IntEnum):
+    """Columns of jam_contact_candidates. @since 0.1"""
+    LIMIT = 0  # tolerance on |h|
+    JUMP = 1  # ratio of the gaps above and below it
+    CONTACTS = 2  # contacts of stable spheres within it
+    EXCESS = 3  # contacts - (d (N' - 1) + 1)
+
+
 class ContactClass(IntEnum):
     """Flags of a contact. @since 0.1"""
     LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
@@ -194,6 +212,25 @@ class Class(IntEnum):
     EXTENDED = 2  # contacts that do not; spheres and their pairs: all other stable ones
     SMALLEST = 3  # forces only: the smallest of one of its spheres
     MEDIAN = 4  # forces only: the (lower) median of one of its spheres
+
+
+class FloppyColumn(IntEnum):
+    """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1"""
+    MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
+    WEIGHT = 1  # W = f / median |dr_i|: f equals W times the displacement far away
+    S_PLUS = 2  # opening at which, to first order, the next contact forms
+    S_STAR = 3  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+    STABILITY = 4  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+
+
+class DosColumn(IntEnum):
+    """Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1"""
+    OMEGA = 0  # middle of the bin
+    DENSITY = 1  # density of states D there, integral 1
+    ERROR = 2  # its standard error over the random vectors; smoothing is not in it
+    EDGE = 3  # upper end of the bin
+    CUMULATIVE = 4  # share of modes below the edge
+    CUMULATIVE_ERROR = 5  # its standard error
 
 
 @dataclass(frozen=True, repr=False)
@@ -559,6 +596,14 @@ REPORTS = {
 ROWS = {
 }
 
+# tables: {C name: number of columns}
+TABLES = {
+    "jam_observed_series": 6,
+    "jam_contact_candidates": 4,
+    "jam_floppy_modes": 5,
+    "jam_density_of_states": 6,
+}
+
 # calls: {C name: (on a system, ((argument, role, C type), ...))}; an enum stands for the C type of its values
 CALLS = {
     "jam_copy": (True, (("out", "new_handle", "jam_system"),)),
@@ -579,11 +624,11 @@ CALLS = {
     "jam_checkpoint_write": (True, (("path", "string", "char"),)),
     "jam_observe": (True, (("o", "struct_in", "jam_observe_options"),)),
     "jam_observe_stop": (True, ()),
-    "jam_observed_series": (True, (("time", "array_out", "double"), ("time_len", "len", "size_t"), ("collisions", "array_out", "double"), ("collisions_len", "len", "size_t"), ("fraction", "array_out", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_out", "double"), ("pressure_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("msd", "array_out", "double"), ("msd_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("needed", "scalar_out", "size_t"))),
-    "jam_observed_gaps": (True, (("edge", "array_out", "double"), ("edge_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_series": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_gaps": (True, (("edge", "array_out", "double"), ("edge_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
@@ -600,26 +645,25 @@ CALLS = {
     "jam_forces": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_coordination": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian_map": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
-    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("limit", "array_out", "double"), ("limit_len", "len", "size_t"), ("jump", "array_out", "double"), ("jump_len", "len", "size_t"), ("contacts", "array_out", "int32_t"), ("contacts_len", "len", "size_t"), ("excess", "array_out", "int32_t"), ("excess_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("needed", "scalar_out", "size_t"))),
-    "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
+    "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_class_values": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "Class"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_histogram": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "Class"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pair_correlation": (True, (("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("a", "scalar", "int32_t"), ("b", "scalar", "int32_t"), ("r_max", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
     "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_floppy_mode": (True, (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_floppy_modes": (True, (("median", "array_out", "double"), ("median_len", "len", "size_t"), ("weight", "array_out", "double"), ("weight_len", "len", "size_t"), ("s_plus", "array_out", "double"), ("s_plus_len", "len", "size_t"), ("s_star", "array_out", "double"), ("s_star_len", "len", "size_t"), ("stability", "array_out", "double"), ("stability_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("omega", "array_out", "double"), ("omega_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_cumulative_spectrum": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("omega", "array_out", "double"), ("omega_len", "len", "size_t"), ("cumulative", "array_out", "double"), ("cumulative_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_modes": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
     "jam_moduli_get": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli"))),

@@ -46,30 +46,29 @@ class Methods:
         return self.call('observe_stop', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
-        """Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
-        before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
-        NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"""
+        """Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
+        Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"""
         return self.call('observed_series')
 
     def observed_spheres(self) -> ObservedSpheresResult:
-        """Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+        """Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
         length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_spheres')
 
     def observed_pairs(self) -> ObservedPairsResult:
-        """Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+        """Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
         sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
         may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_pairs')
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+        """Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
         limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
         with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_gaps')
 
     def observed_correlation(self) -> ObservedCorrelationResult:
-        """g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+        """g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
         Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_correlation')
 
@@ -152,21 +151,21 @@ class Methods:
         return self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
 
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
-        """Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
-        jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
-        (m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
-        needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        """Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
+        jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
+        with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
+        Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
         return self.call('contact_candidates', window)
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
-        """States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+        """States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
         (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
         with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
         = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('stress_states', progress=progress)
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
-        """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+        """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
         stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
         JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"""
         return self.call('gaps', h_max, stable_only)
@@ -177,11 +176,11 @@ class Methods:
 
     def sphere_structure(self, weighted: int) -> SphereStructureResult:
         """c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-        *needed = n. Threads: const. Errors: as jam_contacts. @since 0.1"""
+        *rows = n. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('sphere_structure', weighted)
 
     def contact_dots(self, weighted: int) -> ContactDotsResult:
-        """n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+        """n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
         pairs. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_dots', weighted)
 
@@ -229,20 +228,15 @@ class Methods:
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
-        localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
-        at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
-        second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
-        force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
-        jam_floppy_mode. Threads: alone. @since 0.1"""
+        """The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+        JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
         return self.call('floppy_modes', progress=progress)
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
-        """Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
-        computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
-        `points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
-        is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
-        Threads: alone. @since 0.1
+        """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
+        left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
+        -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+        JAM_E_TOO_FEW. Threads: alone. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
@@ -253,20 +247,6 @@ class Methods:
         points: values of omega, default 200
         seed: of the random vectors, default 1"""
         return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
-
-    def cumulative_spectrum(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> CumulativeSpectrumResult:
-        """Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
-        standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
-
-        Options:
-        stiffness: jam_stiffness, default HARMONIC
-        alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
-        moments: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
-        vectors: random vectors, 2..1e5, default 16
-        points: values of omega, default 200
-        seed: of the random vectors, default 1"""
-        return self.call('cumulative_spectrum', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
     def project(self, vector: Any = None, u: Any = None) -> np.ndarray:
         """Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
@@ -300,14 +280,14 @@ class Methods:
 
 
 class ObservedSeriesResult(NamedTuple):
-    """What observed_series returns."""
+    """What observed_series returns, column by column."""
 
-    time: np.ndarray
-    collisions: np.ndarray
-    fraction: np.ndarray
-    pressure: np.ndarray
-    error: np.ndarray
-    msd: np.ndarray
+    time: np.ndarray  # simulated time, unit box / sqrt(kT/m)
+    collisions: np.ndarray  # collisions per particle
+    fraction: np.ndarray  # packing fraction
+    pressure: np.ndarray  # reduced pressure since the sample before
+    error: np.ndarray  # its standard error, from eight parts
+    msd: np.ndarray  # mean-square displacement since jam_observe, unit box^2
 
 
 class ObservedSpheresResult(NamedTuple):
@@ -342,12 +322,12 @@ class ObservedCorrelationResult(NamedTuple):
 
 
 class ContactCandidatesResult(NamedTuple):
-    """What contact_candidates returns."""
+    """What contact_candidates returns, column by column."""
 
-    limit: np.ndarray
-    jump: np.ndarray
-    contacts: np.ndarray
-    excess: np.ndarray
+    limit: np.ndarray  # tolerance on |h|
+    jump: np.ndarray  # ratio of the gaps above and below it
+    contacts: np.ndarray  # contacts of stable spheres within it
+    excess: np.ndarray  # contacts - (d (N' - 1) + 1)
 
 
 class StressStatesResult(NamedTuple):
@@ -387,29 +367,24 @@ class StructureFactorResult(NamedTuple):
 
 
 class FloppyModesResult(NamedTuple):
-    """What floppy_modes returns."""
+    """What floppy_modes returns, column by column."""
 
-    median: np.ndarray
-    weight: np.ndarray
-    s_plus: np.ndarray
-    s_star: np.ndarray
-    stability: np.ndarray
+    median: np.ndarray  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
+    weight: np.ndarray  # W = f / median |dr_i|: f equals W times the displacement far away
+    s_plus: np.ndarray  # opening at which, to first order, the next contact forms
+    s_star: np.ndarray  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+    stability: np.ndarray  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
 
 
 class DensityOfStatesResult(NamedTuple):
-    """What density_of_states returns."""
+    """What density_of_states returns, column by column."""
 
-    omega: np.ndarray
-    density: np.ndarray
-    error: np.ndarray
-
-
-class CumulativeSpectrumResult(NamedTuple):
-    """What cumulative_spectrum returns."""
-
-    omega: np.ndarray
-    cumulative: np.ndarray
-    error: np.ndarray
+    omega: np.ndarray  # middle of the bin
+    density: np.ndarray  # density of states D there, integral 1
+    error: np.ndarray  # its standard error over the random vectors; smoothing is not in it
+    edge: np.ndarray  # upper end of the bin
+    cumulative: np.ndarray  # share of modes below the edge
+    cumulative_error: np.ndarray  # its standard error
 
 
 class CompareResult(NamedTuple):

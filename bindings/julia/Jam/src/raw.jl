@@ -85,6 +85,14 @@ const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1
 const JAM_GROWTH_DIAMETER = Int32(0)  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
 const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a per cent of sigma); d times it is the relative rate of density. The same number at every n
 
+# jam_series_column: Columns of jam_observed_series. @since 0.1
+const JAM_SERIES_TIME = Int32(0)  # simulated time, unit box / sqrt(kT/m)
+const JAM_SERIES_COLLISIONS = Int32(1)  # collisions per particle
+const JAM_SERIES_FRACTION = Int32(2)  # packing fraction
+const JAM_SERIES_PRESSURE = Int32(3)  # reduced pressure since the sample before
+const JAM_SERIES_ERROR = Int32(4)  # its standard error, from eight parts
+const JAM_SERIES_MSD = Int32(5)  # mean-square displacement since jam_observe, unit box^2
+
 # jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
 const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
 const JAM_EOS_PY_VIRIAL = Int32(1)  # Percus-Yevick, virial route
@@ -137,6 +145,12 @@ const JAM_MODES_HIGHEST = Int32(1)  # largest eigenvalues
 const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, translations left out
 const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
+# jam_candidate_column: Columns of jam_contact_candidates. @since 0.1
+const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
+const JAM_CANDIDATE_JUMP = Int32(1)  # ratio of the gaps above and below it
+const JAM_CANDIDATE_CONTACTS = Int32(2)  # contacts of stable spheres within it
+const JAM_CANDIDATE_EXCESS = Int32(3)  # contacts - (d (N' - 1) + 1)
+
 # jam_contact_class: Flags of a contact. @since 0.1
 const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
@@ -158,6 +172,21 @@ const JAM_CLASS_LOCALISED = Int32(1)  # contacts that touch a buckler; spheres a
 const JAM_CLASS_EXTENDED = Int32(2)  # contacts that do not; spheres and their pairs: all other stable ones
 const JAM_CLASS_SMALLEST = Int32(3)  # forces only: the smallest of one of its spheres
 const JAM_CLASS_MEDIAN = Int32(4)  # forces only: the (lower) median of one of its spheres
+
+# jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1
+const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
+const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
+const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms
+const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+const JAM_FLOPPY_STABILITY = Int32(4)  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+
+# jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1
+const JAM_DOS_OMEGA = Int32(0)  # middle of the bin
+const JAM_DOS_DENSITY = Int32(1)  # density of states D there, integral 1
+const JAM_DOS_ERROR = Int32(2)  # its standard error over the random vectors; smoothing is not in it
+const JAM_DOS_EDGE = Int32(3)  # upper end of the bin
+const JAM_DOS_CUMULATIVE = Int32(4)  # share of modes below the edge
+const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
 
 """
 Options of jam_create and jam_read. @since 0.1
@@ -740,46 +769,45 @@ function jam_observe_stop(sys)
 end
 
 """
-Series, *needed = samples: simulated time; collisions per particle; packing fraction; pressure since the sample
-before and its standard error (from eight parts); mean-square displacement since jam_observe, unit box^2. Each may be
-NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
+Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
 """
-function jam_observed_series(sys, time, time_len, collisions, collisions_len, fraction, fraction_len, pressure, pressure_len, error, error_len, msd, msd_len, needed)
-    return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(time), time_len, _ptr(collisions), collisions_len, _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ptr(error), error_len, _ptr(msd), msd_len, _ref(Csize_t, needed))
+function jam_observed_series(sys, table, table_len, needed)
+    return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-Of each sphere, *needed = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
+Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
 length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
-function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, needed)
-    return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, needed))
+function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, rows)
+    return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, rows))
 end
 
 """
-Pairs that have collided, *needed = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
+Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
 sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
 may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
-function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, needed)
-    return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, needed))
+function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, rows)
+    return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, rows))
 end
 
 """
-Histogram of gaps h, *needed = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
+Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
 limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
 with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
-function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, needed)
-    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
+function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
+    return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, rows))
 end
 
 """
-g(r), *needed = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
 Errors: as jam_observed_series. @since 0.1
 """
-function jam_observed_correlation(sys, r, r_len, g, g_len, needed)
-    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, needed))
+function jam_observed_correlation(sys, r, r_len, g, g_len, rows)
+    return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, rows))
 end
 
 """
@@ -940,22 +968,22 @@ function jam_hessian_map(sys, iout, iout_len, needed)
 end
 
 """
-Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *needed = entries.
+Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
 Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
 0.1
 """
-function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, needed)
-    return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, needed))
+function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, rows)
+    return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, rows))
 end
 
 """
-Modes of the Hessian, *needed = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
+Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
 participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
 is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
 JAM_E_BUSY. Threads: alone. @since 0.1
 """
-function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, needed)
-    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, needed))
+function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, rows)
+    return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, rows))
 end
 
 """
@@ -979,32 +1007,32 @@ function jam_contacts_from_geometry(sys, o, report)
 end
 
 """
-Candidates for the tolerance, when no jump is clear: where the sorted gaps below window (as jam_geometry_options)
-jump and enough contacts for a rigid network lie below; largest jump first, at most 12. limit (m): tolerance; jump
-(m): ratio of gaps; contacts, excess (m): as in jam_geometry_report. Each array may be NULL with length 0. No network
-needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
+jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
+with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
 """
-function jam_contact_candidates(sys, window, limit, limit_len, jump, jump_len, contacts, contacts_len, excess, excess_len, needed)
-    return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, window, _ptr(limit), limit_len, _ptr(jump), jump_len, _ptr(contacts), contacts_len, _ptr(excess), excess_len, _ref(Csize_t, needed))
+function jam_contact_candidates(sys, window, table, table_len, needed)
+    return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-States of self-stress of the network: *needed = their number m; force (n_c), mean 1, from the null space of S^T
+States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
 (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
 with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
 = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
 """
-function jam_stress_states(sys, force, force_len, basis, basis_len, residual, needed)
-    return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, needed))
+function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
+    return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
 end
 
 """
-Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *needed = gaps. With
+Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1
 """
-function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, needed)
-    return ccall((:jam_gaps, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, needed))
+function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
+    return ccall((:jam_gaps, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, rows))
 end
 
 """
@@ -1016,18 +1044,18 @@ end
 
 """
 c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-*needed = n. Threads: const. Errors: as jam_contacts. @since 0.1
+*rows = n. Threads: const. Errors: as jam_contacts. @since 0.1
 """
-function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, needed)
-    return ccall((:jam_sphere_structure, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, needed))
+function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, rows)
+    return ccall((:jam_sphere_structure, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, rows))
 end
 
 """
-n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *needed =
+n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
 pairs. Threads: const. Errors: as jam_contacts. @since 0.1
 """
-function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, needed)
-    return ccall((:jam_contact_dots, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, needed))
+function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
+    return ccall((:jam_contact_dots, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, rows))
 end
 
 """
@@ -1060,8 +1088,8 @@ S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; 
 No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
 Threads: alone. @since 0.1
 """
-function jam_structure_factor(sys, q_max, q, q_len, s, s_len, needed)
-    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(q), q_len, _ptr(s), s_len, _ref(Csize_t, needed))
+function jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows)
+    return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(q), q_len, _ptr(s), s_len, _ref(Csize_t, rows))
 end
 
 """
@@ -1098,15 +1126,11 @@ function jam_floppy_mode(sys, contact, out, out_len, needed)
 end
 
 """
-The same field for every contact, measured: median (n_c), b = median |dr_i| / |dr|, far below 1/sqrt(N') when
-localised; weight (n_c), W = f / median |dr_i|, so that f = W times the displacement far away; s_plus (n_c) = opening
-at which to first order the next contact forms; s_star (n_c) = f / B with B = sum_k f_k |dr_perp|^2 / r_k, where to
-second order the diameters are least; stability (n_c) = s_star / s_plus, that is sigma f / (N c F s_plus), F the mean
-force, c = sigma B / (N F). Arrays may be NULL with length 0. Status: JAM_OK, JAM_CANCELLED. Errors: as
-jam_floppy_mode. Threads: alone. @since 0.1
+The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
 """
-function jam_floppy_modes(sys, median, median_len, weight, weight_len, s_plus, s_plus_len, s_star, s_star_len, stability, stability_len, needed)
-    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(median), median_len, _ptr(weight), weight_len, _ptr(s_plus), s_plus_len, _ptr(s_star), s_star_len, _ptr(stability), stability_len, _ref(Csize_t, needed))
+function jam_floppy_modes(sys, table, table_len, needed)
+    return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1117,22 +1141,13 @@ function jam_dos_options_init(o, size)
 end
 
 """
-Density of states D(omega), integral 1, translations left out, by the kernel polynomial method: no modes are
-computed. omega, density and its standard error (over random vectors; the kernel's smoothing is not in it), each
-`points` long and may be NULL. With prestress omega starts below 0, where unstable modes stand at -sqrt(-lambda), and
-is resolved less well near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes, JAM_E_TOO_FEW.
-Threads: alone. @since 0.1
+Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
+left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
+-sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
+JAM_E_TOO_FEW. Threads: alone. @since 0.1
 """
-function jam_density_of_states(sys, h, o, omega, omega_len, density, density_len, error, error_len, needed)
-    return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, needed))
-end
-
-"""
-Cumulative spectrum, the integral of that density: share of modes below omega (upper ends of the bins) and its
-standard error. Otherwise as jam_density_of_states. Threads: alone. Errors: as jam_density_of_states. @since 0.1
-"""
-function jam_cumulative_spectrum(sys, h, o, omega, omega_len, cumulative, cumulative_len, error, error_len, needed)
-    return ccall((:jam_cumulative_spectrum, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(omega), omega_len, _ptr(cumulative), cumulative_len, _ptr(error), error_len, _ref(Csize_t, needed))
+function jam_density_of_states(sys, h, o, table, table_len, needed)
+    return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """

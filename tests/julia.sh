@@ -1,0 +1,63 @@
+#!/bin/sh
+# julia.sh BUILD: runs the Julia layer's tests and all examples with a real Julia. Takes a Julia on PATH, or else fetches
+# Debian 11's package (1.5.3) with what it needs into BUILD/julia: nothing is installed, and apt's own lists stay as they
+# are. Exit status 77 (skipped) where no Julia can be had.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$(cd "$1" && pwd)
+home=$build/julia
+skip() { echo "skipped: $*"; exit 77; }
+
+fetch() {
+  command -v apt-get >/dev/null || skip "no Julia on PATH and no apt-get to fetch one"
+  uri=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 2>/dev/null | grep '/debian/*$' | head -n 1)
+  [ -n "$uri" ] || skip "no Julia on PATH, and apt knows no Debian archive"
+  mkdir -p "$home/apt/lists/partial" "$home/apt/cache/archives/partial" "$home/apt/empty.d" "$home/deb" "$home/tree"
+  : >"$home/apt/status"
+  echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $uri bullseye main" >"$home/apt/sources.list"
+  # An apt of its own: own lists, own cache, and a system on which nothing is installed.
+  private() {
+    apt-get -q -o Dir::Etc::SourceList="$home/apt/sources.list" -o Dir::Etc::SourceParts="$home/apt/empty.d" \
+      -o Dir::Etc::Preferences=/dev/null -o Dir::Etc::PreferencesParts="$home/apt/empty.d" \
+      -o Dir::State="$home/apt" -o Dir::State::Lists="$home/apt/lists" -o Dir::State::Status="$home/apt/status" \
+      -o Dir::Cache="$home/apt/cache" -o APT::Sandbox::User= -o Debug::NoLocking=1 \
+      -o Acquire::Languages=none -o Acquire::Retries=2 -o Acquire::http::Timeout=60 "$@"
+  }
+  private update >"$home/apt/log" 2>&1 || skip "no Julia on PATH, and $uri cannot be read"
+  private install -y --no-install-recommends --print-uris julia >"$home/apt/uris" 2>>"$home/apt/log" ||
+    skip "no Julia on PATH, and $uri has no bullseye/julia"
+  # The C and C++ run-time libraries are the host's: libjam was linked against them, and they are newer.
+  packages=$(sed -n "s/^'[^']*\/\([^_/']*\)_.*/\1/p" "$home/apt/uris" | sed 's/%2b/+/g' |
+    grep -vE '^(libc6|libc-bin|libgcc-s1|libstdc\+\+6|libgomp1|libgfortran5|libquadmath0|gcc-.*-base|libcrypt1|dpkg|tar|debconf|perl-base|install-info)$')
+  (cd "$home/deb" && private download $packages) >>"$home/apt/log" 2>&1 || skip "the packages of Julia cannot be fetched"
+  for deb in "$home"/deb/*.deb; do dpkg -x "$deb" "$home/tree"; done
+  rm -rf "$home/deb"
+  touch "$home/complete"
+}
+
+if command -v julia >/dev/null; then
+  julia=julia
+else
+  [ -f "$home/complete" ] || fetch
+  lib=$home/tree/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-multiarch)
+  julia=$home/tree/usr/bin/julia
+  JULIA_LIBRARIES=$lib/julia:$lib:$(find "$home/tree" -name 'lib*.so*' -path '*openblas*' -printf '%h\n' | sort -u | tr '\n' ':')
+  export JULIA_BINDIR="$home/tree/usr/bin"
+fi
+run() { LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" "$@"; }
+run --version
+export JULIA_DEPOT_PATH="$home/depot" JULIA_LOAD_PATH="$root/bindings/julia:@stdlib" JAM_LIBRARY="$build/libjam.so"
+work=$home/work
+rm -rf "$work" && mkdir -p "$work"
+cd "$work"
+run "$root/bindings/julia/Jam/test/runtests.jl"
+for example in "$root"/examples/julia/*.jl; do
+  echo "== $(basename "$example")"
+  case $example in
+  */crunch_file.jl)
+    run -e 'using Jam; s = System(n = 100, dim = 2, diameters = repeat([1.4, 1.0], 50))
+            compress!(s; growth_rate = 0.1, pressure = 100.0); write("dense.xyz", s)'
+    run "$example" dense.xyz crunched.xyz ;;
+  *) run "$example" ;;
+  esac
+done

@@ -27,7 +27,7 @@ if raw.jam_abi_version() != JAM_ABI:
         f"jam was built for ABI {JAM_ABI} of libjam, the library that was found has {raw.jam_abi_version()}"
     )
 
-_LAZY = ("plot", "files", "cli")
+_LAZY = ("plot", "files", "cli", "ensemble", "scaling", "store")
 
 
 def __getattr__(name: str) -> Any:
@@ -35,8 +35,12 @@ def __getattr__(name: str) -> Any:
         import importlib
 
         return importlib.import_module("." + name, __name__)
+    if name == "load":
+        from .store import load
+
+        return load
     raise AttributeError(f"module 'jam' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted(set(globals()) | set(_LAZY))
+    return sorted(set(globals()) | set(_LAZY) | {"load"})

@@ -1,6 +1,7 @@
 """Calls any C function of the header by its conventions: options by keyword, arrays as numpy, count then fill."""
 from __future__ import annotations
 
+import math
 from typing import Any, Callable
 
 import numpy as np
@@ -53,6 +54,18 @@ def options(struct: str, given: dict[str, Any]) -> Any:
             value = as_enum(value, kind)
         setattr(made, name, value)
     return made
+
+
+def spelled_out(made: Any, struct: str) -> dict[str, Any]:
+    """All members of an option struct as JSON holds them: enums by name, numbers that are not finite as text."""
+    plain: dict[str, Any] = {}
+    for name, (kind, _) in OPTIONS[struct].items():
+        value = getattr(made, name)
+        if kind == "float":
+            plain[name] = float(value) if math.isfinite(value) else str(float(value))
+        else:
+            plain[name] = int(value) if kind == "int" else getattr(_generated, kind)(int(value)).name.lower()
+    return plain
 
 
 def freeze(struct: Any, name: str) -> Any:

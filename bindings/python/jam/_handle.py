@@ -56,7 +56,9 @@ class Base(Methods):
     def __init__(self, handle: Any) -> None:
         self._handle: Any = handle
         self._first_info: Info | None = None
-        self._carried: tuple | None = None  # report and contacts that came with a pickle
+        self._carried: tuple | None = None  # report, contacts and history that came with a pickle or a file
+        #: Calls that moved the spheres: verb, options (every one), status and stop reason of each
+        self.calls: list[dict[str, Any]] = []
         #: Progress records of this system's calls, at most one every 0.05 s
         self.trace: list[Progress] = []
         #: Status of the last call: > 0 where it stopped early or the answer is not unique
@@ -99,7 +101,15 @@ class Base(Methods):
         """
         handle = self.handle
         with self._reporting(progress):
-            self.status, result = _calls.invoke(handle, self.dim, name, args, named)
+            try:
+                self.status, result = _calls.invoke(handle, self.dim, name, args, named)
+            except errors.StateError as error:
+                if self._carried is None:
+                    raise
+                raise errors.StateError(
+                    f"{error}. This system came from a file or a pickle, which hold results and not the network in "
+                    "memory: call contacts_from_geometry() first, or crunch()"
+                ) from None
         if name in _MOVERS:
             self._carried = None
         return result

@@ -18,7 +18,7 @@ class Network(Base):
     @property
     def report(self) -> CrunchReport:
         """CrunchReport and certificate of the last crunch."""
-        if self._carried:
+        if self._carried and self._carried[0] is not None:
             return self._carried[0]
         made = _calls.new_report("jam_crunch_report")
         raw.jam_crunch_report_get(self.handle, made)
@@ -27,6 +27,8 @@ class Network(Base):
     @property
     def history(self) -> np.ndarray:
         """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
+        if self._carried and self._carried[2] is not None:
+            return self._carried[2]
         columns = [self.call("crunch_history", c) for c in HistoryColumn]
         rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in HistoryColumn])
         for c, values in zip(HistoryColumn, columns):
@@ -36,7 +38,7 @@ class Network(Base):
     @property
     def contacts(self) -> Contacts:
         """Pairs, unit vectors, gaps and forces of the contacts, as copies."""
-        if self._carried:
+        if self._carried and self._carried[1] is not None:
             return self._carried[1]
         return Contacts(
             self.call("contacts"), self.call("contact_vectors"), self.call("contact_gaps"), self.call("forces")
@@ -45,12 +47,12 @@ class Network(Base):
     @property
     def forces(self) -> np.ndarray:
         """(contacts,), mean 1; times report.force_scale they are lambda r."""
-        return self._carried[1].forces if self._carried else self.call("forces")
+        return self._carried[1].forces if self._carried and self._carried[1] is not None else self.call("forces")
 
     @property
     def coordination(self) -> np.ndarray:
         """(n,) int32: contacts of each sphere, 0 for rattlers."""
-        if self._carried:
+        if self._carried and self._carried[1] is not None:
             return np.bincount(self._carried[1].pairs.reshape(-1), minlength=self.n).astype(np.int32)
         return self.call("coordination")
 

@@ -22,6 +22,14 @@ class Verbs(Observing):
         frozen = _calls.freeze(made, report)
         self.status = StatusCode(status)
         object.__setattr__(frozen, "status", self.status)
+        self.calls.append(
+            {
+                "verb": name.removeprefix("jam_"),
+                "options": {} if chosen is None else _calls.spelled_out(chosen, struct),
+                "status": self.status.name.lower(),
+                "stop_reason": getattr(getattr(frozen, "stop_reason", None), "name", "none").lower(),
+            }
+        )
         return frozen
 
     def run(self, collisions_per_particle: float | None = None, *, progress: Any = None, **options: Any) -> MdReport:
@@ -58,7 +66,9 @@ class Verbs(Observing):
             raise ValueError("stages is empty")
         return report
 
-    def crunch(self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any) -> CrunchReport:
+    def crunch(
+        self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any
+    ) -> CrunchReport:
         """Iterated linear programming down to the jamming point. Returns the CrunchReport with the certificate.
 
         on_step: a callable(Step) that is given every step with its displacements and linear network (and makes each LP be

@@ -92,7 +92,7 @@ class System(State, Verbs, Network):
     def copy(self) -> "System":
         """Deep copy with its results."""
         made = System(raw.jam_copy(self.handle)[1])
-        made.trace, made._carried = list(self.trace), self._carried
+        made.trace, made.calls, made._carried = list(self.trace), list(self.calls), self._carried
         return made
 
     __copy__ = copy
@@ -104,13 +104,16 @@ class System(State, Verbs, Network):
         with tempfile.TemporaryDirectory() as folder:  # the checkpoint alone holds all: velocities, Mari-Kurchan shifts
             file = Path(folder, "state")
             self.checkpoint_write(str(file))
-            return _restore, (file.read_bytes(), self._results(), self.trace)
+            return _restore, (file.read_bytes(), self._results(), self.calls, self.trace)
 
     def _results(self) -> tuple | None:
-        try:
-            return self.report, self.contacts
-        except errors.JamError:
-            return None
+        found: list[Any] = []
+        for name in ("report", "contacts", "history"):
+            try:
+                found.append(getattr(self, name))
+            except errors.StateError:
+                found.append(None)
+        return tuple(found) if found[1] is not None or found[0] is not None else None
 
     def __repr__(self) -> str:
         if self._handle is None:
@@ -126,11 +129,21 @@ class System(State, Verbs, Network):
         """Writes the packing, 17 digits: 'plain' or 'xyz' (extended XYZ); 'auto' goes by the name."""
         raw.jam_write(self.handle, os.fspath(path), _calls.as_enum(format, "Format"))
 
+    def save(self, path: str | os.PathLike) -> None:
+        """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
 
-def _restore(state: bytes, results: tuple | None, trace: list) -> System:
+        Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
+        options, and where it was made. Positions and box have the layout of H5MD.
+        """
+        from . import store
+
+        store.save(self, path)
+
+
+def _restore(state: bytes, results: tuple | None, calls: list, trace: list) -> System:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "state")
         file.write_bytes(state)
         made = System.from_checkpoint(file)
-    made._carried, made.trace = results, trace
+    made._carried, made.calls, made.trace = results, calls, trace
     return made

@@ -1,0 +1,410 @@
+"""Ensembles: one protocol times many seeds, made by any concurrent.futures.Executor, one file a packing.
+
+    import jam
+    e = jam.ensemble.Ensemble("folder", dict(n=128, dim=3))
+    e.run(range(1, 101))                 # killed? run it again: what is there is not made twice
+    e.table()["packing_fraction"]        # reports
+    for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read when asked for
+
+Data flow: protocol x seed -> make_packing in a worker -> a file -> the folder, which all later calls read.
+The worker writes the file itself; only a row of the table goes back. Bits do not depend on the executor.
+"""
+from __future__ import annotations
+
+import json
+import os
+import random
+import time
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Mapping
+
+import numpy as np
+
+from . import store
+from .ensemble_folder import ROW, Folder, Found
+from .ensemble_pool import LocalPool, WorkerDied
+from .ensemble_protocol import ProtocolError, begin, complete, identity, make, packing_name, to_json
+
+from .store import StoreError
+from .system import System
+
+WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work
+ATTEMPTS = 3  # workers that may be lost over one packing before it is recorded as a failure
+INDEX_SECONDS = 10.0  # rows are added to the index so often
+
+__all__ = [
+    "Ensemble",
+    "Entry",
+    "LocalPool",
+    "ProtocolError",
+    "Status",
+    "StoreError",
+    "WorkerDied",
+    "begin",
+    "complete",
+    "make",
+    "to_json",
+]
+
+
+def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1) -> tuple:
+    """Makes one packing and its file: the call that an executor runs.
+
+    Parameters
+    ----------
+    folder, protocol : str
+        Folder of the ensemble; the complete protocol as JSON.
+    attempt : int
+        How often this seed was tried, so that a scheduler takes it for a new call.
+
+    Returns
+    -------
+    tuple
+        ("done", name, size, changed, row) or ("failed", name, text).
+    """
+    files, chosen = Folder(folder), json.loads(protocol)
+    protocol_id = identity(chosen)
+    name = packing_name(protocol_id, seed)
+    path = files.packing(name)
+    if not path.exists():  # somebody else may have made it since
+        start, cpu = time.monotonic(), time.process_time()
+        try:
+            system, results = make(chosen, seed)
+        except Exception as error:  # a failure is a result too
+            status = getattr(getattr(error, "status", None), "name", type(error).__name__)
+            files.write_failure(name, protocol_id, seed, status.lower(), str(error))
+            return "failed", name, f"{status}: {error}"
+        times = {"seconds_made": time.monotonic() - start, "seconds_processor": time.process_time() - cpu}
+        data = store.image(system, analysis=results, protocol=protocol, protocol_id=protocol_id, times=times)
+        store.write_file(path, data, files.parts)
+    files.failure(name).unlink(missing_ok=True)
+    stat = path.stat()
+    return "done", name, stat.st_size, stat.st_mtime_ns, files._row_from_file(name, str(path))
+
+
+@dataclass(frozen=True)
+class Status:
+    """What is there of the seeds asked for."""
+
+    asked: int
+    done: int
+    jammed: int
+    failed: int
+
+    @property
+    def missing(self) -> int:
+        """Neither made nor failed."""
+        return self.asked - self.done - self.failed
+
+    def __str__(self) -> str:
+        return (
+            f"{self.done} of {self.asked} packings are there, {self.jammed} jammed; {self.failed} failed, "
+            f"{self.missing} to be made"
+        )
+
+
+class Entry:
+    """One packing of an ensemble, read from its file when asked for.
+
+    Attributes are what System calls them: positions, diameters, pairs, vectors, contact_gaps, forces, coordination,
+    history; `gaps` are those of the protocol's analysis; `analysis(name)` reads any other result.
+    """
+
+    _PLACES = {
+        "pairs": "contacts/pairs",
+        "vectors": "contacts/vectors",
+        "contact_gaps": "contacts/gaps",
+        "forces": "contacts/forces",
+        "gaps": "analysis/gaps/gap",
+        "diameters": "diameters",
+        "coordination": "coordination",
+        "history": "history",
+    }
+
+    def __init__(self, row: np.ndarray, path: Path) -> None:
+        #: The row of the table
+        self.row = row
+        #: The file
+        self.path = path
+
+    seed = property(lambda self: int(self.row["seed"]))
+
+    def read(self, *names: str) -> tuple:
+        """Several of the attributes with one opening of the file."""
+        with store.open_file(self.path) as file:
+            return tuple(self._get(file, name) for name in names)
+
+    def _get(self, file: Any, name: str) -> Any:
+        if name == "positions":
+            return file["particles/spheres/position/value"][0]
+        if name in ROW.names and name not in self._PLACES:
+            return self.row[name]
+        place = self._PLACES.get(name, "analysis/" + name)
+        if place not in file["jam"]:
+            there = list(self._PLACES) + ["positions"] + list(file["jam/analysis"])
+            raise KeyError(f"{self.path} holds no {name!r}; there may be {', '.join(there)}")
+        return store._read(file["jam/" + place])
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in (*self._PLACES, "positions", *ROW.names):
+            raise AttributeError(name)
+        return self.read(name)[0]
+
+    def analysis(self, name: str) -> Any:
+        """A result of the protocol's analysis: a number, an array, text, or a dict of them."""
+        return self.read(name)[0]
+
+    def system(self) -> System:
+        """The packing itself."""
+        return store.load(self.path)
+
+    def __repr__(self) -> str:
+        return f"Entry(seed={self.seed}, n={self.row['n']}, jammed={self.row['jammed']}, {self.path.name})"
+
+
+class Ensemble:
+    """Packings of one protocol in a folder.
+
+    Parameters
+    ----------
+    folder : path
+        Made by run() where it is missing. Other protocols may live in it, and other campaigns may run in it.
+    protocol : mapping, optional
+        See jam.ensemble_protocol; ``dict(n=128, dim=3)`` is enough. None: the only one of the folder.
+    """
+
+    def __init__(self, folder: str | os.PathLike, protocol: Mapping[str, Any] | None = None) -> None:
+        self.files = Folder(folder)
+        if protocol is None:
+            known = self.files.protocols()
+            if len(known) != 1:
+                raise ProtocolError(f"{folder} holds {len(known)} protocols ({', '.join(known) or 'none'}): give one")
+            protocol = next(iter(known.values()))  # as it was written: later options have their defaults in it
+        else:
+            protocol = complete(protocol)
+        #: The protocol with every default spelled out
+        self.protocol: dict[str, Any] = dict(protocol)
+        #: Its name
+        self.id = identity(self.protocol)
+
+    def name(self, seed: int) -> str:
+        """Name of the packing of a seed, with this version of libjam."""
+        return packing_name(self.id, seed)
+
+    # ---- making
+    def run(
+        self,
+        seeds: Iterable[int],
+        executor: Executor | None = None,
+        progress: bool = True,
+        retry: bool = False,
+        workers: int | None = None,
+    ) -> Status:
+        """Makes the packings of these seeds that are not there yet.
+
+        Parameters
+        ----------
+        seeds : iterable of int
+            One packing each.
+        executor : concurrent.futures.Executor, optional
+            Default: a LocalPool of `workers` processes. For example mpi4py.futures.MPIPoolExecutor() or
+            dask.distributed.Client(address).get_executor(). It stays open.
+        progress : bool
+            A bar by tqdm on a terminal.
+        retry : bool
+            Also those that failed before.
+
+        Returns
+        -------
+        Status
+            What is there of these seeds.
+
+        Raises
+        ------
+        StoreError
+            The folder cannot be written (read-only, disk full). Nothing that was finished is lost.
+        """
+        seeds = list(dict.fromkeys(int(s) for s in seeds))
+        self.files.prepare()
+        self.files.keep_protocol(self.id, to_json(self.protocol))
+        done, failed = self.files.scan()
+        names = {s: self.name(s) for s in seeds}
+        todo = [s for s in seeds if names[s] not in done and (retry or names[s] not in failed)]
+        random.shuffle(todo)  # two campaigns with the same seeds then share the work
+        own = executor is None
+        pool = LocalPool(workers) if own else executor
+        try:
+            _Run(self, pool, _bar(progress, len(seeds), len(seeds) - len(todo))).work(todo)
+        except BaseException:
+            if own:
+                pool.shutdown(wait=False, cancel_futures=True)  # packings under way are dropped, their workers killed
+            raise
+        if own:
+            pool.shutdown()
+        return self.status(seeds)
+
+    # ---- reading
+    def status(self, seeds: Iterable[int] | None = None) -> Status:
+        """What is there of the seeds; None: of all that were made or failed."""
+        done, failed = self.files.scan()
+        rows = self._rows(done)
+        if seeds is None:
+            lost = sum(f["protocol"] == self.id for f in self.files.failures(failed))
+            return Status(len(rows) + lost, len(rows), int((rows["jammed"] != 0).sum()), lost)
+        names = [self.name(s) for s in dict.fromkeys(seeds)]
+        there = np.isin(rows["name"], np.array(names, "S32"))
+        jammed = int((rows["jammed"][there] != 0).sum())
+        return Status(len(names), int(there.sum()), jammed, sum(n in failed for n in names))
+
+    def _rows(self, done: dict[str, Found] | None = None) -> np.ndarray:
+        rows = self.files.rows(done)
+        return rows[rows["protocol"] == self.id.encode()]
+
+    def table(self, pandas: bool = False) -> Any:
+        """Reports of all packings of this protocol, a row each, by seed.
+
+        Returns
+        -------
+        numpy structured array, or pandas.DataFrame
+            Fields: seed, name, protocol, version, n, dim, the fields of CrunchReport (enums as numbers),
+            crystal_score, seconds_made, written.
+        """
+        rows = self._rows()
+        if not pandas:
+            return rows
+        import pandas as pd
+
+        return pd.DataFrame({k: rows[k].astype(str) if rows[k].dtype.kind == "S" else rows[k] for k in ROW.names})
+
+    def failures(self) -> list[dict[str, Any]]:
+        """Records of the seeds that failed: seed, status, text, machine, time."""
+        return sorted((f for f in self.files.failures() if f["protocol"] == self.id), key=lambda f: f["seed"])
+
+    def __len__(self) -> int:
+        return len(self._rows())
+
+    def __iter__(self) -> Iterator[Entry]:
+        """Entries by seed."""
+        for row in self._rows():
+            yield Entry(row, self.files.packing(row["name"].decode()))
+
+    def each(self, *names: str, jammed: bool = True, max_crystal_score: float = np.inf) -> Iterator[Any]:
+        """Results of one packing after the other: an array for one name, a tuple for several.
+
+        Parameters
+        ----------
+        names : str
+            Attributes of Entry: "forces", "gaps", "coordination", "positions", "pairs", ...
+        jammed : bool
+            Only packings with a certificate.
+        max_crystal_score : float
+            Leaves out packings with more order (1 to 2 is usual for equal spheres).
+        """
+        for entry in self:
+            if (jammed and not entry.row["jammed"]) or entry.row["crystal_score"] > max_crystal_score:
+                continue
+            found = entry.read(*names)
+            yield found[0] if len(names) == 1 else found
+
+    def export(self, folder: str | os.PathLike, per_shard: int = 1000) -> list[Path]:
+        """Packs the packings into HDF5 files of `per_shard` each, a group a packing; jam.load(path, name) reads one.
+
+        Returns
+        -------
+        list of Path
+            The shards, in the order of seeds.
+        """
+        import h5py
+
+        target = Path(folder)
+        target.mkdir(parents=True, exist_ok=True)
+        entries, made = list(self), []
+        for k in range(0, len(entries), per_shard):
+            path = target / f"{self.id}-{k // per_shard:05d}.h5"
+            part = target / f".{path.name}.{os.getpid()}.part"
+            try:
+                with h5py.File(part, "w") as shard:
+                    shard.attrs["protocol"] = to_json(self.protocol)
+                    for entry in entries[k : k + per_shard]:
+                        with store.open_file(entry.path) as file:
+                            group = shard.create_group(entry.row["name"].decode())
+                            for key in file:
+                                file.copy(key, group)
+                with open(part, "rb") as file:
+                    os.fsync(file.fileno())
+                os.replace(part, path)
+            except OSError as error:
+                part.unlink(missing_ok=True)
+                raise StoreError(error.errno or 5, f"{path} cannot be written: {error}") from error
+            made.append(path)
+        return made
+
+
+class _Run:
+    """One campaign: hands calls to the executor and takes their answers."""
+
+    def __init__(self, ensemble: Ensemble, pool: Executor, bar: Any) -> None:
+        self.pool, self.bar, self.files = pool, bar, ensemble.files
+        self.ensemble, self.protocol = ensemble, to_json(ensemble.protocol)
+        self.pending: dict[Future, tuple[int, int]] = {}
+        self.rows: list[tuple] = []
+        self.flushed = time.monotonic()
+
+    def work(self, todo: list[int]) -> None:
+        queue = [(s, 1) for s in reversed(todo)]
+        try:
+            while queue or self.pending:
+                while queue and len(self.pending) < WINDOW:
+                    self._submit(*queue.pop())
+                for future in wait(self.pending, return_when=FIRST_COMPLETED).done:
+                    again = self._take(future, *self.pending.pop(future))
+                    if again:
+                        queue.append(again)
+                self._flush(INDEX_SECONDS)
+        except BaseException:
+            for future in self.pending:
+                future.cancel()
+            raise
+        finally:
+            self._flush(0.0)
+            if self.bar is not None:
+                self.bar.close()
+
+    def _submit(self, seed: int, attempt: int) -> None:
+        folder = os.fspath(self.files.path.resolve())
+        self.pending[self.pool.submit(make_packing, folder, self.protocol, seed, attempt)] = (seed, attempt)
+
+    def _take(self, future: Future, seed: int, attempt: int) -> tuple[int, int] | None:
+        """Takes an answer; returns what must be tried again."""
+        try:
+            answer = future.result()
+        except (StoreError, BrokenExecutor):
+            raise  # nothing more can be written, or run
+        except Exception as error:  # the worker is lost, not the packing
+            if attempt < ATTEMPTS:
+                return seed, attempt + 1
+            text = f"{attempt} workers were lost over this packing; the last: {type(error).__name__}: {error}"
+            self.files.write_failure(self.ensemble.name(seed), self.ensemble.id, seed, "worker_lost", text)
+            answer = ("failed", "", text)
+        if answer[0] == "done":
+            self.rows.append(answer[1:])
+        if self.bar is not None:
+            self.bar.update(1)
+        return None
+
+    def _flush(self, after: float) -> None:
+        if time.monotonic() - self.flushed >= after:
+            self.files.index_add(self.rows)
+            self.rows, self.flushed = [], time.monotonic()
+
+
+def _bar(progress: bool, total: int, done: int) -> Any:
+    if not progress:
+        return None
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        return None
+    return tqdm(total=total, initial=done, unit="packing", disable=None)

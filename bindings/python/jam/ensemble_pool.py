@@ -1,0 +1,149 @@
+"""Worker processes of this machine as a concurrent.futures.Executor.
+
+The pool of the standard library cannot be used after one of its workers was killed, and does not say which call that
+worker ran. Here each worker is a process of its own behind a pair of pipes: a killed worker fails one call, and the
+next call gets a new worker. A worker ends when its pipe closes, so none outlives a killed campaign. Workers import
+jam and not the user's script, which therefore needs no `if __name__ == "__main__"`.
+"""
+from __future__ import annotations
+
+import os
+import pickle
+import queue
+import signal
+import subprocess
+import sys
+import threading
+from concurrent.futures import Executor, Future
+from pathlib import Path
+from typing import Any, Callable
+
+
+class WorkerDied(RuntimeError):
+    """The worker process ended before it answered; the text says by which signal or with which exit status."""
+
+
+class LocalPool(Executor):
+    """Processes of this machine.
+
+    Parameters
+    ----------
+    workers : int, optional
+        How many; default the number of cores this process may use. Each runs BLAS on one thread.
+    """
+
+    def __init__(self, workers: int | None = None) -> None:
+        self._count = workers or len(os.sched_getaffinity(0))
+        self._work: queue.SimpleQueue = queue.SimpleQueue()
+        self._processes: dict[int, subprocess.Popen] = {}
+        self._lock = threading.Lock()
+        self._closed = False
+        self._threads = [threading.Thread(target=self._serve, args=(k,), daemon=True) for k in range(self._count)]
+        for thread in self._threads:
+            thread.start()
+
+    @property
+    def pids(self) -> list[int]:
+        """Process ids of the workers that live now."""
+        with self._lock:
+            return [p.pid for p in self._processes.values() if p.poll() is None]
+
+    def submit(self, fn: Callable, /, *args: Any, **kwargs: Any) -> Future:
+        """Calls fn in a worker; fn is found there by its module and name, arguments and answer go by pickle."""
+        future: Future = Future()
+        with self._lock:
+            if self._closed:
+                raise RuntimeError("the pool is shut down")
+            self._work.put((future, pickle.dumps((fn, args, kwargs))))
+        return future
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Ends the pool. With cancel_futures also the calls that run now: their workers are killed."""
+        with self._lock:
+            first, self._closed = not self._closed, True
+            if cancel_futures:
+                while True:
+                    try:
+                        item = self._work.get_nowait()
+                    except queue.Empty:
+                        break
+                    if item:
+                        item[0].cancel()
+            for _ in self._threads if first or cancel_futures else ():
+                self._work.put(None)
+            if cancel_futures:
+                for process in self._processes.values():
+                    process.kill()
+        if wait:
+            for thread in self._threads:
+                thread.join()
+
+    def _begin(self, k: int) -> subprocess.Popen:
+        home = str(Path(__file__).resolve().parent.parent)
+        paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]
+        environment = dict(os.environ, PYTHONPATH=os.pathsep.join(paths), OPENBLAS_NUM_THREADS="1")
+        process = subprocess.Popen(
+            [sys.executable, "-m", "jam.ensemble_pool"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=environment,
+        )
+        with self._lock:
+            self._processes[k] = process
+        return process
+
+    def _call(self, k: int, process: subprocess.Popen | None, call: bytes, future: Future) -> subprocess.Popen | None:
+        """Runs one call; returns the worker, or None when it died."""
+        if process is None or process.poll() is not None:
+            process = self._begin(k)
+        try:
+            process.stdin.write(call)
+            process.stdin.flush()
+            done, answer = pickle.load(process.stdout)
+        except Exception:  # the pipe closed amid the call
+            process.kill()
+            status = process.wait()
+            how = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
+            future.set_exception(WorkerDied(f"worker {process.pid} ended by {how}"))
+            return None
+        if done:
+            future.set_result(answer)
+        else:
+            future.set_exception(answer)
+        return process
+
+    def _serve(self, k: int) -> None:
+        process = None
+        while (item := self._work.get()) is not None:
+            future, call = item
+            if future.set_running_or_notify_cancel():
+                process = self._call(k, process, call, future)
+        if process is not None:
+            process.stdin.close()
+            process.wait()
+
+
+def main() -> None:
+    """A worker: reads calls from its standard input and writes answers, until the pipe closes."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to all processes of a terminal: the campaign decides
+    calls, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints must not get between the answers
+    while True:
+        try:
+            fn, args, kwargs = pickle.load(calls)
+        except EOFError:
+            return
+        try:
+            answer: tuple = (True, fn(*args, **kwargs))
+        except Exception as error:
+            answer = (False, error)
+        try:
+            data = pickle.dumps(answer)
+        except Exception as error:
+            data = pickle.dumps((False, RuntimeError(f"the answer cannot be sent: {error}")))
+        answers.write(data)
+        answers.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,225 @@
+"""The protocol of an ensemble: a plain dict that says how one packing is made from a seed.
+
+Data flow: a dict -> complete() checks it and spells out every default -> make(protocol, seed) gives the packing.
+
+    start     random spheres or a lattice: n, dim, packing_fraction, diameters, lattice, and the options of creation
+    stages    calls that move the spheres, one after the other: {"verb": "compress", "growth_rate": 1e-2, ...}
+    crunch    options of the crunch; None: no crunch
+    analysis  calls whose results are stored: {"gaps": {"h_max": 1.0, "stable_only": 1}}
+"""
+from __future__ import annotations
+
+import copy
+import hashlib
+import inspect
+import json
+import math
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _calls, _generated, errors, raw
+from ._generated import OPTIONS, StatusCode
+from ._start import _uniform
+from .system import System
+
+PARTS = ("start", "stages", "crunch", "analysis")
+LATTICES = ("fcc",)
+LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
+#: Growth that avoids crystals: fast through the fluid, slower in the glass (the stages of `python3 -m jam`).
+STAGES = ({"growth_rate": 1e-2, "pressure": 500.0}, {"growth_rate": 3e-3, "pressure": 1e7})
+ANALYSIS: dict[str, dict] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
+_NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
+
+
+class ProtocolError(ValueError):
+    """A protocol that cannot be run; the text names the entry and says what is allowed."""
+
+
+def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple = ()) -> dict[str, Any]:
+    """All options of a struct, those that are not given at the library's defaults."""
+    known = {k: v[0] for k, v in OPTIONS[struct].items() if k not in leave_out}
+    if unknown := set(given) - set(known):
+        raise ProtocolError(f"{where}: unknown {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    numbers = {k: float(v) if known[k] == "float" and v is not None else v for k, v in given.items()}
+    try:
+        made = _calls.options(struct, numbers)
+    except (TypeError, ValueError) as error:
+        raise ProtocolError(f"{where}: {error}") from None
+    return {k: v for k, v in _calls.spelled_out(made, struct).items() if k in known}
+
+
+def _diameters(given: Any, n: int) -> Any:
+    if given is None:
+        return None
+    if not isinstance(given, Mapping):
+        sizes = np.asarray(given, float).reshape(-1)
+        if len(sizes) != n or not (np.isfinite(sizes) & (sizes > 0)).all():
+            raise ProtocolError(f"start: diameters must be {n} finite numbers > 0, a law, or None")
+        return sizes.tolist()
+    law = given.get("law")
+    if law not in LAWS or set(given) - {"law"} - set(LAWS[law]):
+        raise ProtocolError(f"start: diameters {dict(given)!r}; a law is one of {LAWS} with its numbers")
+    made = {k: float(given.get(k, v)) for k, v in LAWS[law].items()}
+    if min(made.values()) <= 0 or made.get("share", 0.5) >= 1:
+        raise ProtocolError(f"start: diameters {dict(given)!r}: numbers must be > 0, a share < 1")
+    return {"law": law, **made}
+
+
+def _start(given: Mapping[str, Any]) -> dict[str, Any]:
+    rest = dict(given)
+    lattice, sizes = rest.pop("lattice", None), rest.pop("diameters", None)
+    rest.setdefault("n", 1024)
+    rest.setdefault("dim", 3)
+    if "packing_fraction" not in rest:  # a random start gets harder with d (the same rule as `python3 -m jam`)
+        rest["packing_fraction"] = 0.2 * 0.5 ** max(0, rest["dim"] - 3)
+    made = _options("jam_create_options", rest, "start", _NOT_IN_START)
+    if made["n"] < 1:
+        raise ProtocolError(f"start: n = {made['n']} must be >= 1")
+    if lattice is not None:
+        if lattice not in LATTICES:
+            raise ProtocolError(f"start: lattice {lattice!r} is none of {', '.join(LATTICES)}")
+        if made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]:
+            raise ProtocolError(f"start: an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
+    return {**made, "diameters": _diameters(sizes, made["n"]), "lattice": lattice}
+
+
+def _stage(given: Mapping[str, Any], number: int) -> dict[str, Any]:
+    rest = dict(given)
+    verb = rest.pop("verb", "compress")
+    struct = f"jam_{verb}_options"
+    if struct not in OPTIONS or not hasattr(System, verb) or verb in ("crunch", "observe", "hessian", "modes"):
+        verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8])]
+        raise ProtocolError(f"stages[{number}]: no stage is called {verb!r}; calls with options are {', '.join(verbs)}")
+    return {"verb": verb, **_options(struct, rest, f"stages[{number}]", ("resume",))}
+
+
+def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    where = f"analysis[{name!r}]"
+    method = getattr(System, name, None)
+    if name.startswith("_") or not callable(method) or "jam_" + name not in _generated.CALLS:
+        raise ProtocolError(f"{where}: System has no such analysis")
+    made = {}
+    for parameter in list(inspect.signature(method).parameters.values())[1:]:
+        key = parameter.name
+        if parameter.kind is parameter.VAR_KEYWORD:
+            made.update({k: v for k, v in given.items() if k not in made})
+        elif key != "progress":
+            if key not in given and parameter.default is parameter.empty:
+                raise ProtocolError(f"{where} needs {key}")
+            made[key] = given.get(key, None if parameter.default is parameter.empty else parameter.default)
+    if unknown := set(given) - set(made):
+        raise ProtocolError(f"{where}: unknown {', '.join(sorted(unknown))}; there are {', '.join(made)}")
+    return made
+
+
+def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """A protocol with every default spelled out.
+
+    Parameters
+    ----------
+    protocol : mapping
+        Any of `start`, `stages`, `crunch`, `analysis`. Entries of `start` may stand at the top: ``dict(n=128, dim=3)``.
+
+    Returns
+    -------
+    dict
+        Plain numbers, text, lists and dicts, as JSON holds them; infinity is the text "inf".
+
+    Raises
+    ------
+    ProtocolError
+        Names the entry that is wrong and what is allowed there.
+    """
+    given = copy.deepcopy(dict(protocol or {}))
+    start = dict(given.get("start") or {})
+    for key in [k for k in given if k not in PARTS]:
+        if key in start:
+            raise ProtocolError(f"{key} is given twice, at the top and in start")
+        start[key] = given[key]
+    crunch = given.get("crunch", {})
+    made = {
+        "start": _start(start),
+        "stages": [_stage(s, k) for k, s in enumerate(given.get("stages", STAGES))],
+        "crunch": None if crunch is None else _options("jam_crunch_options", crunch, "crunch"),
+        "analysis": {k: _analysis(k, v or {}) for k, v in (given.get("analysis", ANALYSIS) or {}).items()},
+    }
+    try:
+        return json.loads(to_json(made))
+    except (TypeError, ValueError) as error:
+        raise ProtocolError(f"the protocol cannot be written as JSON: {error}") from None
+
+
+def to_json(protocol: Mapping[str, Any]) -> str:
+    """The protocol as JSON, keys in the order of complete()."""
+    return json.dumps(protocol, indent=2, allow_nan=False)
+
+
+def identity(protocol: Mapping[str, Any]) -> str:
+    """12 hex digits that name a complete protocol."""
+    return hashlib.sha256(json.dumps(protocol, sort_keys=True).encode()).hexdigest()[:12]
+
+
+def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str:
+    """32 hex digits that name one packing: of the protocol, the seed and the version of libjam."""
+    text = f"{protocol_id} {int(seed)} {version or raw.jam_version()}"
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _sizes(law: Any, n: int, seed: int) -> np.ndarray | None:
+    """Ratios of the diameters."""
+    if law is None or isinstance(law, list):
+        return None if law is None else np.array(law)
+    if law["law"] == "bidisperse":
+        return np.where(np.arange(n) < round(law["share"] * n), 1.0, law["ratio"])
+    width = math.sqrt(math.log1p(law["deviation"] ** 2))
+    u = np.array([(_uniform(seed, 2 * k), _uniform(seed, 2 * k + 1)) for k in range(n)])
+    return np.exp(width * np.sqrt(-2.0 * np.log(u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))  # Box and Muller 1958
+
+
+def _fcc(n: int, box: float) -> np.ndarray:
+    m = round((n / 4) ** (1 / 3))
+    corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
+    basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0
+    return ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
+
+
+def begin(protocol: Mapping[str, Any], seed: int) -> System:
+    """The start of a complete protocol."""
+    given = {k: v for k, v in protocol["start"].items() if k != "lattice"}
+    sizes = _sizes(given.pop("diameters"), given["n"], seed)
+    if protocol["start"]["lattice"] is None:
+        return System.random(seed=seed, diameters=sizes, **given)
+    n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
+    sizes = np.ones(n) if sizes is None else sizes
+    unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
+    return System.from_arrays(
+        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, **given
+    )
+
+
+def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]]:
+    """Makes one packing.
+
+    Returns
+    -------
+    System
+        The packing, also when it is not jammed: its report says so.
+    dict
+        Results of the analysis by name. A call that needs a jammed network and has none gives its error's text.
+    """
+    system = begin(protocol, seed)
+    for stage in protocol["stages"]:
+        given = dict(stage)
+        report = getattr(system, given.pop("verb"))(**given)
+        if getattr(report, "status", StatusCode.OK) in (StatusCode.CANCELLED, StatusCode.LIMIT):
+            break  # as System.compress: a stage that stopped early ends the sequence
+    if protocol["crunch"] is not None:
+        system.crunch(**protocol["crunch"])
+    results = {}
+    for name, given in protocol["analysis"].items():
+        try:
+            results[name] = getattr(system, name)(**given)
+        except errors.StateError as error:
+            results[name] = f"not available: {error}"
+    return system, results

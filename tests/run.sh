@@ -8,6 +8,7 @@ cd "$root"
 . tests/debian.sh
 need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev libcmocka-dev \
   libmetis-dev libopenblas-dev voro++-dev swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib abigail-tools clang doxygen \
+  python3-h5py python3-pandas python3-tqdm python3-mpi4py openmpi-bin python3-distributed python3-dask \
   python3-sphinx python3-breathe python3-myst-parser furo locales
 
 jobs=$(nproc)

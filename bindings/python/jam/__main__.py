@@ -1,6 +1,12 @@
-"""python3 -m jam --help"""
+"""python3 -m jam --help; python3 -m jam ensemble --help"""
 import sys
 
-from .cli import main
+if __name__ == "__main__":  # workers of mpi4py.futures import this file under another name
+    if sys.argv[1:2] == ["ensemble"]:
+        from .ensemble_cli import main
 
-sys.exit(main())
+        sys.exit(main(sys.argv[2:]))
+    else:
+        from .cli import main
+
+        sys.exit(main())

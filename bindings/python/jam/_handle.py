@@ -101,18 +101,21 @@ class Base(Methods):
         """
         handle = self.handle
         with self._reporting(progress):
+            if name == "gaps" and self._carried and self._carried[1] is not None:
+                raise errors.StateError("gaps must tell contacts from others. " + _MENDED_BY)
             try:
                 self.status, result = _calls.invoke(handle, self.dim, name, args, named)
             except errors.StateError as error:
                 if self._carried is None:
                     raise
-                raise errors.StateError(
-                    f"{error}. This system came from a file or a pickle, which hold results and not the network in "
-                    "memory: call contacts_from_geometry() first, or crunch()"
-                ) from None
+                raise errors.StateError(f"{error}. {_MENDED_BY}") from None
         if name in _MOVERS:
             self._carried = None
         return result
 
 
+_MENDED_BY = (
+    "This system came from a file or a pickle, which hold results and not the network in memory: "
+    "call contacts_from_geometry() first, or crunch()"
+)
 _MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry"}

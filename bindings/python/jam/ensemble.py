@@ -380,8 +380,8 @@ class _Run:
         """Takes an answer; returns what must be tried again."""
         try:
             answer = future.result()
-        except (StoreError, BrokenExecutor):
-            raise  # nothing more can be written, or run
+        except (StoreError, BrokenExecutor, ImportError):
+            raise  # nothing more can be written or run, or the workers have no jam
         except Exception as error:  # the worker is lost, not the packing
             if attempt < ATTEMPTS:
                 return seed, attempt + 1

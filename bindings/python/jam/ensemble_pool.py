@@ -102,7 +102,7 @@ class LocalPool(Executor):
             done, answer = pickle.load(process.stdout)
         except Exception:  # the pipe closed amid the call
             process.kill()
-            status = process.wait()
+            status = _end(process)
             how = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
             future.set_exception(WorkerDied(f"worker {process.pid} ended by {how}"))
             return None
@@ -119,8 +119,17 @@ class LocalPool(Executor):
             if future.set_running_or_notify_cancel():
                 process = self._call(k, process, call, future)
         if process is not None:
-            process.stdin.close()
-            process.wait()
+            _end(process)
+
+
+def _end(process: subprocess.Popen) -> int:
+    """Closes the pipes, waits for the worker and returns its exit status."""
+    try:
+        process.stdin.close()
+    except OSError:
+        pass  # what was left in the buffer has no reader
+    process.stdout.close()
+    return process.wait()
 
 
 def main() -> None:

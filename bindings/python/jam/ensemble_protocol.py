@@ -2,7 +2,8 @@
 
 Data flow: a dict -> complete() checks it and spells out every default -> make(protocol, seed) gives the packing.
 
-    start     random spheres or a lattice: n, dim, packing_fraction, diameters, lattice, and the options of creation
+    start     random spheres or a lattice: n, dim, packing_fraction, diameters, lattice, and the options of creation.
+              On a lattice the diameters shrink by one factor until no pair overlaps.
     stages    calls that move the spheres, one after the other: {"verb": "compress", "growth_rate": 1e-2, ...}
     crunch    options of the crunch; None: no crunch
     analysis  calls whose results are stored: {"gaps": {"h_max": 1.0, "stable_only": 1}}
@@ -155,9 +156,25 @@ def to_json(protocol: Mapping[str, Any]) -> str:
     return json.dumps(protocol, indent=2, allow_nan=False)
 
 
+def _changed(given: Mapping[str, Any], default: Mapping[str, Any]) -> dict[str, Any]:
+    return {k: v for k, v in given.items() if k not in default or default[k] != v}
+
+
+def minimal(protocol: Mapping[str, Any]) -> dict[str, Any]:
+    """What a complete protocol sets otherwise than the library does by itself."""
+    crunch, stages = protocol["crunch"], protocol["stages"]
+    return {
+        "start": _changed(protocol["start"], _start({})),
+        "stages": [{"verb": s["verb"], **_changed(s, _stage({"verb": s["verb"]}, 0))} for s in stages],
+        "crunch": None if crunch is None else _changed(crunch, _options("jam_crunch_options", {}, "crunch")),
+        "analysis": {k: _changed(v, dict.fromkeys(v)) for k, v in protocol["analysis"].items()},
+    }
+
+
 def identity(protocol: Mapping[str, Any]) -> str:
-    """12 hex digits that name a complete protocol."""
-    return hashlib.sha256(json.dumps(protocol, sort_keys=True).encode()).hexdigest()[:12]
+    """12 hex digits that name a complete protocol: of its minimal form, so that an option which a later libjam adds
+    renames nothing. What the defaults are belongs to the version, which stands beside it in the name of a packing."""
+    return hashlib.sha256(json.dumps(minimal(protocol), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str:
@@ -194,7 +211,7 @@ def begin(protocol: Mapping[str, Any], seed: int) -> System:
     sizes = np.ones(n) if sizes is None else sizes
     unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
     return System.from_arrays(
-        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, **given
+        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, overlap="shrink", **given
     )
 
 

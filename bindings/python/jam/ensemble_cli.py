@@ -1,0 +1,136 @@
+"""python3 -m jam ensemble run|status|export DIR: ensembles from the command line and from batch jobs."""
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from concurrent.futures import BrokenExecutor
+from contextlib import ExitStack
+from typing import Any
+
+from .ensemble import Ensemble, ProtocolError, Status, StoreError
+
+DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
+
+
+def _seeds(text: str) -> list[int]:
+    """1-100, 7, or several with commas: 1-100,205."""
+    found: list[int] = []
+    for part in text.split(","):
+        first, dash, last = part.partition("-")
+        try:
+            found += range(int(first), int(last if dash else first) + 1)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} must be seeds like 1-100 or 1-100,205") from None
+    if not found:
+        raise argparse.ArgumentTypeError(f"{text!r} names no seed")
+    return found
+
+
+def _part(text: str) -> tuple[int, int]:
+    k, slash, m = text.partition("/")
+    try:
+        part = int(k), int(m)
+    except ValueError:
+        part = (-1, 0)
+    if not slash or not 0 <= part[0] < part[1]:
+        raise argparse.ArgumentTypeError(f"{text!r} must be K/M with K in 0..M-1, e.g. $SLURM_ARRAY_TASK_ID/10")
+    return part
+
+
+def parser() -> argparse.ArgumentParser:
+    p = argparse.ArgumentParser(
+        prog="python3 -m jam ensemble",
+        description="Makes many packings of one protocol, one file each. What is there is not made again.",
+        epilog="Example: python3 -m jam ensemble run packings --n 128 --seeds 1-100. Exit status: 0 all are there; "
+        "1 some failed or are missing; 2 wrong command line; 3 protocol or folder refused; 4 the folder cannot be written.",
+    )
+    verbs = p.add_subparsers(dest="verb", required=True)
+    for verb, text in (
+        ("run", "make the packings that are not there"),
+        ("status", "count packings and failures"),
+        ("export", "pack the packings into HDF5 files of many"),
+    ):
+        v = verbs.add_parser(verb, help=text)
+        v.add_argument("folder", metavar="DIR")
+        v.add_argument(
+            "--protocol", metavar="FILE.json", help="the protocol; default that of DIR, if it holds one only"
+        )
+        v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
+        v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
+        if verb != "export":
+            v.add_argument("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
+        if verb == "run":
+            v.add_argument(
+                "--part", type=_part, metavar="K/M", help="only each M-th seed, from the K-th: for job arrays"
+            )
+            v.add_argument("--executor", choices=["process", "mpi", "dask"], default="process")
+            v.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
+            v.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
+            v.add_argument("--retry", action="store_true", help="also the seeds that failed before")
+            v.add_argument("--quiet", action="store_true")
+        if verb == "status":
+            v.add_argument("--json", action="store_true")
+        if verb == "export":
+            v.add_argument("target", metavar="OUT", help="folder of the shards")
+            v.add_argument("--shard", type=int, default=1000, help="packings a file (1000)")
+    return p
+
+
+def _ensemble(o: argparse.Namespace) -> Ensemble:
+    chosen: dict[str, Any] | None = {k: v for k, v in (("n", o.n), ("dim", o.dim)) if v is not None} or None
+    if o.protocol:
+        if chosen:
+            raise ProtocolError("--protocol and --n or --dim are two protocols")
+        with open(o.protocol, encoding="utf-8") as file:
+            chosen = json.load(file)
+    return Ensemble(o.folder, chosen)
+
+
+def _run(o: argparse.Namespace) -> Status:
+    ensemble = _ensemble(o)
+    seeds = o.seeds[o.part[0] :: o.part[1]] if o.part else o.seeds
+    with ExitStack() as stack:
+        executor: Any = None
+        if o.executor == "mpi":
+            from mpi4py.futures import MPIPoolExecutor
+
+            executor = stack.enter_context(MPIPoolExecutor())
+        elif o.executor == "dask":
+            from distributed import Client
+
+            client = stack.enter_context(Client(o.scheduler, set_as_default=False))
+            executor = client.get_executor()
+        return ensemble.run(seeds, executor, progress=not o.quiet, retry=o.retry, workers=o.workers)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Returns the exit status."""
+    p = parser()
+    o = p.parse_args(arguments)
+    if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
+        p.error("--executor dask and --scheduler ADDRESS belong together")
+    try:
+        if o.verb == "export":
+            made = _ensemble(o).export(o.target, o.shard)
+            print(f"{len(made)} files in {o.target}")
+            return DONE
+        status = _run(o) if o.verb == "run" else _ensemble(o).status(o.seeds)
+    except StoreError as error:
+        print(f"jam: {error}", file=sys.stderr)
+        return OUTPUT
+    except BrokenExecutor as error:
+        print(f"jam: the executor broke: {error}. What was finished is kept: run again", file=sys.stderr)
+        return PARTIAL
+    except KeyboardInterrupt:
+        print("jam: interrupted; what was finished is kept: run again to go on", file=sys.stderr)
+        return PARTIAL
+    except (ValueError, OSError, ImportError) as error:
+        print(f"jam: {error}", file=sys.stderr)
+        return REFUSED
+    if o.verb == "status" and o.json:
+        names = ("asked", "done", "jammed", "failed", "missing")
+        print(json.dumps({k: getattr(status, k) for k in names}))
+    elif o.verb == "status" or not o.quiet:
+        print(status)
+    return PARTIAL if status.failed or status.missing else DONE

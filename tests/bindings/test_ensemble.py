@@ -254,12 +254,12 @@ class Campaigns(unittest.TestCase):
 
             thread = threading.Thread(target=kill)
             thread.start()
-            e.run(range(40), pool, progress=False)
+            e.run(range(30), pool, progress=False)
             ended.set()
             thread.join()
-            status = e.run(range(40), pool, progress=False, retry=True)  # what lost three workers
+            status = e.run(range(30), pool, progress=False, retry=True)  # what lost three workers
         self.assertGreater(kills[0], 0)
-        self.assertEqual((status.done, status.failed), (40, 0))
+        self.assertEqual((status.done, status.failed), (30, 0))
         there = e.files.scan()[0]
         self.assertEqual({k: there[k] for k in seen}, seen)  # finished files were neither lost nor written again
         for entry in e:
@@ -288,11 +288,11 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(e.status(range(1, 5)).missing, 0)
 
     def test_eight_campaigns_write_one_folder(self):
-        code = f"import jam; jam.ensemble.Ensemble({str(self.folder)!r}, {SMALL!r}).run(range(24), workers=1, progress=False)"
+        code = f"import jam; jam.ensemble.Ensemble({str(self.folder)!r}, {SMALL!r}).run(range(12), workers=1, progress=False)"
         campaigns = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(8)]
         self.assertEqual([c.wait(timeout=120) for c in campaigns], [0] * 8)
         e = Ensemble(self.folder, SMALL)
-        self.assertEqual(e.status(range(24)).done, 24)
+        self.assertEqual(e.status(range(12)).done, 12)
         for entry in e:
             same_bits(entry.system(), jam.ensemble.make(e.protocol, entry.seed)[0])
 

@@ -37,7 +37,7 @@ class LocalPool(Executor):
         self._work: queue.SimpleQueue = queue.SimpleQueue()
         self._processes: dict[int, subprocess.Popen] = {}
         self._lock = threading.Lock()
-        self._closed = False
+        self._closed = self._killed = False
         self._threads = [threading.Thread(target=self._serve, args=(k,), daemon=True) for k in range(self._count)]
         for thread in self._threads:
             thread.start()
@@ -72,6 +72,7 @@ class LocalPool(Executor):
             for _ in self._threads if first or cancel_futures else ():
                 self._work.put(None)
             if cancel_futures:
+                self._killed = True
                 for process in self._processes.values():
                     process.kill()
         if wait:
@@ -90,6 +91,8 @@ class LocalPool(Executor):
         )
         with self._lock:
             self._processes[k] = process
+            if self._killed:  # shutdown came while the worker was started
+                process.kill()
         return process
 
     def _call(self, k: int, process: subprocess.Popen | None, call: bytes, future: Future) -> subprocess.Popen | None:

@@ -63,10 +63,7 @@ std::vector<int32_t> curve_order(const Packing &p) {
 }
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
-  if (p.non_additivity != 0.0)
-    fail(JAM_E_UNSUPPORTED, "molecular dynamics of non-additive mixtures is not available: non_additivity is %g",
-         p.non_additivity);
-  const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(diameter_max(p) / p.box);
+  const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(contact_distance_max(p) / p.box);
   return choose(p, o, images, nullptr);
 }
 

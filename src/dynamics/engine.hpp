@@ -1,21 +1,23 @@
-// The event-driven engine: spheres in the unit box (the driver scales), asynchronous, one scheduled event per sphere.
+// The event-driven engine: spheres in the unit box (make_engine scales), asynchronous, one scheduled event per sphere.
 //
-// Numbers. Coordinates, radii and image shifts are integers with 2^64 (or 2^61, see Shift) to the box, so that
-// differences wrap to the nearest image by themselves and are exact; gaps near contact are taken with 128-bit integers.
-// A gap is thus known to 5e-20 of the box, where doubles in a unit box give 1e-16. Velocities are doubles in the same
-// unit per time. Times are doubles relative to an origin that moves along every few collisions per sphere.
+// Numbers. Coordinates, radii and image shifts are integers with 2^64 to the box (2^61 with shifts). Differences wrap
+// to the nearest image by themselves and are exact. Gaps near contact are computed with 128-bit integers, so a gap is
+// known to 5e-20 of the box; doubles in a unit box give 1e-16. Velocities are doubles in the same unit per time. Times
+// are doubles from an origin that moves forward every few collisions per sphere.
 //
 // Events. Invariant: for each pair in the lists, the earlier of the two scheduled events is not later than the
-// collision of the pair. Predicting sphere i may therefore leave out a partner k whose own event comes before their
-// collision: k will be predicted again by then. An event whose partner has collided since is found stale when it comes
-// up.
+// collision of the pair. The prediction of sphere i may therefore skip a partner k whose own event comes before their
+// collision: k is predicted again by then. If the partner of an event has collided since, the event is stale and is
+// predicted anew.
 //
-// Lists. Each sphere has a safe sphere around the place c where its list was made; leaving it is an event that remakes
-// this list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, rho = radius (1 + growth margin) +
-// shell. In dilute systems there are no lists: spheres meet those of the cells around their own, which they leave by an
-// event. Lists are made through cells too, or in the Mari-Kurchan model, where partners are anywhere, through wider
-// outer lists of the same kind, whose own making looks at all spheres (engine_quenched.hpp). Donev, Torquato and
-// Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
+// Lists. Each sphere has a safe sphere around the place c where its list was made. It leaves the safe sphere by an
+// event that remakes this list alone. Two spheres are neighbours when |c_i - c_k| < rho_i + rho_k, where rho = radius
+// (1 + growth margin) + shell. Dilute systems have no lists: spheres meet those of the cells around their own, and
+// leave their cell by an event. Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
+//
+// Files. engine_events: prediction, collision, main loop; pair_kernel: its inner loops in vectors. engine_lists: lists;
+// engine_blocks: cells that find their candidates; engine_cells: dilute systems; engine_quenched: candidates in the
+// Mari-Kurchan model. engine_prefetch: loads memory ahead of its use. engine_time: origin of time, growth, state.
 #pragma once
 #include <array>
 #include <cmath>
@@ -28,6 +30,7 @@
 #include "core/pair_rule.hpp"
 #include "dynamics/calendar.hpp"
 #include "dynamics/observer.hpp"
+#include "dynamics/pair_kernel.hpp"
 
 namespace jam {
 
@@ -77,6 +80,7 @@ struct EngineOptions {
   int64_t heap_only = 0;           // 1: one heap of all events instead of the calendar, for comparison
   int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
   int64_t cells = 0;  // 1: cells alone wherever they hold, -1: lists always, 0: what is faster at this density
+  InstructionSet instruction_set = InstructionSet::best;  // changes no bit; for tests and benchmarks
 };
 
 // Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
@@ -106,43 +110,49 @@ class Engine final : public EngineBase {
   double mean_diameter() const override { return 2.0 * mean_radius() * unit * (1.0 + rate_ * now_); }
   double worst_overlap() const override;
 
-  // Whether lists without image shifts can hold for spheres of this diameter, unit box.
+  // Whether lists without image shifts can hold for this largest contact distance, unit box.
   static bool fits(double sigma_max) { return sigma_max * (1.0 + 4.0 * smallest_shell + smallest_margin) < 0.4999; }
 
  private:
-  using Vector = std::array<double, D>;
   using Place = std::array<uint64_t, D>;
-  struct alignas(64) Body {
-    uint64_t x[D];
-    double v[D];
-    double time;     // when x holds
-    int64_t radius;  // at the origin of time
-  };
   static constexpr double scale = Shift ? 0x1p61 : 0x1p64, unit = 1.0 / scale;
   static constexpr double smallest_shell = 0.004, smallest_margin = 0.002;
 
-  // -- hot path, engine.hpp below and engine_events.hpp
-  void move(Body &b) {
+  // -- hot path, here and in engine_events.hpp
+  void move(Body<D> &b) {
     const double dt = now_ - b.time;
     for (int c = 0; c < D; ++c) b.x[c] += static_cast<uint64_t>(std::llrint(b.v[c] * dt));
     b.time = now_;
   }
-  int64_t difference(const Body &a, const Body &b, int c, const int64_t *offset) const {
+  // Contact distance of two bodies at the origin of time, by the rule of core/pair_rule.hpp; pair_kernel_loops.hpp has
+  // the same in vectors.
+  int64_t contact_sum(const Body<D> &a, const Body<D> &b) const {
+    const int64_t sum = a.radius + b.radius;
+    if (non_additivity_ == 0.0 || a.radius == b.radius) return sum;
+    return sum + std::llrint(static_cast<double>(sum) * non_additivity_);
+  }
+  // a - b; the components of an offset are capacity_ apart.
+  int64_t difference(const Body<D> &a, const Body<D> &b, int c, const int64_t *offset) const {
     const auto d = static_cast<int64_t>(a.x[c] - b.x[c]);
     if constexpr (Shift)
-      return d + offset[c];
+      return d + offset[static_cast<size_t>(c) * capacity_];
     else
       return (void)offset, d;
   }
-  double exact_gap(const Body &a, const Body &b, const int64_t *offset) const;
-  void note_overlap(const Body &a, const Body &b, const int64_t *offset);
+  double exact_gap(const Body<D> &a, const Body<D> &b, const int64_t *offset) const;
+  void note_overlap(const Body<D> &a, const Body<D> &b, const int64_t *offset);
   double exit_time(int32_t i) const;
-  void meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best, int32_t &partner);
+  double collision_time(const Body<D> &self, const Body<D> &other, const int64_t *offset);
   void predict(int32_t i);
   void collide(int32_t i, int32_t k);
   void separation(int32_t i, int32_t k, double *r) const;
   void next_event(int32_t i);
-  void prefetch(int32_t i) const;
+
+  // -- engine_prefetch.hpp
+  void look_ahead() const;
+  void prefetch_neighbours(int32_t i) const;
+  void prefetch_lists(int32_t i) const;
+  void prefetch_search(int32_t i) const;
 
   // -- time, engine_time.hpp
   void shift_origin();
@@ -163,26 +173,33 @@ class Engine final : public EngineBase {
   // -- lists, engine_lists.hpp
   void choose_cells();
   void build_lists();
-  size_t cell_of(const Place &x) const;
   void recentre(int32_t i);
   template <class F>
-  void candidates(int32_t i, F &&f) const;
-  template <class F>
-  void each_in_cells(int32_t i, F &&f) const;
+  void candidates(int32_t i, F &&f);
   template <class F>
   void each_neighbour(int32_t i, F &&f) const;
-  void link(int32_t i, size_t cell);
-  void unlink(int32_t i, size_t cell);
-  size_t home(int32_t i) const;
   template <class F>
   void each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const;
-  void append(int32_t i, int32_t k, const int64_t *offset);
+  void append(int32_t i, int32_t k, const std::array<int64_t, D> *offset);
   void forget(int32_t i, int32_t k);
   void widen_lists();
+
+  // -- cells of the lists, engine_blocks.hpp
+  std::array<int64_t, D> home_of(int32_t i) const;
+  size_t cell_of(const std::array<int64_t, D> &home) const;
+  size_t cells_around(const std::array<int64_t, D> &home) const;
+  void make_scratch();
+  void build_blocks();
+  void put(int32_t i, size_t cell);
+  void drop(int32_t i, size_t cell);
+  int32_t search(int32_t i) const;
 
   // -- cells alone, engine_cells.hpp
   bool choose_cells_alone(double sigma);
   void build_cells_alone();
+  void link(int32_t i, size_t cell);
+  void unlink(int32_t i, size_t cell);
+  int32_t gather(int32_t i) const;
   double crossing_time(int32_t i, int *axis) const;
   void cross(int32_t i);
 
@@ -199,9 +216,14 @@ class Engine final : public EngineBase {
   bool left_outer(int32_t i) const;
   std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
 
+  const int32_t *list_of(int32_t i) const { return &neighbour_[static_cast<size_t>(i) * capacity_]; }
+  int32_t *list_of(int32_t i) { return &neighbour_[static_cast<size_t>(i) * capacity_]; }
+  size_t offset_at(int32_t i, int32_t entry) const {
+    return static_cast<size_t>(i) * D * capacity_ + static_cast<size_t>(entry);
+  }
   const int64_t *offset_of(int32_t i, int32_t entry) const {
     if constexpr (Shift)
-      return &offset_[(static_cast<size_t>(i) * capacity_ + entry) * D];
+      return &offset_[offset_at(i, entry)];
     else
       return (void)i, (void)entry, nullptr;
   }
@@ -209,8 +231,10 @@ class Engine final : public EngineBase {
   std::unique_ptr<MkShifts> quenched_;  // Mari-Kurchan model
   int32_t n_;
   EngineOptions options_;
-  double box_;
-  std::vector<Body> body_;
+  PairKernel<D> kernel_;
+  double box_, non_additivity_;
+  double reach_factor_;  // largest contact distance over the sum of the radii
+  std::vector<Body<D>> body_;
   Calendar calendar_;
   std::vector<int32_t> user_;  // number of each sphere for the user; here they are sorted along a curve
 
@@ -231,14 +255,19 @@ class Engine final : public EngineBase {
   std::vector<Place> centre_;
   std::vector<double> rho_, safe_;               // list radius, safe radius
   std::vector<int32_t> neighbour_, neighbours_;  // (n, capacity), counts
-  std::vector<int64_t> offset_;                  // Shift: (n, capacity, D)
-  size_t capacity_ = 0;
+  std::vector<int64_t> offset_;                  // Shift: (n, D, capacity)
+  size_t capacity_ = 0;                          // a multiple of the length of a vector
   double rho_max_ = 0.0;
   int64_t cells_ = 0;  // per side; 0: brute force
   int cell_range_ = 1;
+  std::vector<Block<D>> block_;         // one of each cell, and further ones of overfull cells
+  mutable std::vector<size_t> around_;  // scratch: cells that are searched
+  mutable std::vector<int32_t> found_;  // scratch: spheres found in them
+
+  // cells alone: no lists; a sphere looks at the cells around its own, leaving which is an event
+  int64_t cells_alone_ = 0;  // 1: now
   std::vector<int32_t> cell_first_, cell_next_;
   std::vector<std::array<int32_t, D>> cell_;  // of each sphere
-  int64_t cells_alone_ = 0;  // 1: no lists; a sphere looks at the cells around its own, leaving which is an event
 
   // outer lists of the Mari-Kurchan model
   std::vector<std::vector<Outer>> outer_;

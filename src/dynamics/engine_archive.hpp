@@ -38,6 +38,7 @@ void Engine<D, Shift>::archive(Archive &a) {
   a(rho_max_);
   a(cells_);
   a(cell_range_);
+  a(block_);
   a(cell_first_);
   a(cell_next_);
   a(cells_alone_);
@@ -53,7 +54,9 @@ void Engine<D, Shift>::archive(Archive &a) {
     for (std::vector<Outer> &list : outer_) a(list);
   }
   if (a.reading()) {
+    options_.instruction_set = InstructionSet::best;  // of this processor, not of the one that wrote
     check_archive();
+    make_scratch();
     if (quenched_) take_redrawn();
   }
 }
@@ -66,14 +69,15 @@ void Engine<D, Shift>::check_archive() const {
   Archive::check(user_.size() == n && body_.size() == n && left_over_.size() == n &&
                  (mass_.empty() || mass_.size() == n));
   Archive::check(centre_.size() == n && rho_.size() == n && safe_.size() == n && neighbours_.size() == n);
-  Archive::check(capacity_ > 0 && neighbour_.size() / n == capacity_ && neighbour_.size() % n == 0);
+  Archive::check(capacity_ > 0 && capacity_ % 8 == 0 && neighbour_.size() / n == capacity_ &&
+                 neighbour_.size() % n == 0);
   Archive::check(offset_.size() == (Shift ? neighbour_.size() * D : 0));
   std::vector<char> seen(n, 0);
   for (int32_t u : user_) {
     Archive::check(sphere(u) && !seen[u]);
     seen[u] = 1;
   }
-  for (const Body &b : body_) Archive::check(b.radius > 0);
+  for (const Body<D> &b : body_) Archive::check(b.radius > 0);
   for (const int64_t count :
        {exits_, exits_before_, collisions_before_, events_before_, rebase_at_, sums.events, sums.collisions})
     Archive::check(count >= 0 && count < int64_t{1} << 60);  // differences are taken of them
@@ -102,20 +106,42 @@ void Engine<D, Shift>::check_archive() const {
 template <int D, bool Shift>
 void Engine<D, Shift>::check_cells() const {
   Archive::check(cells_ > 0 && cells_ < 1 << 20 && cell_range_ >= 1 && cell_range_ <= 3 &&
-                 cells_ >= 2 * cell_range_ + 1);
+                 cells_ >= 2 * cell_range_ + 1 && !Shift && (cells_alone_ == 0 || cells_alone_ == 1));
+  const double total = std::pow(static_cast<double>(cells_), D);
   if (cells_alone_) {
-    Archive::check(cells_alone_ == 1 && !Shift && cells_ >= 5 && cell_range_ == 1 &&
-                   cell_.size() == static_cast<size_t>(n_));
+    Archive::check(cells_ >= 5 && cell_range_ == 1 && cell_.size() == static_cast<size_t>(n_));
     for (const auto &cell : cell_)
       for (int32_t place : cell) Archive::check(place >= 0 && place < cells_);
+    Archive::check(total == static_cast<double>(cell_first_.size()) && cell_next_.size() == static_cast<size_t>(n_));
+  } else {
+    Archive::check(total <= static_cast<double>(block_.size()));
   }
-  double total = std::pow(static_cast<double>(cells_), D);
-  Archive::check(total == static_cast<double>(cell_first_.size()) && cell_next_.size() == static_cast<size_t>(n_));
+  std::vector<char> seen(static_cast<size_t>(n_), 0);
   int64_t met = 0;
-  for (size_t cell = 0; cell < cell_first_.size(); ++cell)
-    for (int32_t i = cell_first_[cell]; i >= 0; i = cell_next_[i]) {
-      Archive::check(i < n_ && ++met <= n_ && home(i) == cell);
+  const auto meet = [&](int32_t i, size_t cell) {
+    Archive::check(i >= 0 && i < n_ && !seen[i] && cell_of(home_of(i)) == cell);
+    seen[i] = 1;
+    ++met;
+  };
+  for (size_t cell = 0; static_cast<double>(cell) < total; ++cell) {
+    if (cells_alone_) {
+      for (int32_t i = cell_first_[cell]; i >= 0; i = cell_next_[i]) meet(i, cell);
+      continue;
     }
+    int64_t blocks = 0;
+    for (size_t at = cell;;) {
+      const Block<D> &b = block_[at];
+      const int32_t last = b.id[Block<D>::lanes - 1];
+      for (int l = 0; l < Block<D>::lanes; ++l) {
+        if (b.id[l] == Block<D>::free || (l == Block<D>::lanes - 1 && last < Block<D>::free)) continue;
+        meet(b.id[l], cell);
+        for (int c = 0; c < D; ++c) Archive::check(b.x[c][l] == static_cast<int32_t>(centre_[b.id[l]][c] >> 32));
+      }
+      if (last >= Block<D>::free) break;
+      at = static_cast<size_t>(Block<D>::link_to(last));
+      Archive::check(at < block_.size() && ++blocks <= static_cast<int64_t>(block_.size()));
+    }
+  }
   Archive::check(met == n_);
 }
 

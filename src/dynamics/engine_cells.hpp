@@ -37,18 +37,21 @@ void Engine<D, Shift>::unlink(int32_t i, size_t cell) {
   *at = cell_next_[i];
 }
 
-// The cell in which i is linked.
+// Writes the other spheres in the cells around that of i to found_; returns their number.
 template <int D, bool Shift>
-size_t Engine<D, Shift>::home(int32_t i) const {
-  if (!cells_alone_) return cell_of(centre_[i]);
-  size_t cell = 0;
-  for (int c = D - 1; c >= 0; --c) cell = cell * static_cast<size_t>(cells_) + static_cast<size_t>(cell_[i][c]);
-  return cell;
+int32_t Engine<D, Shift>::gather(int32_t i) const {
+  const size_t cells = cells_around(home_of(i));
+  int32_t count = 0;
+  for (size_t s = 0; s < cells; ++s)
+    for (int32_t k = cell_first_[around_[s]]; k >= 0; k = cell_next_[k])
+      if (k != i) found_[count++] = k;
+  return count;
 }
 
 template <int D, bool Shift>
 void Engine<D, Shift>::build_cells_alone() {
   cells_alone_ = 1;
+  make_scratch();
   size_t total = 1;
   for (int c = 0; c < D; ++c) total *= static_cast<size_t>(cells_);
   cell_first_.assign(total, -1);
@@ -57,7 +60,7 @@ void Engine<D, Shift>::build_cells_alone() {
   for (int32_t i = n_ - 1; i >= 0; --i) {
     for (int c = 0; c < D; ++c)
       cell_[i][c] = static_cast<int32_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
-    link(i, home(i));
+    link(i, cell_of(home_of(i)));
   }
   std::fill(neighbours_.begin(), neighbours_.end(), 0);
   if (capacity_ == 0) widen_lists();
@@ -68,7 +71,7 @@ void Engine<D, Shift>::build_cells_alone() {
 // Time from now until sphere i, which stands at now_, leaves its cell, and along which axis.
 template <int D, bool Shift>
 double Engine<D, Shift>::crossing_time(int32_t i, int *axis) const {
-  const Body &b = body_[i];
+  const Body<D> &b = body_[i];
   const double width = scale / static_cast<double>(cells_);
   double best = never;
   for (int c = 0; c < D; ++c) {
@@ -87,13 +90,13 @@ template <int D, bool Shift>
 void Engine<D, Shift>::cross(int32_t i) {
   int axis = 0;
   crossing_time(i, &axis);
-  unlink(i, home(i));
+  unlink(i, cell_of(home_of(i)));
   // By the direction of flight, not by the place, which rounding may leave on this side.
   int32_t &place = cell_[i][axis];
   place += body_[i].v[axis] > 0.0 ? 1 : -1;
   if (place < 0) place += static_cast<int32_t>(cells_);
   if (place == cells_) place = 0;
-  link(i, home(i));
+  link(i, cell_of(home_of(i)));
   if (observer_) note_path(i);
   for (int c = 0; c < D; ++c) centre_[i][c] = body_[i].x[c];
 }

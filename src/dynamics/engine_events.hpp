@@ -9,7 +9,7 @@ namespace jam {
 
 // r^2 - sigma^2 from integers; a and b need not stand at now_.
 template <int D, bool Shift>
-double Engine<D, Shift>::exact_gap(const Body &a, const Body &b, const int64_t *offset) const {
+double Engine<D, Shift>::exact_gap(const Body<D> &a, const Body<D> &b, const int64_t *offset) const {
   const double da = now_ - a.time, db = now_ - b.time;
   unsigned __int128 r2 = 0;
   for (int c = 0; c < D; ++c) {
@@ -18,18 +18,17 @@ double Engine<D, Shift>::exact_gap(const Body &a, const Body &b, const int64_t *
     const uint64_t m = static_cast<uint64_t>(r < 0 ? -r : r);
     r2 += static_cast<unsigned __int128>(m) * m;
   }
-  int64_t sum = a.radius + b.radius;
+  int64_t sum = contact_sum(a, b);
   sum += std::llrint(static_cast<double>(sum) * (rate_ * now_));
   const __int128 gap = static_cast<__int128>(r2 - static_cast<unsigned __int128>(sum) * static_cast<uint64_t>(sum));
   return static_cast<double>(static_cast<int64_t>(gap >> 64)) * 0x1p64 +
          2.0 * static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(gap) >> 1));
 }
 
-// Whatever goes wrong, no overlap in the lists passes unseen: a pair is deepest when something turns one of its spheres
-// round.
+// Every overlap of a pair in the lists is seen here: a pair is deepest when an event turns one of its spheres round.
 template <int D, bool Shift>
-void Engine<D, Shift>::note_overlap(const Body &a, const Body &b, const int64_t *offset) {
-  const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
+void Engine<D, Shift>::note_overlap(const Body<D> &a, const Body<D> &b, const int64_t *offset) {
+  const double sigma = static_cast<double>(contact_sum(a, b)) * (1.0 + rate_ * now_);
   const double gap = std::max(-1.0, exact_gap(a, b, offset) / (sigma * sigma));
   max_overlap = std::max(max_overlap, -gap / (1.0 + std::sqrt(1.0 + gap)));
 }
@@ -38,7 +37,7 @@ void Engine<D, Shift>::note_overlap(const Body &a, const Body &b, const int64_t 
 template <int D, bool Shift>
 double Engine<D, Shift>::exit_time(int32_t i) const {
   if (cells_alone_) return now_ + crossing_time(i, nullptr);
-  const Body &b = body_[i];
+  const Body<D> &b = body_[i];
   double rv = 0.0, vv = 0.0, rr = 0.0;
   for (int c = 0; c < D; ++c) {
     const double r = static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c]));
@@ -53,54 +52,56 @@ double Engine<D, Shift>::exit_time(int32_t i) const {
   return now_ + (rv > 0.0 ? room / (rv + root) : (root - rv) / vv);
 }
 
-// When sphere bi, which stands at now_, meets k, if that is before `best` and before the event of k.
+// When sphere `self`, which stands at now_, meets `other`: time from now, infinity if never. The kernel computes this
+// for nearly all pairs; here are all cases.
 template <int D, bool Shift>
-inline void Engine<D, Shift>::meet(const Body &bi, int32_t k, const int64_t *offset, double grown, double &best,
-                                   int32_t &partner) {
-  const Body &bk = body_[k];
-  const double dt = now_ - bk.time;
+double Engine<D, Shift>::collision_time(const Body<D> &self, const Body<D> &other, const int64_t *offset) {
+  const double dt = now_ - other.time;
   double rv = 0.0, vv = 0.0, rr = 0.0;
   for (int c = 0; c < D; ++c) {
-    const double r = static_cast<double>(difference(bi, bk, c, offset)) - bk.v[c] * dt;
-    const double v = bi.v[c] - bk.v[c];
+    const double r = static_cast<double>(difference(self, other, c, offset)) - other.v[c] * dt;
+    const double v = self.v[c] - other.v[c];
     rv += r * v;
     vv += v * v;
     rr += r * r;
   }
-  const double sum = static_cast<double>(bi.radius + bk.radius), sigma = sum * grown, growth = sum * rate_;
-  const double b = rv - sigma * growth, a = vv - growth * growth, sigma2 = sigma * sigma;
+  const double sum = static_cast<double>(contact_sum(self, other)), sigma = sum * (1.0 + rate_ * now_);
+  const double growth = sum * rate_, sigma2 = sigma * sigma;
+  const double b = rv - sigma * growth, a = vv - growth * growth;
   double gap = rr - sigma2;
-  if (gap < -1e-14 * sigma2) note_overlap(bi, bk, offset);
-  if (b >= 0.0 && a >= 0.0) return;
-  // The root is not earlier than gap / (-2 b) when a > 0.
-  if (a > 0.0 && gap > 1e-9 * sigma2 && gap > -2.0 * b * best) return;
-  if (gap < 1e-3 * sigma2) gap = exact_gap(bi, bk, offset);
+  if (gap < -1e-14 * sigma2) note_overlap(self, other, offset);
+  if (b >= 0.0 && a >= 0.0) return never;
+  if (gap < 1e-3 * sigma2) gap = exact_gap(self, other, offset);
   const double disc = b * b - a * gap;
-  double t;
-  if (b < 0.0) {
-    if (gap <= 0.0)
-      t = 0.0;  // in contact or overlapping, and approaching
-    else if (disc < 0.0)
-      return;
-    else
-      t = gap / (std::sqrt(disc) - b);
-  } else {
-    // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
-    t = disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
-  }
-  if (t < best && now_ + t < calendar_[k].time) best = t, partner = k;
+  // The surfaces recede now but growth outruns the spheres: the later root, or the time of least overlap.
+  if (b >= 0.0) return disc > 0.0 ? -(b + std::sqrt(disc)) / a : -b / a;
+  if (gap <= 0.0) return 0.0;  // in contact or overlapping, and approaching
+  return disc < 0.0 ? never : gap / (std::sqrt(disc) - b);
 }
 
-// Earliest event of sphere i, which stands at now_.
+// Earliest event of sphere i, which stands at now_. Of collisions at one time the first of the list counts.
 template <int D, bool Shift>
 void Engine<D, Shift>::predict(int32_t i) {
-  const Body &bi = body_[i];
-  Event &event = calendar_[i];
-  double best = exit_time(i) - now_;
+  const Body<D> &self = body_[i];
+  const int32_t count = cells_alone_ ? gather(i) : neighbours_[i], *list = cells_alone_ ? found_.data() : list_of(i);
+  PairBatch<D> pairs{body_.data(), &self, list, 0, nullptr, capacity_, calendar_.times(), now_, rate_, non_additivity_};
+  Earliest earliest{exit_time(i) - now_, -1};
   int32_t partner = -1;
-  const double grown = 1.0 + rate_ * now_;
-  each_neighbour(i, [&](int32_t k, const int64_t *offset) { meet(bi, k, offset, grown, best, partner); });
-  event.time = now_ + best;
+  for (int32_t first = 0; first < count; first += PairKernel<D>::batch) {
+    pairs.list = list + first;
+    pairs.count = std::min(PairKernel<D>::batch, count - first);
+    pairs.offset = offset_of(i, first);
+    earliest.entry = -1;
+    for (uint64_t left_out = kernel_.collisions(pairs, earliest); left_out; left_out &= left_out - 1) {
+      const int32_t entry = __builtin_ctzll(left_out), k = pairs.list[entry];
+      const double t = collision_time(self, body_[k], offset_of(i, first + entry));
+      const bool sooner = t < earliest.time || (t == earliest.time && entry < earliest.entry);
+      if (sooner && now_ + t < calendar_.time(k)) earliest = {t, entry};
+    }
+    if (earliest.entry >= 0) partner = pairs.list[earliest.entry];
+  }
+  Event &event = calendar_[i];
+  calendar_.time(i) = now_ + earliest.time;
   event.partner = partner;
   if (partner >= 0) event.partner_count = calendar_[partner].count;
 }
@@ -114,9 +115,9 @@ void Engine<D, Shift>::separation(int32_t i, int32_t k, double *r) const {
     for (int c = 0; c < D; ++c) r[c] = static_cast<double>(difference(body_[i], body_[k], c, nullptr));
   } else {
     double nearest = never;
-    const double growth = static_cast<double>(body_[i].radius + body_[k].radius) * rate_;
+    const double growth = static_cast<double>(contact_sum(body_[i], body_[k])) * rate_;
     for (int32_t e = 0; e < neighbours_[i]; ++e) {
-      if (neighbour_[static_cast<size_t>(i) * capacity_ + e] != k) continue;
+      if (list_of(i)[e] != k) continue;
       double r2 = 0.0, rv = 0.0, trial[D];
       for (int c = 0; c < D; ++c) {
         trial[c] = static_cast<double>(difference(body_[i], body_[k], c, offset_of(i, e)));
@@ -134,7 +135,7 @@ void Engine<D, Shift>::separation(int32_t i, int32_t k, double *r) const {
 // Elastic collision of surfaces that move apart with the growth speed: the pair separates with at least that speed.
 template <int D, bool Shift>
 void Engine<D, Shift>::collide(int32_t i, int32_t k) {
-  Body &a = body_[i], &b = body_[k];
+  Body<D> &a = body_[i], &b = body_[k];
   double r[D], r2 = 0.0, rv = 0.0;
   separation(i, k, r);
   for (int c = 0; c < D; ++c) {
@@ -142,7 +143,7 @@ void Engine<D, Shift>::collide(int32_t i, int32_t k) {
     rv += r[c] * (a.v[c] - b.v[c]);
   }
   const double inverse = 1.0 / std::sqrt(r2), vn = rv * inverse;
-  const double growth = static_cast<double>(a.radius + b.radius) * rate_;
+  const double growth = static_cast<double>(contact_sum(a, b)) * rate_;
   double push = growth - vn;
   if (push <= 0.0) return;               // a grazing pair that rounding has let go
   push = std::max(push, 1e-14 * scale);  // never so little that the sum is lost: the pair would collide for ever
@@ -173,43 +174,32 @@ void Engine<D, Shift>::collide(int32_t i, int32_t k) {
 }
 
 template <int D, bool Shift>
-void Engine<D, Shift>::prefetch(int32_t i) const {
-  const int32_t *list = &neighbour_[static_cast<size_t>(i) * capacity_];
-  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) __builtin_prefetch(&body_[list[e]]);
-}
-
-template <int D, bool Shift>
 void Engine<D, Shift>::next_event(int32_t i) {
   Event &event = calendar_[i];
 #ifdef JAM_CHECK_PAIRS
-  if (event.time < now_ - 1e-6 * bucket_width_)
+  if (calendar_.time(i) < now_ - 1e-6 * bucket_width_)
     fail(JAM_E_INTERNAL, "the event of sphere %d is %g buckets late after %lld collisions", user_[i],
-         (now_ - event.time) / bucket_width_, static_cast<long long>(sums.collisions));
+         (now_ - calendar_.time(i)) / bucket_width_, static_cast<long long>(sums.collisions));
 #endif
-  now_ = std::max(now_, event.time);
+  now_ = std::max(now_, calendar_.time(i));
   move(body_[i]);
   const int32_t k = event.partner;
-  if (k < 0) {
-    ++exits_;
-    recentre(i);
-    event.time = never;
+  const bool exit = k < 0;
+  if (exit || calendar_[k].count != event.partner_count) {  // it leaves its safe sphere, or the event is stale
+    if (exit) {
+      ++exits_;
+      recentre(i);
+    }
+    calendar_.time(i) = never;
     predict(i);
     calendar_.update(i);
     return;
   }
-  Event &other = calendar_[k];
-  if (other.count != event.partner_count) {
-    event.time = never;
-    predict(i);
-    calendar_.update(i);
-    return;
-  }
-  prefetch(k);
   move(body_[k]);
   collide(i, k);
   calendar_.take_out(i);
   calendar_.take_out(k);
-  event.time = other.time = never;
+  calendar_.time(i) = calendar_.time(k) = never;
   predict(i);
   predict(k);
   calendar_.put_in(i);
@@ -219,8 +209,8 @@ void Engine<D, Shift>::next_event(int32_t i) {
 template <int D, bool Shift>
 Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, double wall_end) {
   const int64_t goal = sums.collisions + collisions;
-  // Without a collision in so many events nothing will come: no partners, or paths that never meet.
-  const int64_t patience = 1000000 + 200 * static_cast<int64_t>(n_);
+  // Without a collision in so many events none will come: the spheres have no partners, or their paths never meet.
+  const int64_t max_stalled_events = 1000000 + 200 * static_cast<int64_t>(n_);
   int64_t last_progress = sums.events, last_collisions = sums.collisions;
   if (wants_images_) return Halt::needs_images;
   while (sums.collisions < goal) {
@@ -229,12 +219,12 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
       if (now_seconds() > wall_end) return Halt::wall_time;
       if (sums.collisions != last_collisions)
         last_collisions = sums.collisions, last_progress = sums.events;
-      else if (sums.events - last_progress > patience)
+      else if (sums.events - last_progress > max_stalled_events)
         return Halt::stalled;
     }
     ++sums.events;
-    const int32_t i = calendar_.top();
-    const double t = i < 0 ? never : calendar_[i].time;
+    const int32_t i = calendar_.top([this] { look_ahead(); });
+    const double t = i < 0 ? never : calendar_.time(i);
     const double special =
         std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
     // Also after many events: when they come faster and faster, times must stay small to be sharp.

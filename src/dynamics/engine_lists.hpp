@@ -1,4 +1,4 @@
-// The engine: neighbour lists, made through cells that hold the centres of the safe spheres.
+// The engine: neighbour lists, made through the cells of engine_blocks.hpp.
 #pragma once
 #include <algorithm>
 
@@ -32,19 +32,10 @@ void Engine<D, Shift>::choose_cells() {
 }
 
 template <int D, bool Shift>
-size_t Engine<D, Shift>::cell_of(const Place &x) const {
-  size_t cell = 0;
-  for (int c = D - 1; c >= 0; --c)
-    cell =
-        cell * static_cast<size_t>(cells_) + static_cast<size_t>(((x[c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
-  return cell;
-}
-
-template <int D, bool Shift>
 void Engine<D, Shift>::build_lists() {
   double largest = 0.0, mean = mean_radius();
-  for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
-  const double sigma = 2.0 * largest * unit;
+  for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
+  const double sigma = 2.0 * largest * unit * reach_factor_;  // largest contact distance
   if (!Shift && !fits(sigma)) {
     wants_images_ = true;
     return;
@@ -65,7 +56,7 @@ void Engine<D, Shift>::build_lists() {
   shell_ = std::min(std::max(shell_, smallest_shell), widest_shell_);
   rho_max_ = 0.0;
   for (int32_t i = 0; i < n_; ++i) {
-    Body &b = body_[i];
+    Body<D> &b = body_[i];
     if (observer_) note_path(i);
     for (int c = 0; c < D; ++c) {
       if (Shift) b.x[c] &= (uint64_t{1} << 61) - 1;
@@ -75,23 +66,17 @@ void Engine<D, Shift>::build_lists() {
     // Small spheres among large ones are as quick: their shells are wider than their share.
     safe_[i] = 2.0 * shell_ * std::sqrt(radius * std::min(mean, largest));
     safe_[i] = std::min(safe_[i], 2.0 * shell_ * largest);
-    rho_[i] = (radius * (1.0 + margin_) + safe_[i]) * (1.0 + 1e-12);
+    rho_[i] = (radius * reach_factor_ * (1.0 + margin_) + safe_[i]) * (1.0 + 1e-12);
     rho_max_ = std::max(rho_max_, rho_[i]);
   }
   if (choose_cells_alone(sigma)) return build_cells_alone();
   if (quenched_) check_outer();
   choose_cells();
-  if (cells_ > 0) {
-    size_t total = 1;
-    for (int c = 0; c < D; ++c) total *= static_cast<size_t>(cells_);
-    cell_first_.assign(total, -1);
-    cell_next_.resize(n_);
-    for (int32_t i = n_ - 1; i >= 0; --i) link(i, home(i));
-  }
+  if (cells_ > 0) build_blocks();
   std::fill(neighbours_.begin(), neighbours_.end(), 0);
   if (capacity_ == 0) widen_lists();
   for (int32_t i = 0; i < n_; ++i)
-    candidates(i, [&](int32_t k, const int64_t *offset) {
+    candidates(i, [&](int32_t k, const std::array<int64_t, D> *offset) {
       if (k > i) append(i, k, offset);
     });
   max_overlap = std::max(max_overlap, worst_overlap());
@@ -129,30 +114,6 @@ bool Engine<D, Shift>::tune_shell() {
   return shell_ != before;
 }
 
-template <int D, bool Shift>
-template <class F>
-void Engine<D, Shift>::each_in_cells(int32_t i, F &&f) const {
-  const int width = 2 * cell_range_ + 1;
-  std::array<std::array<size_t, 7>, D> at;
-  size_t stride = 1;
-  for (int c = 0; c < D; ++c) {
-    const auto home = cells_alone_
-                          ? static_cast<int64_t>(cell_[i][c])
-                          : static_cast<int64_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
-    for (int s = 0; s < width; ++s) at[c][s] = static_cast<size_t>((home + s - cell_range_ + cells_) % cells_) * stride;
-    stride *= static_cast<size_t>(cells_);
-  }
-  std::array<int, D> digit{};
-  for (;;) {
-    size_t cell = 0;
-    for (int c = 0; c < D; ++c) cell += at[c][digit[c]];
-    for (int32_t k = cell_first_[cell]; k >= 0; k = cell_next_[k]) f(k);
-    int c = 0;
-    while (c < D && ++digit[c] == width) digit[c++] = 0;
-    if (c == D) return;
-  }
-}
-
 // f(offset) for every image of k within the cutoff of i, between centres; offset makes x_i - x_k + offset that image.
 template <int D, bool Shift>
 template <class F>
@@ -184,7 +145,7 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::arra
     if (r2[c + 1] >= cutoff * cutoff) continue;
     offset[c] = shift[c] + step[c] * box;
     if (c == D - 1)
-      f(offset.data());
+      f(&offset);
     else
       step[++c] = -2;
   }
@@ -193,19 +154,20 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::arra
 // f(k, offset) for every k (and image) that belongs into the list of i.
 template <int D, bool Shift>
 template <class F>
-void Engine<D, Shift>::candidates(int32_t i, F &&f) const {
+void Engine<D, Shift>::candidates(int32_t i, F &&f) {
+  using Offset = std::array<int64_t, D>;
   if constexpr (Shift)
     if (quenched_) {
       for (const Outer &partner : outer_[i])
         each_image(i, partner.k, rho_[i] + rho_[partner.k], shift_of(i, partner),
-                   [&](const int64_t *offset) { f(partner.k, offset); });
+                   [&](const Offset *offset) { f(partner.k, offset); });
       return;
     }
   const auto check = [&](int32_t k) {
     if (k == i) return;
     const double cutoff = rho_[i] + rho_[k];
     if constexpr (Shift) {
-      each_image(i, k, cutoff, {}, [&](const int64_t *offset) { f(k, offset); });
+      each_image(i, k, cutoff, {}, [&](const Offset *offset) { f(k, offset); });
     } else {
       double r2 = 0.0;
       for (int c = 0; c < D; ++c) {
@@ -215,34 +177,37 @@ void Engine<D, Shift>::candidates(int32_t i, F &&f) const {
       if (r2 < cutoff * cutoff) f(k, nullptr);
     }
   };
-  if (cells_ > 0)
-    each_in_cells(i, check);
-  else
+  if (cells_ == 0) {
     for (int32_t k = 0; k < n_; ++k) check(k);
+  } else {
+    const int32_t found = search(i);
+    for (int32_t e = 0; e < found; ++e) check(found_[e]);
+  }
 }
 
 // f(k, offset) for every sphere that i can meet before its exit.
 template <int D, bool Shift>
 template <class F>
 void Engine<D, Shift>::each_neighbour(int32_t i, F &&f) const {
-  if constexpr (!Shift)
-    if (cells_alone_)
-      return each_in_cells(i, [&](int32_t k) {
-        if (k != i) f(k, nullptr);
-      });
-  const int32_t *list = &neighbour_[static_cast<size_t>(i) * capacity_];
-  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) f(list[e], offset_of(i, e));
+  if (cells_alone_) {
+    const int32_t found = gather(i);
+    for (int32_t e = 0; e < found; ++e) f(found_[e], nullptr);
+    return;
+  }
+  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) f(list_of(i)[e], offset_of(i, e));
 }
 
 template <int D, bool Shift>
-void Engine<D, Shift>::append(int32_t i, int32_t k, const int64_t *offset) {
+void Engine<D, Shift>::append(int32_t i, int32_t k, const std::array<int64_t, D> *offset) {
   if (static_cast<size_t>(std::max(neighbours_[i], neighbours_[k])) >= capacity_) widen_lists();
-  const size_t at_i = static_cast<size_t>(i) * capacity_ + neighbours_[i]++,
-               at_k = static_cast<size_t>(k) * capacity_ + neighbours_[k]++;
-  neighbour_[at_i] = k;
-  neighbour_[at_k] = i;
+  const int32_t at_i = neighbours_[i]++, at_k = neighbours_[k]++;
+  list_of(i)[at_i] = k;
+  list_of(k)[at_k] = i;
   if constexpr (Shift) {
-    for (int c = 0; c < D; ++c) offset_[at_i * D + c] = offset[c], offset_[at_k * D + c] = -offset[c];
+    for (int c = 0; c < D; ++c) {
+      offset_[offset_at(i, at_i) + c * capacity_] = (*offset)[c];
+      offset_[offset_at(k, at_k) + c * capacity_] = -(*offset)[c];
+    }
   } else {
     (void)offset;
   }
@@ -251,26 +216,25 @@ void Engine<D, Shift>::append(int32_t i, int32_t k, const int64_t *offset) {
 // Takes one entry of i out of the list of k.
 template <int D, bool Shift>
 void Engine<D, Shift>::forget(int32_t i, int32_t k) {
-  int32_t *list = &neighbour_[static_cast<size_t>(k) * capacity_];
+  int32_t *list = list_of(k);
   const int32_t last = --neighbours_[k];
   int32_t e = 0;
   while (list[e] != i) ++e;
   list[e] = list[last];
-  if constexpr (Shift) {
-    int64_t *offset = &offset_[static_cast<size_t>(k) * capacity_ * D];
-    for (int c = 0; c < D; ++c) offset[static_cast<size_t>(e) * D + c] = offset[static_cast<size_t>(last) * D + c];
-  }
+  if constexpr (Shift)
+    for (int c = 0; c < D; ++c) offset_[offset_at(k, e) + c * capacity_] = offset_[offset_at(k, last) + c * capacity_];
 }
 
 template <int D, bool Shift>
 void Engine<D, Shift>::widen_lists() {
-  const size_t wider = capacity_ == 0 ? 16 : capacity_ + capacity_ / 4 + 4;
-  std::vector<int32_t> list(wider * static_cast<size_t>(n_));
-  std::vector<int64_t> offset(Shift ? wider * static_cast<size_t>(n_) * D : 0);
-  for (size_t i = 0; i < static_cast<size_t>(n_) && capacity_ > 0; ++i) {
+  const size_t n = static_cast<size_t>(n_), wider = capacity_ == 0 ? 16 : (capacity_ + capacity_ / 4 + 11) / 8 * 8;
+  std::vector<int32_t> list(wider * n);
+  std::vector<int64_t> offset(Shift ? wider * n * D : 0);
+  for (size_t i = 0; i < n && capacity_ > 0; ++i) {
     std::copy_n(&neighbour_[i * capacity_], neighbours_[i], &list[i * wider]);
     if constexpr (Shift)
-      std::copy_n(&offset_[i * capacity_ * D], static_cast<size_t>(neighbours_[i]) * D, &offset[i * wider * D]);
+      for (size_t row = i * D; row < (i + 1) * D; ++row)
+        std::copy_n(&offset_[row * capacity_], neighbours_[i], &offset[row * wider]);
   }
   neighbour_.swap(list);
   offset_.swap(offset);
@@ -281,25 +245,18 @@ void Engine<D, Shift>::widen_lists() {
 template <int D, bool Shift>
 void Engine<D, Shift>::recentre(int32_t i) {
   if (cells_alone_) return cross(i);
-  for (int32_t e = 0; e < neighbours_[i]; ++e) forget(i, neighbour_[static_cast<size_t>(i) * capacity_ + e]);
+  for (int32_t e = 0; e < neighbours_[i]; ++e) forget(i, list_of(i)[e]);
   neighbours_[i] = 0;
   if (observer_) note_path(i);
-  Body &b = body_[i];
-  Place place;
+  if (cells_ > 0) drop(i, cell_of(home_of(i)));
+  Body<D> &b = body_[i];
   for (int c = 0; c < D; ++c) {
     if (Shift) b.x[c] &= (uint64_t{1} << 61) - 1;
-    place[c] = b.x[c];
+    centre_[i][c] = b.x[c];
   }
-  if (cells_ > 0) {
-    const size_t from = cell_of(centre_[i]), to = cell_of(place);
-    if (from != to) {
-      unlink(i, from);
-      link(i, to);
-    }
-  }
-  centre_[i] = place;
+  if (cells_ > 0) put(i, cell_of(home_of(i)));
   if (quenched_ && left_outer(i)) renew_outer(i);
-  candidates(i, [&](int32_t k, const int64_t *offset) { append(i, k, offset); });
+  candidates(i, [&](int32_t k, const std::array<int64_t, D> *offset) { append(i, k, offset); });
 }
 
 }  // namespace jam

@@ -65,7 +65,7 @@ void Engine<D, Shift>::each_outer_partner(int32_t i, F &&f) const {
 template <int D, bool Shift>
 void Engine<D, Shift>::build_outer() {
   double largest = 0.0;
-  for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
+  for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
   // Wide enough that a caged sphere never leaves it; the allowance for growth and for wider shells is a few per cent of
   // sigma.
   outer_safe_ = 0.5 * largest;

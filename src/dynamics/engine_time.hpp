@@ -16,7 +16,10 @@ template <int D, bool Shift>
 Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from)
     : n_(static_cast<int32_t>(p.n())),
       options_(o),
+      kernel_(pair_kernel<D>(o.instruction_set)),
       box_(p.box),
+      non_additivity_(p.non_additivity),
+      reach_factor_(1.0 + std::max(0.0, p.non_additivity)),
       body_(p.n()),
       calendar_(p.n()),
       user_(curve_order(p)),
@@ -40,7 +43,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
   }
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
-    Body &b = body_[i];
+    Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c) {
       b.x[c] = static_cast<uint64_t>(wrap(p.position[u * D + c] / p.box, 1.0) * scale);
       b.v[c] = p.velocity[u * D + c] * scale;
@@ -58,7 +61,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
   if (o.growth > 0.0) {
     start_rate(o.growth * scale / (2.0 * mean_radius()));
     double largest = 0.0;
-    for (const Body &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
+    for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
     full_time_ = (0.5 * scale / largest - 1.0) / rate_;  // a sphere touches its own image
     if (o.target_fraction < never) {
       target_radius_ = static_cast<double>(body_[0].radius) * std::pow(o.target_fraction / fraction, 1.0 / D);
@@ -80,7 +83,7 @@ void Engine<D, Shift>::start_rate(double rate) {
 // Lists stay, as their ends move with the rate; all events are predicted anew.
 template <int D, bool Shift>
 void Engine<D, Shift>::set_growth(double growth) {
-  for (Body &b : body_) move(b);
+  for (Body<D> &b : body_) move(b);
   shift_origin();
   const double rate = growth / (2.0 * mean_radius() * unit), slower = rate_ / rate;
   lists_end_ *= slower;
@@ -93,7 +96,7 @@ void Engine<D, Shift>::set_growth(double growth) {
 template <int D, bool Shift>
 double Engine<D, Shift>::mean_radius() const {
   double sum = 0.0;
-  for (const Body &b : body_) sum += static_cast<double>(b.radius);
+  for (const Body<D> &b : body_) sum += static_cast<double>(b.radius);
   return sum / n_;
 }
 
@@ -101,7 +104,7 @@ template <int D, bool Shift>
 double Engine<D, Shift>::packing_fraction() const {
   double sum = 0.0;
   const double grown = 2.0 * unit * (1.0 + rate_ * now_);
-  for (const Body &b : body_) {
+  for (const Body<D> &b : body_) {
     double volume = 1.0;
     for (int c = 0; c < D; ++c) volume *= static_cast<double>(b.radius) * grown;
     sum += volume;
@@ -114,9 +117,9 @@ template <int D, bool Shift>
 void Engine<D, Shift>::shift_origin() {
   const double t = now_, factor = rate_ * t;
   for (int32_t i = 0; i < n_; ++i) {
-    Body &b = body_[i];
+    Body<D> &b = body_[i];
     b.time -= t;
-    calendar_[i].time -= t;
+    calendar_.time(i) -= t;
     if (factor == 0.0) continue;
     const double add = static_cast<double>(b.radius) * factor + left_over_[i];
     const int64_t whole = std::llrint(add);
@@ -159,12 +162,12 @@ void Engine<D, Shift>::sort_calendar() {
     events_before_ = sums.events;
   } else if (bucket_width_ == 0.0) {
     std::vector<double> times(n_);
-    for (int32_t i = 0; i < n_; ++i) times[i] = calendar_[i].time;
+    for (int32_t i = 0; i < n_; ++i) times[i] = calendar_.time(i);
     std::nth_element(times.begin(), times.begin() + n_ / 2, times.end());
     bucket_width_ = times[n_ / 2] / n_;
   }
   double earliest = never;
-  for (int32_t i = 0; i < n_; ++i) earliest = std::min(earliest, calendar_[i].time);
+  for (int32_t i = 0; i < n_; ++i) earliest = std::min(earliest, calendar_.time(i));
   const double least = 4.0 * earliest / static_cast<double>(calendar_.buckets());
   double width = bucket_width_ < never ? std::max(bucket_width_, least) : least;
   rebase_at_ = sums.events + 8 * static_cast<int64_t>(n_) + 64;
@@ -174,7 +177,7 @@ void Engine<D, Shift>::sort_calendar() {
 // Brings all spheres to now_, scales velocities, remakes lists if asked or needed, predicts everything.
 template <int D, bool Shift>
 void Engine<D, Shift>::refresh(double velocity_factor, bool lists) {
-  for (Body &b : body_) {
+  for (Body<D> &b : body_) {
     move(b);
     if (velocity_factor != 1.0)
       for (int c = 0; c < D; ++c) b.v[c] *= velocity_factor;
@@ -183,7 +186,7 @@ void Engine<D, Shift>::refresh(double velocity_factor, bool lists) {
   take_kinetic();
   if (lists) build_lists();
   if (wants_images_) return;
-  for (int32_t i = 0; i < n_; ++i) calendar_[i].time = never;
+  for (int32_t i = 0; i < n_; ++i) calendar_.time(i) = never;
   for (int32_t i = 0; i < n_; ++i) predict(i);
   sort_calendar();
 }
@@ -209,8 +212,8 @@ double Engine<D, Shift>::worst_overlap() const {
   double worst = 0.0;
   for (int32_t i = 0; i < n_; ++i)
     each_neighbour(i, [&](int32_t k, const int64_t *offset) {
-      const Body &a = body_[i], &b = body_[k];
-      const double sigma = static_cast<double>(a.radius + b.radius) * (1.0 + rate_ * now_);
+      const Body<D> &a = body_[i], &b = body_[k];
+      const double sigma = static_cast<double>(contact_sum(a, b)) * (1.0 + rate_ * now_);
       double r2 = 0.0;
       for (int c = 0; c < D; ++c) {
         const double r =
@@ -229,7 +232,7 @@ void Engine<D, Shift>::write_state(Packing &p) const {
   const double factor = rate_ * now_;
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
-    const Body &b = body_[i];
+    const Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c) {
       uint64_t x = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now_ - b.time)));
       if (Shift) x &= (uint64_t{1} << 61) - 1;
@@ -261,7 +264,7 @@ void Engine<D, Shift>::check_pairs() const {
 template <int D, bool Shift>
 void Engine<D, Shift>::note_path(int32_t i) const {
   double *travel = observer_->travel(user_[i]);
-  const Body &b = body_[i];
+  const Body<D> &b = body_[i];
   for (int c = 0; c < D; ++c)
     travel[c] += (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
 }
@@ -274,7 +277,7 @@ void Engine<D, Shift>::observe(Observer *observer) {
   if (!observer) return;
   for (int32_t i = 0; i < n_; ++i) {
     double *travel = observer->travel(user_[i]);
-    const Body &b = body_[i];
+    const Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c)
       travel[c] -=
           (static_cast<double>(static_cast<int64_t>(b.x[c] - centre_[i][c])) + b.v[c] * (now_ - b.time)) * unit;
@@ -285,7 +288,7 @@ template <int D, bool Shift>
 void Engine<D, Shift>::displacements(std::vector<double> &out) const {
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
-    const Body &b = body_[i];
+    const Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c)
       out[u * D + c] =
           observer_->travel(user_[i])[c] +

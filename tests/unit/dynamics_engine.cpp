@@ -294,7 +294,7 @@ void calendar_gives_events_in_order(void **) {
   const int n = 200;
   Calendar calendar(n);
   Rng rng(1, Stream::velocities, 77);
-  for (int i = 0; i < n; ++i) calendar[i].time = rng.uniform() * rng.uniform();
+  for (int i = 0; i < n; ++i) calendar.time(i) = rng.uniform() * rng.uniform();
   calendar.rebuild(0.0, 1e-3);
   double last = 0.0;
   int seen = 0;
@@ -305,13 +305,13 @@ void calendar_gives_events_in_order(void **) {
       i = calendar.top();
     }
     assert_true(i >= 0);
-    for (int k = 0; k < n; ++k) assert_true(calendar[k].time >= calendar[i].time);
-    assert_true(calendar[i].time >= last);
-    last = calendar[i].time;
-    calendar[i].time = last + 0.1 * rng.uniform() * rng.uniform();
+    for (int k = 0; k < n; ++k) assert_true(calendar.time(k) >= calendar.time(i));
+    assert_true(calendar.time(i) >= last);
+    last = calendar.time(i);
+    calendar.time(i) = last + 0.1 * rng.uniform() * rng.uniform();
     calendar.update(i);
     const auto other = static_cast<int32_t>(rng.bits() % n);
-    calendar[other].time = last + 0.3 * rng.uniform();
+    calendar.time(other) = last + 0.3 * rng.uniform();
     calendar.update(other);
     ++seen;
   }
@@ -324,23 +324,23 @@ void calendar_keeps_order_when_two_change(void **) {
   for (double width : {1e-3, 1e-2, 0.0}) {
     Calendar calendar(n);
     Rng rng(2, Stream::velocities, 78);
-    for (int i = 0; i < n; ++i) calendar[i].time = rng.uniform() * rng.uniform();
+    for (int i = 0; i < n; ++i) calendar.time(i) = rng.uniform() * rng.uniform();
     calendar.rebuild(0.0, width);
     for (int step = 0; step < 3000; ++step) {
       int32_t i = calendar.top();
       if (i < 0) {
         double first = never;
-        for (int k = 0; k < n; ++k) first = std::fmin(first, calendar[k].time);
+        for (int k = 0; k < n; ++k) first = std::fmin(first, calendar.time(k));
         calendar.rebuild(first, width);
         i = calendar.top();
       }
-      for (int k = 0; k < n; ++k) assert_true(calendar[k].time >= calendar[i].time);
+      for (int k = 0; k < n; ++k) assert_true(calendar.time(k) >= calendar.time(i));
       const auto other = (i + 1 + static_cast<int32_t>(rng.bits() % (n - 1))) % n;
-      const double now = calendar[i].time;
+      const double now = calendar.time(i);
       calendar.take_out(i);
       calendar.take_out(other);
-      calendar[i].time = now + 0.1 * rng.uniform() * rng.uniform();
-      calendar[other].time = now + 0.1 * rng.uniform() * rng.uniform();
+      calendar.time(i) = now + 0.1 * rng.uniform() * rng.uniform();
+      calendar.time(other) = now + 0.1 * rng.uniform() * rng.uniform();
       calendar.put_in(i);
       calendar.put_in(other);
     }

@@ -1,0 +1,137 @@
+// Vectors of four doubles or 64-bit integers and of eight floats or 32-bit integers, as GCC and Clang define them for
+// every processor. A file that includes this header first defines
+//   JAM_SIMD_NAMESPACE  a namespace of its own, so that no function of one instruction set is linked into another;
+//   JAM_SIMD_TARGET     the attribute that selects the instruction set of each function, or nothing.
+// Few functions below have a form for x86 beside the portable one. All forms round alike: the same bits everywhere.
+#pragma once
+#include <cstdint>
+#include <cstring>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#define JAM_SIMD_INLINE JAM_SIMD_TARGET __attribute__((always_inline)) inline
+#pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses the border of a file
+
+namespace jam {
+namespace JAM_SIMD_NAMESPACE {
+
+typedef double Double4 __attribute__((vector_size(32)));
+typedef int64_t Long4 __attribute__((vector_size(32)));
+typedef uint64_t Unsigned4 __attribute__((vector_size(32)));
+typedef float Float8 __attribute__((vector_size(32)));
+typedef int32_t Int8 __attribute__((vector_size(32)));
+typedef uint32_t UnsignedInt8 __attribute__((vector_size(32)));
+
+template <class Vector>
+JAM_SIMD_INLINE Vector load(const void *at) {
+  Vector v;
+  std::memcpy(&v, at, sizeof v);
+  return v;
+}
+template <class Vector>
+JAM_SIMD_INLINE void store(void *at, Vector v) {
+  std::memcpy(at, &v, sizeof v);
+}
+
+// Bit k is set where lane k of a comparison is true (or where it is negative).
+JAM_SIMD_INLINE unsigned bits_of(const Long4 &v) {
+#if defined(__SSE2__) && defined(JAM_SIMD_256)
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)v));
+#elif defined(__SSE2__)
+  __m128d half[2];
+  std::memcpy(half, &v, sizeof v);
+  return static_cast<unsigned>(_mm_movemask_pd(half[0]) | _mm_movemask_pd(half[1]) << 2);
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 4; ++k) bits |= (v[k] < 0 ? 1u : 0u) << k;
+  return bits;
+#endif
+}
+JAM_SIMD_INLINE unsigned bits_of(const Int8 &v) {
+#if defined(__SSE2__) && defined(JAM_SIMD_256)
+  return static_cast<unsigned>(_mm256_movemask_ps((__m256)v));
+#elif defined(__SSE2__)
+  __m128 half[2];
+  std::memcpy(half, &v, sizeof v);
+  return static_cast<unsigned>(_mm_movemask_ps(half[0]) | _mm_movemask_ps(half[1]) << 4);
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 8; ++k) bits |= (v[k] < 0 ? 1u : 0u) << k;
+  return bits;
+#endif
+}
+
+JAM_SIMD_INLINE Double4 square_root(Double4 x) {
+#if defined(__SSE2__) && defined(JAM_SIMD_256)
+  return (Double4)_mm256_sqrt_pd((__m256d)x);
+#elif defined(__SSE2__)
+  __m128d half[2];
+  std::memcpy(half, &x, sizeof x);
+  half[0] = _mm_sqrt_pd(half[0]);
+  half[1] = _mm_sqrt_pd(half[1]);
+  return load<Double4>(half);
+#else
+  for (int k = 0; k < 4; ++k) x[k] = __builtin_sqrt(x[k]);
+  return x;
+#endif
+}
+
+// Product of the lower halves of each lane.
+JAM_SIMD_INLINE Unsigned4 multiply_low(Unsigned4 a, Unsigned4 b) {
+#if defined(__SSE2__) && defined(JAM_SIMD_256)
+  return (Unsigned4)_mm256_mul_epu32((__m256i)a, (__m256i)b);
+#elif defined(__SSE2__)
+  __m128i x[2], y[2];
+  std::memcpy(x, &a, sizeof a);
+  std::memcpy(y, &b, sizeof b);
+  x[0] = _mm_mul_epu32(x[0], y[0]);
+  x[1] = _mm_mul_epu32(x[1], y[1]);
+  return load<Unsigned4>(x);
+#else
+  return (a & 0xffffffffu) * (b & 0xffffffffu);
+#endif
+}
+
+// a[0] b[0] a[2] b[2]; a[1] b[1] a[3] b[3]; the lower halves; the upper halves.
+#if defined(__clang__) || __GNUC__ >= 12
+#define JAM_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+#else
+#define JAM_SHUFFLE(a, b, i, j, k, l) __builtin_shuffle(a, b, Long4{i, j, k, l})
+#endif
+// Turns four rows into four columns.
+JAM_SIMD_INLINE void transpose(Double4 &a, Double4 &b, Double4 &c, Double4 &d) {
+  const Double4 ab0 = JAM_SHUFFLE(a, b, 0, 4, 2, 6), ab1 = JAM_SHUFFLE(a, b, 1, 5, 3, 7);
+  const Double4 cd0 = JAM_SHUFFLE(c, d, 0, 4, 2, 6), cd1 = JAM_SHUFFLE(c, d, 1, 5, 3, 7);
+  a = JAM_SHUFFLE(ab0, cd0, 0, 1, 4, 5);
+  b = JAM_SHUFFLE(ab1, cd1, 0, 1, 4, 5);
+  c = JAM_SHUFFLE(ab0, cd0, 2, 3, 6, 7);
+  d = JAM_SHUFFLE(ab1, cd1, 2, 3, 6, 7);
+}
+
+// The nearest double, as the processor's conversion of one integer gives it: both halves become the low bits of
+// doubles (2^52 + low and 2^84 + 2^63 + high 2^32), whose differences are exact; the last sum rounds once.
+JAM_SIMD_INLINE Double4 to_double(Long4 v) {
+#if defined(JAM_SIMD_CONVERTS)
+  return __builtin_convertvector(v, Double4);
+#else
+  const Unsigned4 bits = (Unsigned4)v;
+  const Unsigned4 low = (bits & 0xffffffffu) | 0x4330000000000000u, high = (bits >> 32) ^ 0x4530000080000000u;
+  return ((Double4)high - 0x1.00000801p84) + (Double4)low;
+#endif
+}
+
+// The nearest integer, ties to even, for |x| < 2^62: multiples of 2^32 and the rest apart, both exact.
+JAM_SIMD_INLINE Long4 to_integer(Double4 x) {
+#if defined(JAM_SIMD_CONVERTS)
+  return (Long4)_mm256_cvtpd_epi64((__m256d)x);
+#else
+  constexpr double magic = 0x1.8p52;  // adding it leaves the integer in the low bits
+  const Double4 up = x * 0x1p-32 + magic, rest = (x - (up - magic) * 0x1p32) + magic;
+  const Long4 high = (Long4)up - 0x4338000000000000, low = (Long4)rest - 0x4338000000000000;
+  return (Long4)((Unsigned4)high << 32) + low;
+#endif
+}
+
+}  // namespace JAM_SIMD_NAMESPACE
+}  // namespace jam

@@ -62,7 +62,8 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     start_rate(o.growth * scale / (2.0 * mean_radius()));
     double largest = 0.0;
     for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
-    full_time_ = (0.5 * scale / largest - 1.0) / rate_;  // a sphere touches its own image
+    // A sphere touches its own image, or the largest contact distance reaches the box.
+    full_time_ = (0.5 * scale / (largest * reach_factor_) - 1.0) / rate_;
     if (o.target_fraction < never) {
       target_radius_ = static_cast<double>(body_[0].radius) * std::pow(o.target_fraction / fraction, 1.0 / D);
       fraction_time_ = (target_radius_ / static_cast<double>(body_[0].radius) - 1.0) / rate_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/create.hpp"
+#include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
 #include "dynamics/engine.hpp"
@@ -18,12 +19,15 @@ using namespace jam;
 
 namespace {
 
-Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed) {
+Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed, double non_additivity = 0.0,
+                       int32_t model = JAM_MODEL_EUCLID) {
   jam_create_options o = default_create_options();
   o.dim = dim;
   o.n = n;
   o.seed = seed;
   o.packing_fraction = fraction;
+  o.non_additivity = non_additivity;
+  o.model = model;
   std::vector<double> diameters(n, 1.0);
   for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
   Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size());
@@ -61,7 +65,7 @@ void naive(Packing &p, int collisions, long double rate) {
             const long double w = v[i * d + c] - v[j * d + c];
             rv += r[c] * w, vv += w * w, rr += r[c] * r[c];
           }
-          const long double s0 = 0.5L * (p.diameter[i] + p.diameter[j]), s = s0 * (1 + rate * now), g = s0 * rate;
+          const long double s0 = contact_distance<long double>(p, i, j), s = s0 * (1 + rate * now), g = s0 * rate;
           const long double a = vv - g * g, b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
           if (b >= 0 || disc < 0) continue;
           const long double t = gap <= 0 ? 0 : gap / (std::sqrt(disc) - b);
@@ -78,7 +82,7 @@ void naive(Packing &p, int collisions, long double rate) {
       r[c] = x[bi * d + c] - x[bj * d + c] - std::round(back[c]) + (m % 3 - 1);
       rr += r[c] * r[c], rv += r[c] * (v[bi * d + c] - v[bj * d + c]);
     }
-    const long double push = 0.5L * (p.diameter[bi] + p.diameter[bj]) * rate - rv / std::sqrt(rr);
+    const long double push = contact_distance<long double>(p, bi, bj) * rate - rv / std::sqrt(rr);
     for (int c = 0; c < d; ++c) {
       v[bi * d + c] += push * r[c] / std::sqrt(rr);
       v[bj * d + c] -= push * r[c] / std::sqrt(rr);
@@ -104,17 +108,21 @@ struct Case {
   int dim, n;
   double fraction, ratio, growth;
   int collisions;
+  double non_additivity = 0.0;
 };
 
 void agrees_with_naive_engine(void **) {
   // Small boxes (several images of one pair) among them.
   // From 40 spheres in three dimensions on cells alone hold, whether they are the choice at that density or not.
-  const Case cases[] = {{3, 40, 0.04, 1.0, 0.0, 60},   {3, 40, 0.06, 1.5, 0.05, 60}, {2, 40, 0.1, 2.0, 0.02, 60},
-                        {4, 40, 0.004, 1.0, 0.01, 20}, {3, 24, 0.25, 1.0, 0.0, 60},  {3, 24, 0.25, 1.0, 0.05, 60},
-                        {2, 16, 0.35, 3.0, 0.02, 40},  {3, 2, 0.3, 1.0, 0.0, 10},    {2, 2, 0.4, 1.0, 0.01, 10},
-                        {3, 3, 0.3, 1.5, 0.02, 12},    {4, 10, 0.12, 1.0, 0.0, 25},  {5, 6, 0.05, 1.0, 0.01, 10}};
+  const Case cases[] = {
+      {3, 40, 0.04, 1.0, 0.0, 60},      {3, 40, 0.06, 1.5, 0.05, 60},      {2, 40, 0.1, 2.0, 0.02, 60},
+      {4, 40, 0.004, 1.0, 0.01, 20},    {3, 24, 0.25, 1.0, 0.0, 60},       {3, 24, 0.25, 1.0, 0.05, 60},
+      {2, 16, 0.35, 3.0, 0.02, 40},     {3, 2, 0.3, 1.0, 0.0, 10},         {2, 2, 0.4, 1.0, 0.01, 10},
+      {3, 3, 0.3, 1.5, 0.02, 12},       {4, 10, 0.12, 1.0, 0.0, 25},       {5, 6, 0.05, 1.0, 0.01, 10},
+      {3, 24, 0.2, 1.4, 0.02, 60, 0.2}, {2, 12, 0.35, 1.4, 0.0, 40, -0.2}, {2, 2, 0.3, 1.4, 0.02, 10, 0.1},
+      {3, 40, 0.03, 1.4, 0.02, 60, 0.3}};
   for (const Case &c : cases) {
-    const Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 5);
+    const Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 5, c.non_additivity);
     Packing q = start;
     naive(q, c.collisions, c.growth > 0.0 ? c.growth / diameter_mean(q) : 0.0L);
     for (int64_t cells : {-1, 1}) {
@@ -129,7 +137,7 @@ void agrees_with_naive_engine(void **) {
       engine->write_state(p);
       const double distance = furthest(p, q);
       if (engine->cells_alone() != (cells == 1 && c.n == 40))
-        print_error("d=%d n=%d fraction=%g\n", c.dim, c.n, c.fraction);
+        print_error("d=%d n=%d fraction=%g: cells alone %d\n", c.dim, c.n, c.fraction, engine->cells_alone());
       if (!(distance < 1e-7))
         print_error("d=%d n=%d growth=%g cells=%d: %g\n", c.dim, c.n, c.growth, static_cast<int>(cells), distance);
       assert_true(distance < 1e-7);
@@ -180,14 +188,15 @@ void engine_follows_the_density(void **) {
 void never_overlaps(void **) {
   struct {
     int dim, n;
-    double fraction, ratio, growth, pressure;
-  } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4}, {2, 200, 0.4, 10.0, 0.1, 1e3},
-                     {3, 2, 0.2, 1.0, 0.1, 1e6},     {3, 3, 0.1, 2.0, 0.1, 1e6},
-                     {3, 12, 0.2, 1.4, 0.05, 1e5},   {4, 40, 0.1, 1.0, 0.1, 1e4},
-                     {6, 40, 0.01, 1.0, 0.3, 1e3},   {3, 200, 0.2, 1.0, 20.0, 1e3},
-                     {6, 64, 0.02, 1.4, 0.1, 1e13}};  // the last: pairs in contact through two images at once
+    double fraction, ratio, growth, pressure, non_additivity = 0.0;
+  } const cases[] = {{3, 300, 0.2, 10.0, 0.05, 1e4},     {2, 200, 0.4, 10.0, 0.1, 1e3},
+                     {3, 2, 0.2, 1.0, 0.1, 1e6},         {3, 3, 0.1, 2.0, 0.1, 1e6},
+                     {3, 12, 0.2, 1.4, 0.05, 1e5},       {4, 40, 0.1, 1.0, 0.1, 1e4},
+                     {6, 40, 0.01, 1.0, 0.3, 1e3},       {3, 200, 0.2, 1.0, 20.0, 1e3},
+                     {6, 64, 0.02, 1.4, 0.1, 1e13},  // pairs in contact through two images at once
+                     {3, 300, 0.2, 1.4, 0.05, 1e4, 0.2}, {3, 300, 0.2, 1.4, 0.05, 1e4, -0.2}};
   for (const auto &c : cases) {
-    Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7);
+    Packing p = random_packing(c.dim, c.n, c.fraction, c.ratio, 7, c.non_additivity);
     Monitor monitor;
     monitor.begin();
     jam_md_report report{};
@@ -290,6 +299,99 @@ void same_bits_twice(void **) {
   }
 }
 
+// Every instruction set of this processor, in fluids, under fast growth (pairs that growth drives together), near
+// contact, with images and shifts, and in cells of many more spheres than a block holds.
+void instruction_sets_give_the_same_bits(void **) {
+  struct {
+    int dim, n;
+    double fraction, ratio, growth, non_additivity;
+    int64_t cells;
+    int32_t model;
+  } const cases[] = {
+      {2, 500, 0.4, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},   {3, 500, 0.2, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
+      {3, 500, 0.2, 1.0, 30.0, 0.0, 0, JAM_MODEL_EUCLID},  {4, 300, 0.1, 1.4, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
+      {5, 300, 0.05, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},  {6, 200, 0.02, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
+      {7, 200, 0.01, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},  {8, 200, 0.004, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
+      {3, 2000, 0.2, 20.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID}, {3, 500, 0.2, 1.4, 0.1, 0.2, 0, JAM_MODEL_EUCLID},
+      {3, 12, 0.2, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},    {3, 500, 0.1, 1.0, 0.0, 0.0, 1, JAM_MODEL_EUCLID},
+      {3, 300, 0.3, 1.0, 0.1, 0.0, 0, JAM_MODEL_MK}};
+  for (const auto &c : cases) {
+    Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 3, c.non_additivity, c.model), first;
+    for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+      if (!has_instruction_set(set)) continue;
+      Packing p = start;
+      EngineOptions o;
+      o.growth = c.growth;
+      o.cells = c.cells;
+      o.instruction_set = set;
+      Monitor monitor;
+      monitor.begin();
+      auto engine = make_engine(p, o);
+      Halt halt = engine->advance(60 * c.n, monitor, 1e300);
+      assert_true(halt == Halt::window || halt == Halt::needs_images);
+      engine->write_state(p);
+      assert_true(engine->max_overlap < 1e-13);
+      if (set == InstructionSet::portable) first = p;
+      assert_memory_equal(p.position.data(), first.position.data(), p.position.size() * sizeof(double));
+      assert_memory_equal(p.velocity.data(), first.velocity.data(), p.velocity.size() * sizeof(double));
+      assert_memory_equal(p.diameter.data(), first.diameter.data(), p.diameter.size() * sizeof(double));
+    }
+  }
+}
+
+// The kernel alone against long doubles: pairs in contact to the last bit, apart by one unit, overlapping, receding,
+// outrun by growth, and two entries with the same time, of which the first counts.
+void kernel_at_contact(void **) {
+  constexpr int count = 12;
+  const double s = 0x1p62;  // contact distance: a quarter of the box
+  for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (!has_instruction_set(set)) continue;
+    const PairKernel<3> kernel = pair_kernel<3>(set);
+    Body<3> body[count + 1] = {};
+    int32_t list[count];
+    std::vector<double> event_time(count + 1, never);
+    for (int k = 0; k <= count; ++k) {
+      body[k].radius = int64_t{1} << 61;
+      if (k == 0) continue;
+      body[k].x[0] = uint64_t{1} << 63;  // half the box away: never met
+      list[k - 1] = k;
+    }
+    const auto at = [&](int entry, uint64_t distance, double v) {
+      body[entry + 1].x[0] = distance;
+      body[entry + 1].v[0] = v;
+    };
+    const auto run = [&](double rate, Earliest found, uint64_t *left_out = nullptr) {
+      const PairBatch<3> pairs{body, body, list, count, nullptr, 0, event_time.data(), 0.0, rate, 0.0};
+      const uint64_t bits = kernel.collisions(pairs, found);
+      if (left_out) *left_out = bits;
+      return found;
+    };
+    const uint64_t contact = uint64_t{1} << 62;
+    const Earliest nothing{1e300, -1};
+    assert_int_equal(run(0.0, nothing).entry, -1);
+    at(5, contact, -s);
+    assert_true(run(0.0, nothing).entry == 5 && run(0.0, nothing).time == 0.0);  // touches and approaches
+    at(5, contact, s);
+    assert_int_equal(run(0.0, nothing).entry, -1);  // touches and recedes
+    at(5, contact + 1, -s);
+    // One unit of 2^-64 of the box: no double of the distance holds it, but the time is right to rounding.
+    assert_true(std::fabs(run(0.0, nothing).time * s - 1.0) < 1e-14);
+    at(9, contact + 1, -s);
+    assert_int_equal(run(0.0, nothing).entry, 5);  // of two at one time the first
+    event_time[6] = 0.0;                           // whose sphere has an earlier event: the second
+    assert_int_equal(run(0.0, nothing).entry, 9);
+    assert_int_equal(run(0.0, {0.5 / s, -1}).entry, -1);  // none before what is known
+    uint64_t left_out = 0;
+    at(2, contact - (contact >> 40), -s);  // overlaps by 1e-12
+    run(0.0, nothing, &left_out);
+    assert_int_equal(left_out, 1u << 2);
+    at(2, 2 * contact, 0.0);
+    for (int k = 0; k < count; ++k) body[k + 1].v[0] = 0.0;
+    run(1.0, nothing, &left_out);  // growth outruns all: the caller computes them
+    assert_int_equal(left_out, (1u << count) - 1);
+  }
+}
+
 void calendar_gives_events_in_order(void **) {
   const int n = 200;
   Calendar calendar(n);
@@ -354,6 +456,8 @@ int main() {
       cmocka_unit_test(calendar_gives_events_in_order),
       cmocka_unit_test(agrees_with_naive_engine),
       cmocka_unit_test(engine_follows_the_density),
+      cmocka_unit_test(instruction_sets_give_the_same_bits),
+      cmocka_unit_test(kernel_at_contact),
       cmocka_unit_test(never_overlaps),
       cmocka_unit_test(stops_inside_a_dense_fluid_without_overlap),
       cmocka_unit_test(same_bits_twice),

@@ -121,12 +121,12 @@
   }
   ~jam_crunch_options() { free($self); }
 }
-%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
-CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others,
-sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
-zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
-every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
-jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1"
+%feature("docstring") jam_crunch_options "Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
+CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
+sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
+Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
+after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
+jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1"
 %extend jam_crunch_report {
   jam_crunch_report() {
     jam_crunch_report *made = (jam_crunch_report *)calloc(1, sizeof *made);
@@ -144,7 +144,7 @@ jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watc
   }
   ~jam_estimate() { free($self); }
 }
-%feature("docstring") jam_estimate "What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1"
+%feature("docstring") jam_estimate "Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1"
 %extend jam_hessian_options {
   jam_hessian_options() {
     jam_hessian_options *made = (jam_hessian_options *)calloc(1, sizeof *made);
@@ -219,8 +219,8 @@ Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_create "Makes a system. Example: examples/c/first.c
 o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
 [0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
-diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they
-are taken as they are (and must be given); for a random start only their ratios count.
+diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
+taken as they are. For a random start only their ratios count.
 out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
 JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
@@ -229,16 +229,15 @@ Threads: any. @since 0.1"
 Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_destroy "Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1"
 %feature("docstring") jam_info_get "Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_positions_view "View of positions (n, d) in [0, box). The pointer is good for the life of the handle; its
-content changes only at the end of calls that move spheres. Threads: const.
+%feature("docstring") jam_positions_view "View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
+end of calls that move spheres. Threads: const.
 Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_diameters_view "View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_velocities_view "View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
 jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_set_positions "Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_set_velocities "Replaces velocities (n, d). The next MD call uses them as they are, rescaled to kT/m = 1 only by
-jam_compress. Threads: alone.
+%feature("docstring") jam_set_velocities "Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1"
@@ -247,23 +246,24 @@ Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_cancel "Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
-stops. Sets an atomic flag only. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_read "Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
-plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
-last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1"
+%feature("docstring") jam_read "Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
+that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
+refused. XYZ ids are not kept.
 Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
 and those of jam_create. Threads: any. @since 0.1"
-%feature("docstring") jam_write "Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-gives the same bits; links are followed, pipes and devices written in place. The shifts of JAM_MODEL_MK
-are not written: read with the same seed and mk_zeta; those of a planted start cannot be had again.
+%feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
+under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
+JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
+jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
 drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
-JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
-or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
-none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
+JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
+run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
 JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
@@ -274,27 +274,29 @@ Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_
 JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
 ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
 Threads: alone. @since 0.1"
-%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
-stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
-renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+%feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
+and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
+written under another name and then renamed. A run that goes on from it makes the same bits as one that never
+stopped. Threads: const. Errors:
 JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
 damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
-dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
-show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
-it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_observe_stop "Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
+callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
+Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_observe_stop "Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_observed_series "Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
 Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
 %feature("docstring") jam_observed_spheres "Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
 length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_pairs "Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
-sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
-may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
-limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+%feature("docstring") jam_observed_pairs "Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
+units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
+Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
+ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
+equal spheres in d = 3. Each may be NULL
 with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_observed_correlation "g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
 Errors: as jam_observed_series. @since 0.1"
@@ -304,7 +306,8 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not
 JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"
 %feature("docstring") jam_crunch_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
-106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.
+106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
+packing: call it again to continue. report may be NULL.
 Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
@@ -313,15 +316,15 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
 JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
 %feature("docstring") jam_crunch_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
-from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
+LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
 @since 0.1"
-%feature("docstring") jam_crunch_step_displacements "The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
-and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
-followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+%feature("docstring") jam_crunch_step_displacements "Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
+steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
+with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
 JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
-steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"
+%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
+none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"
 %feature("docstring") jam_crunch_step_vectors "r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1"
 %feature("docstring") jam_crunch_step_duals "Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
 sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
@@ -330,11 +333,11 @@ sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the ca
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 %feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
 0.1"
-%feature("docstring") jam_contact_gaps "Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
-the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
-Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state
-of self-stress needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's.
+%feature("docstring") jam_contact_gaps "Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
+a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
+f. Threads: const. Errors: as jam_contacts. @since 0.1"
+%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
+self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
 Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_coordination "Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_hessian_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
@@ -350,20 +353,20 @@ is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_geometry_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
-are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
-state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
-states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
-or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
-Threads: alone. @since 0.1"
+moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
+until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
+JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
+norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
-with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
-(never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
-with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
-= 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
+jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
+as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
+network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
+space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
+NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
@@ -388,9 +391,9 @@ Threads: alone. @since 0.1"
 about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
 JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
-%feature("docstring") jam_floppy_mode "Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
-a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
-(JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_floppy_mode "Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
+all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
+a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
 JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
@@ -398,8 +401,8 @@ JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
 -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
 JAM_E_TOO_FEW. Threads: alone. @since 0.1"
-%feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
-all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
+%feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
+squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_moduli_get "Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
 the network unstable. Threads: alone. @since 0.1"

@@ -13,7 +13,7 @@ program crunch_file
   do k = 1, 2
     call get_command_argument(k, name(k))
   end do
-  call jam_check(jam_read(trim(name(1))//c_null_char, out=sys))  ! plain text or extended XYZ
+  call jam_check(jam_read(name(1), out=sys))  ! plain text or extended XYZ
   call jam_check(jam_info_get(sys, info))
   print '(a, i0, a, i0, a, f9.6)', 'spheres ', info%n, ', d = ', info%dim, ', phi ', info%packing_fraction
 
@@ -23,7 +23,7 @@ program crunch_file
   print '(2a, f16.12)', jam_text(jam_stop_string(report%stop_reason)), ', phi ', report%packing_fraction
   print '(2(a, i0))', 'contacts ', report%contacts, ', more than isostatic ', report%excess_contacts
   print '(2(a, es8.1))', 'overlap ', report%max_overlap, ', force imbalance ', report%force_residual
-  call jam_check(jam_write(sys, trim(name(2))//c_null_char, JAM_FORMAT_AUTO))
+  call jam_check(jam_write(sys, name(2), JAM_FORMAT_AUTO))
   call jam_destroy(sys)
   if (report%jammed /= 1) error stop 'not jammed'
 end program crunch_file

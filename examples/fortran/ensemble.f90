@@ -34,7 +34,7 @@ contains
     call jam_defaults(compress)
     compress%growth_rate = 3e-2_c_double
     compress%pressure = 1e4_c_double
-    call jam_check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+    call jam_check(jam_create(create, diameters=sizes, out=sys))
     call jam_check(jam_compress(sys, compress))
     call jam_check(jam_crunch(sys, report=report))
     print '(a, i0, a, f12.9)', 'seed ', seed, ': phi ', report%packing_fraction

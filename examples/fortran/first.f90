@@ -1,5 +1,5 @@
 ! From nothing to a jammed packing of 200 disks.  Arrays are x(d, n); indices in results are 0-based.
-! gfortran -I<prefix>/lib/.../fortran/jam first.f90 -ljam_fortran -ljam
+! gfortran first.f90 $(pkg-config --cflags --libs jam-fortran)
 program first
   use jam
   implicit none
@@ -18,7 +18,7 @@ program first
   call jam_defaults(create)
   create%dim = d
   create%n = n
-  call jam_check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+  call jam_check(jam_create(create, diameters=sizes, out=sys))
 
   call jam_defaults(compress)
   compress%growth_rate = 1e-2_c_double
@@ -33,6 +33,6 @@ program first
   call c_f_pointer(view, x, [d, n])
   print '(a, 2f8.4)', 'first sphere at ', x(:, 1)
 
-  call jam_check(jam_write(sys, 'fortran_packing.xyz'//c_null_char, JAM_FORMAT_AUTO))
+  call jam_check(jam_write(sys, 'fortran_packing.xyz', JAM_FORMAT_AUTO))
   call jam_destroy(sys)
 end program first

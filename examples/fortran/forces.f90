@@ -14,15 +14,15 @@ program forces
   call jam_defaults(create)
   create%dim = d
   create%n = n
-  call jam_check(jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys))
+  call jam_check(jam_create(create, out=sys))
   call jam_check(jam_compress(sys))
   call jam_check(jam_crunch(sys))
 
   call jam_check(jam_forces(sys, out_len=0_c_size_t, needed=contacts))  ! no array: only the size
   allocate (force(contacts), normal(d, contacts), pair(2, contacts))
-  call jam_check(jam_forces(sys, force, size(force, kind=c_size_t)))  ! mean 1
-  call jam_check(jam_contact_vectors(sys, normal, size(normal, kind=c_size_t)))  ! unit vectors, from the second to the first
-  call jam_check(jam_contacts(sys, pair, size(pair, kind=c_size_t)))
+  call jam_check(jam_forces(sys, force))  ! mean 1
+  call jam_check(jam_contact_vectors(sys, normal))  ! unit vectors, from the second to the first
+  call jam_check(jam_contacts(sys, pair))
 
   net = 0
   do k = 1, int(contacts)

@@ -17,13 +17,13 @@ program picture
   call jam_defaults(create)
   create%dim = d
   create%n = n
-  call jam_check(jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys))
+  call jam_check(jam_create(create, diameters=sizes, out=sys))
   call jam_check(jam_crunch(sys))
   call jam_check(jam_positions_view(sys, view, length))  ! no copies
   call c_f_pointer(view, x, [d, n])
   call jam_check(jam_diameters_view(sys, view, length))
   call c_f_pointer(view, sigma, [n])
-  call jam_check(jam_coordination(sys, contacts, size(contacts, kind=c_size_t)))
+  call jam_check(jam_coordination(sys, contacts))
 
   open (newunit=file, file='picture.vtk', status='replace')
   write (file, '(a)') '# vtk DataFile Version 3.0', 'packing of disks', 'ASCII', 'DATASET POLYDATA'

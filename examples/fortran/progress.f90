@@ -25,7 +25,7 @@ program progress
 
   call jam_defaults(create)
   create%n = 300
-  status = jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys)
+  status = jam_create(create, out=sys)
   if (status < 0) error stop 'create failed'
   status = jam_set_progress(sys, c_funloc(watch), c_null_ptr)
   status = jam_crunch(sys, report=report)

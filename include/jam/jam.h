@@ -2,34 +2,57 @@
  *
  * The only public header. C99. SPDX-License-Identifier: MIT
  *
- * Life of a packing: jam_create or jam_read -> jam_run, jam_compress (event-driven
- * molecular dynamics) -> jam_crunch (iterated linear programming down to the jamming
- * point) -> jam_crunch_report_get, jam_contacts, jam_forces, jam_hessian, jam_modes.
+ * Typical use: jam_create or jam_read makes a system. jam_run and jam_compress move it by
+ * event-driven molecular dynamics. jam_crunch brings it to its jamming point by linear
+ * programming. jam_crunch_report_get, jam_contacts, jam_forces, jam_hessian and jam_modes
+ * then describe the jammed packing.
  *
- * Conventions, said once
- * - Lengths are in the user's unit; the box is a periodic cube of side `box` (default 1).
- *   m = k_B T = 1, so a velocity component has unit variance. Packing fraction, reduced
- *   pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth rates are dimensionless.
+ * Units
+ * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1).
+ * - m = k_B T = 1: a velocity component has unit variance.
+ * - Packing fraction, reduced pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth
+ *   rates are dimensionless.
  * - sigma is always a DIAMETER. The growth rate is G = (d<sigma>/dt) / sqrt(kT/m), with
  *   <sigma> the mean diameter. (Skoge-Donev code: radius rate g at mean v^2 = 1, so
  *   G = 2 sqrt(d) g, 3.464 g in d = 3.)
+ *
+ * Arrays
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
  *   and a Julia d-by-n matrix. Indices are 0-based.
- * - Arrays in: pointer and length in elements, checked. Arrays out: the caller's buffer,
- *   its length in elements, and `needed`, in elements too. NULL and 0 only ask for the
- *   size. A buffer that is too short gives JAM_E_BUFFER with `needed` set and nothing
- *   written. A `table` has shape (rows, columns); an enum names its columns. A call with
- *   several arrays gives `rows` instead of `needed`: the shapes told there, for that many
- *   rows, are the lengths. Each of these arrays may be NULL with length 0.
- * - Status: 0 done; > 0 stopped early, state valid and kept; < 0 failed, state as before
- *   the call unless said otherwise. The text of the last failure of this thread is in
- *   jam_last_error(). Outputs are written only when the status is >= 0.
- * - Option structs: first member struct_size; fill with jam_X_options_init(&o, sizeof o),
- *   then change what differs. A NULL option pointer means all defaults.
- * - Threads: distinct handles are independent. On one handle const calls may run together;
- *   any other call must be alone (a second one gets JAM_E_BUSY). jam_cancel may be called
+ * - Arrays in: pointer and length in elements. The length is checked.
+ * - Arrays out: the caller's buffer, its length in elements, and `needed`, in elements too.
+ *   NULL and 0 only ask for the size. A buffer that is too short gives JAM_E_BUFFER, sets
+ *   `needed` and is not written.
+ * - A `table` has shape (rows, columns); an enum names its columns.
+ * - A call with several arrays gives `rows` instead of `needed`: the shapes told there, for
+ *   that many rows, are the lengths. Each of these arrays may be NULL with length 0.
+ *
+ * Status and options
+ * - Status: 0 done; > 0 stopped early, the state is valid and kept; < 0 failed, the state is
+ *   as before the call unless said otherwise. jam_last_error() holds the text of the last
+ *   failure of this thread. Outputs are written only when the status is >= 0.
+ * - Option structs begin with struct_size. Fill them with jam_X_options_init(&o, sizeof o),
+ *   then change what differs. A NULL option pointer means all defaults. Fields named
+ *   `reserved` must be 0.
+ *
+ * Threads
+ * - Distinct handles are independent. On one handle, calls marked const may run together.
+ *   Any other call must be alone; a second one gets JAM_E_BUSY. jam_cancel may be called
  *   from any thread or signal handler at any time.
- * - The same seed, build and options give the same packing bit for bit on one thread.
+ * - The same seed, build, options and processor give the same packing bit for bit on one
+ *   thread.
+ *
+ * Limits, checked wherever a value enters (options, arrays, files, checkpoints):
+ * - dimension                 2 .. JAM_MAX_DIM
+ * - spheres n                 1 .. 2^31 - 1
+ * - box                       1e-30 .. 1e30
+ * - diameter / box            1e-9 .. 1
+ * - largest / least diameter  1 .. 1e4
+ * - non_additivity            above -1, at most 1
+ * - packing fraction          above 0; a random start: below saturation, 0.38 in d = 3
+ * - radii of pair searches    at most 1000 mean diameters
+ * - growth rate               above 0, at most 1000
+ * - velocity component        at most 1e6 thermal units
  */
 #ifndef JAM_JAM_H
 #define JAM_JAM_H
@@ -62,7 +85,7 @@ typedef enum jam_status_code {
   JAM_OK = 0,              /* done: the target was reached */
   JAM_CANCELLED = 1,       /* jam_cancel or a callback asked to stop */
   JAM_LIMIT = 2,           /* a limit on work or time came before the target */
-  JAM_NOT_CONVERGED = 3,   /* the method stopped making progress; state is the best so far */
+  JAM_NOT_CONVERGED = 3,   /* the method made no more progress; the state is the best so far */
   JAM_PRECISION = 4,       /* the target lies beyond what the numbers can resolve */
   JAM_NOT_JAMMED = 5,      /* there is no jammed network to work on */
   JAM_AMBIGUOUS = 6,       /* the answer is not unique; the text says which was returned */
@@ -73,7 +96,7 @@ typedef enum jam_status_code {
   JAM_E_NONFINITE = -5,    /* NaN or infinity where a number is needed */
   JAM_E_OVERLAP = -6,      /* spheres overlap; the text names the worst pair */
   JAM_E_UNPLACEABLE = -7,  /* the random start cannot reach the packing fraction */
-  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed says how much */
+  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed tells the length */
   JAM_E_MEMORY = -9,       /* out of memory */
   JAM_E_IO = -10,          /* a file cannot be opened, read or written */
   JAM_E_FORMAT = -11,      /* a file does not have the format; the text names the line */
@@ -147,9 +170,10 @@ typedef struct jam_create_options {
   double packing_fraction; /* of a random start, > 0, default 0.2 */
   int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
   int32_t model;           /* jam_model, default EUCLID */
-  double mk_zeta;          /* MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted */
-  int32_t masses;          /* jam_masses, default EQUAL */
-  int32_t reserved;        /* 0 */
+  double mk_zeta;   /* MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in
+                       equilibrium */
+  int32_t masses;   /* jam_masses, default EQUAL */
+  int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
                           * default 0. A file's own value wins. */
 } jam_create_options;
@@ -161,8 +185,8 @@ JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
 /* Makes a system. Example: examples/c/first.c
  * o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
  * [0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
- * diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they
- * are taken as they are (and must be given); for a random start only their ratios count.
+ * diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
+ * taken as they are. For a random start only their ratios count.
  * out: the new handle, owned by the caller, freed by jam_destroy.
  * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
  * JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
@@ -195,8 +219,8 @@ typedef struct jam_info {
 /* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_info_get(const jam_system *sys, jam_info *info);
 
-/* View of positions (n, d) in [0, box). The pointer is good for the life of the handle; its
- * content changes only at the end of calls that move spheres. Threads: const.
+/* View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
+ * end of calls that move spheres. Threads: const.
  * Errors: JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_positions_view(const jam_system *sys, const double **view, size_t *view_len);
 /* View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
@@ -208,8 +232,7 @@ JAM_API jam_status jam_velocities_view(const jam_system *sys, const double **vie
 /* Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
-/* Replaces velocities (n, d). The next MD call uses them as they are, rescaled to kT/m = 1 only by
- * jam_compress. Threads: alone.
+/* Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
 /* Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
@@ -243,9 +266,9 @@ typedef struct jam_progress {
   int64_t snapshot;        /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
 } jam_progress;
 
-/* Progress callback, on the calling thread. Non-zero return stops the call with JAM_CANCELLED
- * and a valid state. It must not throw, longjmp, or call anything on this handle but jam_cancel, jam_checkpoint_write
- * (of the stage as it runs) and const getters, which show the state before the call or the last snapshot. @since 0.1 */
+/* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a
+ * valid state. It must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves
+ * the stage as it runs) and const getters. These show the state before the call, or the last snapshot. @since 0.1 */
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 /* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
@@ -265,7 +288,7 @@ typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
 /* Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
- * stops. Sets an atomic flag only. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1 */
+ * stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_cancel(jam_system *sys);
 
 /* ------------------------------------------------------------------ files */
@@ -273,22 +296,23 @@ JAM_API jam_status jam_cancel(jam_system *sys);
 /* File formats. @since 0.1 */
 typedef enum jam_format {
   JAM_FORMAT_AUTO = 0,  /* by name: .xyz and .extxyz are XYZ, all else PLAIN */
-  JAM_FORMAT_PLAIN = 1, /* line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more
-                         * column; then a position a line, 17 digits; box side after line 3's
-                         * value when it is not 1: `<diameter> box <L>` */
+  JAM_FORMAT_PLAIN = 1, /* line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1,
+                         * the box as `box <L>`. Then a line a sphere: its position, and its diameter after
+                         * `diameters`, with 17 digits. */
   JAM_FORMAT_XYZ = 2    /* extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after
                          * a crunch, contacts:I:1; d = 2 gets a third coordinate 0 */
 } jam_format;
 
-/* Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
- * plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
- * last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+/* Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
+ * that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
+ * refused. XYZ ids are not kept.
  * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
  * and those of jam_create. Threads: any. @since 0.1 */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
-/* Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
- * gives the same bits; links are followed, pipes and devices written in place. The shifts of JAM_MODEL_MK
- * are not written: read with the same seed and mk_zeta; those of a planted start cannot be had again.
+/* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
+ * under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
+ * JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
+ * jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 
@@ -307,9 +331,9 @@ typedef struct jam_run_options {
 /* How the spheres grow. @since 0.1 */
 typedef enum jam_growth_law {
   JAM_GROWTH_DIAMETER = 0, /* growth_rate is d<sigma>/dt over sqrt(kT/m), constant */
-  JAM_GROWTH_DENSITY =
-      1 /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a
-         * per cent of sigma); d times it is the relative rate of density. The same number at every n */
+  JAM_GROWTH_DENSITY = 1   /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of
+                            * half a per cent of sigma; d times it is the relative rate of density. The same number
+                            * means the same protocol at every n. */
 } jam_growth_law;
 
 /* One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1 */
@@ -353,9 +377,9 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
 
 /* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
  * drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
- * JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
- * or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
- * none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
+ * JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+ * With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
+ * run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
  * Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
  * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
  * JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
@@ -369,9 +393,10 @@ JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_rep
  * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
-/* Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
- * stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
- * renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+/* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
+ * and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
+ * written under another name and then renamed. A run that goes on from it makes the same bits as one that never
+ * stopped. Threads: const. Errors:
  * JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
 /* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
@@ -394,13 +419,13 @@ typedef struct jam_observe_options {
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
-/* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
- * dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
- * show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
- * it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+/* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+ * dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
+ * callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
  */
 JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
-/* Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
+/* Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_observe_stop(jam_system *sys);
 /* Columns of jam_observed_series. @since 0.1 */
 typedef enum jam_series_column {
@@ -418,14 +443,15 @@ JAM_API jam_status jam_observed_series(const jam_system *sys, double *table, siz
  * length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
                                         double *displacement, size_t displacement_len, size_t *rows);
-/* Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
- * sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
- * may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+/* Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
+ * units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
+ * Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
                                       size_t *rows);
-/* Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
- * limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+/* Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
+ * ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
+ * equal spheres in d = 3. Each may be NULL
  * with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
                                      size_t density_len, double *error, size_t error_len, size_t *rows);
@@ -471,29 +497,30 @@ typedef enum jam_lp_solver {
   JAM_LP_CLP = 1  /* Clp's dual simplex: slow, independent */
 } jam_lp_solver;
 
-/* Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1 */
+/* Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
+ */
 typedef enum jam_crunch_method {
   JAM_CRUNCH_BARRIER_PATH =
-      0, /* LPs while they stride or all but finish, between the two one barrier path with rows made anew
-          * after each Newton step: fewest factorisations, a slower quench that mostly ends denser */
-  JAM_CRUNCH_SEQUENTIAL_LP = 1 /* the published chain of LPs alone */
+      0, /* LPs far from jamming, then one barrier path whose constraints are linearised again after
+          * each Newton step, then LPs: fewest factorisations; its packings are mostly denser */
+  JAM_CRUNCH_SEQUENTIAL_LP = 1 /* LPs alone, as published */
 } jam_crunch_method;
 
-/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
- * CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others,
- * sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
- * zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
- * every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
- * jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1 */
+/* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
+ * CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
+ * sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
+ * Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
+ * after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
+ * jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1 */
 typedef struct jam_crunch_options {
   uint32_t struct_size; /* sizeof(jam_crunch_options) */
   int32_t lp_solver;    /* jam_lp_solver, default IPM (optimizer) */
   int32_t method;       /* jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does */
-  int32_t polish; /* 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs
-                   * below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer
-                   * (tol_mechanical_equilibrium: the extra LP past it) */
-  int32_t max_lps;         /* >= 1, default 1000 (max_iters) */
-  int32_t threads;         /* 1 or 2, default 1; bits are reproducible on 1 (threads) */
+  int32_t polish;  /* 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then
+                    * also  ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer
+                    * (tol_mechanical_equilibrium: the extra LP past it) */
+  int32_t max_lps; /* >= 1, default 1000 (max_iters) */
+  int32_t threads; /* 1 or 2, default 1; bits are reproducible on 1 (threads) */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence) */
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units) */
   double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 (solver_attributes) */
@@ -508,16 +535,16 @@ typedef struct jam_crunch_options {
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
 typedef struct jam_crunch_report {
   uint32_t struct_size; /* set by the caller: sizeof(jam_crunch_report) */
-  int32_t jammed;       /* 1: converged to a rigid network that carries balanced forces */
+  int32_t jammed;       /* 1: converged to a rigid network with balanced forces */
   int32_t stop_reason;  /* jam_stop_reason */
   int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
-  int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone
-                     did it */
-  int32_t reserved;           /* 0 */
+  int32_t method;   /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs
+                       ran */
+  int32_t reserved; /* 0 */
   double packing_fraction;    /* phi_J when jammed */
   double diameter_mean;       /* unit of box */
   int64_t contacts;           /* pairs with a force, rattlers left out */
-  int64_t rattlers;           /* removed again and again until every sphere left has d+1 contacts */
+  int64_t rattlers;           /* spheres removed until every sphere left has at least d + 1 contacts */
   int64_t stable;             /* n - rattlers = N' */
   int64_t bucklers;           /* stable spheres with exactly d+1 contacts */
   int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
@@ -543,14 +570,15 @@ typedef struct jam_crunch_report {
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
- * 106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.
+ * 106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
+ * packing: call it again to continue. report may be NULL.
  * Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
  * valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
  * JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
-/* What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1 */
+/* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1 */
 typedef struct jam_estimate {
   uint32_t struct_size;  /* set by the caller: sizeof(jam_estimate) */
   int32_t reserved;      /* 0 */
@@ -558,7 +586,7 @@ typedef struct jam_estimate {
   double bytes;          /* peak memory beside what is in use now; mostly good to a factor of 2 */
   double factor_bytes;   /* of it for the factorisation */
   double flops;          /* of one factorisation */
-  double factorisations; /* about how many: guessed from density and method, may be wrong by a factor of 5 */
+  double factorisations; /* a guess from density and method, good to a factor of 5 */
   double step_seconds;   /* of one factorisation and what goes with it, on this core */
   double seconds;        /* the product of both */
 } jam_estimate;
@@ -572,8 +600,8 @@ JAM_API jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_repor
 
 /* What kind of step a row of the history is. @since 0.1 */
 typedef enum jam_step_phase {
-  JAM_STEP_PATH = 1,  /* a Newton step of the re-linearising path (the first row: all of its opening) */
-  JAM_STEP_LP = 2,    /* an LP and the move to its answer */
+  JAM_STEP_PATH = 1,  /* a Newton step of the barrier path (the first row: all steps that open it) */
+  JAM_STEP_LP = 2,    /* an LP and the move to its solution */
   JAM_STEP_POLISH = 3 /* contacts closed and forces balanced to rounding */
 } jam_step_phase;
 
@@ -595,23 +623,24 @@ typedef enum jam_history_column {
   JAM_HISTORY_FACTORISATIONS = 12, /* in this step */
   JAM_HISTORY_DUALITY_GAP = 13,    /* after the step, in Gamma */
   JAM_HISTORY_PAIRS = 14,          /* rows of the LP */
-  JAM_HISTORY_HELD = 15,           /* LP: displacement components at the step bound: these spheres are out of balance */
-  JAM_HISTORY_PART = 16, /* LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list */
+  JAM_HISTORY_HELD = 15, /* LP: displacement components at the step bound; forces on these spheres do not balance */
+  JAM_HISTORY_PART =
+      16, /* LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap */
   JAM_HISTORY_BOUND = 17 /* LP: step bound */
 } jam_history_column;
 
-/* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
- * from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+/* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
+ * LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
  * @since 0.1 */
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
                                       size_t *needed);
-/* The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
- * and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
- * followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+/* Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
+ * steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
+ * with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
  * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
 JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
- * steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1 */
+/* Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
+ * none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1 */
 JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 /* r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1 */
 JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
@@ -628,12 +657,12 @@ JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iou
 /* Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
  * 0.1 */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
- * the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
- * Errors: as jam_contacts. @since 0.1 */
+/* Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
+ * a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
+ * f. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state
- * of self-stress needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's.
+/* Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
+ * self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
  * Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */
@@ -641,9 +670,9 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t
 
 /* ------------------------------------------------------------------ analysis of the contact network */
 /* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the
- * order of jam_hessian_map. Calls on a const handle are quick; the others take long, report JAM_PHASE_ANALYSE and can
- * be cancelled (status JAM_CANCELLED, no output written); they do not change the packing. All need a contact network
- * unless said otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty.
+ * order of jam_hessian_map. Calls on a const handle are quick. The others take long, report JAM_PHASE_ANALYSE and can
+ * be cancelled: JAM_CANCELLED, no output written. None changes the packing. All need a contact network unless said
+ * otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty.
  */
 
 /* ------------- Hessian, modes */
@@ -708,7 +737,7 @@ typedef struct jam_geometry_options {
   uint32_t struct_size; /* sizeof(jam_geometry_options) */
   int32_t reserved;     /* 0 */
   double tolerance;     /* contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps */
-  double window;        /* jumps are looked for in |h| < window, in (0, 1], default 0.1 */
+  double window;        /* jumps are searched in |h| < window, in (0, 1], default 0.1 */
 } jam_geometry_options;
 
 /* What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1 */
@@ -736,12 +765,12 @@ typedef struct jam_geometry_report {
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 /* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
- * moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
- * are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
- * state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
- * states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
- * or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
- * Threads: alone. @since 0.1 */
+ * moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
+ * until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
+ * JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+ * candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
+ * norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+ * JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. @since 0.1 */
@@ -752,15 +781,15 @@ typedef enum jam_candidate_column {
   JAM_CANDIDATE_EXCESS = 3    /* contacts - (d (N' - 1) + 1) */
 } jam_candidate_column;
 /* Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
- * jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
- * with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+ * jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
+ * as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
+ * network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
 JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
                                           size_t *needed);
-/* States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
- * (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
- * with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
- * = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
+/* States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
+ * space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
+ * NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+ * JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *rows);
 
@@ -838,9 +867,10 @@ JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------- floppy modes */
-/* Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
- * a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
- * (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1 */
+/* Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
+ * all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
+ * a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
+ */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
 /* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1 */
 typedef enum jam_floppy_column {
@@ -907,8 +937,8 @@ typedef enum jam_dos_column {
  * JAM_E_TOO_FEW. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          double *table, size_t table_len, size_t *needed);
-/* Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
- * all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
+/* Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
+ * squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
 JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,
                                size_t u_len, double *out, size_t out_len, size_t *needed);
 /* *value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1

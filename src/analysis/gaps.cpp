@@ -5,6 +5,7 @@
 #include <numeric>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 #include "jam/jam.h"
 
@@ -51,7 +52,8 @@ PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, dou
 }
 
 Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {
-  if (!(h_max > 0.0 && h_max <= 1e3)) fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, 1000]", h_max);
+  if (!(h_max > 0.0 && h_max <= limits::radius_max))
+    fail(JAM_E_ARGUMENT, "h_max is %g, it must be in (0, %g]", h_max, limits::radius_max);
   const PairList all = pairs_without_contacts(p, net, h_max, stable_only);
   std::vector<double> r(p.dim);
   std::vector<std::pair<double, size_t>> found(all.size());

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "crunch/crunch.hpp"
 
 namespace jam {
@@ -35,7 +36,7 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   positive(o.step_tolerance, "step_tolerance");
   positive(o.lp_tolerance, "lp_tolerance");
   positive(o.wall_time, "wall_time");
-  if (!(o.neighbour_radius >= 0.0)) fail(JAM_E_ARGUMENT, "neighbour_radius is %g, it must be >= 0", o.neighbour_radius);
+  check_range("neighbour_radius", o.neighbour_radius, 0.0, limits::radius_max);
   if (!(o.step_bound >= 0.0)) fail(JAM_E_ARGUMENT, "step_bound is %g, it must be >= 0", o.step_bound);
   if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
   if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());

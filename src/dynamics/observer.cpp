@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
@@ -80,8 +81,8 @@ void check_observe_options(const jam_observe_options &o) {
   if (!(o.sample_every > 0.0)) fail(JAM_E_ARGUMENT, "sample_every is %g, it must be positive", o.sample_every);
   if (!(o.gap_min > 0.0) || !(o.gap_max > o.gap_min) || !(o.gap_max <= 10.0))
     fail(JAM_E_ARGUMENT, "gap_min is %g and gap_max %g: they need 0 < gap_min < gap_max <= 10", o.gap_min, o.gap_max);
-  if (!(o.r_max > 0.0) || !std::isfinite(o.r_max))
-    fail(JAM_E_ARGUMENT, "r_max is %g, it must be positive and finite", o.r_max);
+  if (!(o.r_max > 0.0 && o.r_max <= limits::radius_max))
+    fail(JAM_E_ARGUMENT, "r_max is %g, it must be in (0, %g] mean diameters", o.r_max, limits::radius_max);
   if (!(o.snapshot_every >= 0.0)) fail(JAM_E_ARGUMENT, "snapshot_every is %g, it must be >= 0", o.snapshot_every);
   if (!(o.snapshot_factor >= 1.0) || !std::isfinite(o.snapshot_factor))
     fail(JAM_E_ARGUMENT, "snapshot_factor is %g, it must be >= 1 and finite", o.snapshot_factor);

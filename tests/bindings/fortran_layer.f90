@@ -27,7 +27,7 @@ program fortran_layer
   type(jam_info) :: info
   real(c_double) :: x(d, n), sizes(n), net(d, n)
   real(c_double), pointer :: seen(:, :)
-  real(c_double), allocatable :: force(:), normal(:, :)
+  real(c_double), allocatable :: force(:), normal(:, :), again(:), wide(:, :)
   integer(c_int32_t), allocatable :: pairs(:, :)
   integer(c_size_t) :: needed, view_len
   integer(c_int32_t) :: status
@@ -51,17 +51,17 @@ program fortran_layer
   call expect(view_len == d*n, 'view length')
   call c_f_pointer(view, seen, [d, n])
   x = modulo(seen + 0.25_c_double, 1.0_c_double)
-  status = jam_set_positions(sys, x, size(x, kind=c_size_t))
+  status = jam_set_positions(sys, x)
   call expect(status == JAM_OK .and. all(seen == x), 'x(d, n) goes in and comes out')
 
   status = jam_crunch(sys, report=report)
   call expect(status == JAM_OK .and. report%jammed == 1, 'crunch')
   status = jam_forces(sys, out_len=0_c_size_t, needed=needed)
   call expect(status == JAM_OK .and. needed == report%contacts, 'count')
-  allocate (force(needed), normal(d, needed), pairs(2, needed))
+  allocate (force(needed), normal(d, needed), pairs(2, needed), again(needed), wide(d, 2*needed))
   call expect(jam_forces(sys, force, size(force, kind=c_size_t)) == JAM_OK, 'forces')
-  call expect(jam_contact_vectors(sys, normal, size(normal, kind=c_size_t)) == JAM_OK, 'vectors')
-  call expect(jam_contacts(sys, pairs, size(pairs, kind=c_size_t)) == JAM_OK, 'pairs')
+  call expect(jam_contact_vectors(sys, normal) == JAM_OK, 'vectors')
+  call expect(jam_contacts(sys, pairs) == JAM_OK, 'pairs')
   net = 0
   do k = 1, size(force)
     net(:, pairs(1, k) + 1) = net(:, pairs(1, k) + 1) + force(k)*normal(:, k)  ! indices from 0 in C
@@ -69,6 +69,16 @@ program fortran_layer
   end do
   call expect(maxval(abs(net)) < 1e-8_c_double .and. abs(sum(force)/size(force) - 1) < 1e-12_c_double, 'balance')
   call expect(jam_forces(sys, force, 1_c_size_t, needed) == JAM_E_BUFFER, 'short buffer')
+  ! the second forms: arrays of any rank whose lengths are known, strided ones too, and plain strings
+  again = 0
+  call expect(jam_forces(sys, again) == JAM_OK, 'forces by an array')
+  call expect(all(again == force), 'the same forces')
+  call expect(jam_forces(sys, again(1:1)) == JAM_E_BUFFER, 'a section that is too short')
+  wide = 0
+  call expect(jam_contact_vectors(sys, wide(:, ::2)) == JAM_OK, 'a strided array')
+  call expect(all(wide(:, ::2) == normal) .and. all(wide(:, 2::2) == 0), 'is filled where it is')
+  call expect(jam_write(sys, 'no/such/folder.xyz   ', JAM_FORMAT_AUTO) == JAM_E_IO, 'a file that cannot be written')
+  call expect(index(jam_message(), 'no/such/folder.xyz:') > 0, 'its name without blanks: '//jam_message())
 
   status = jam_copy(sys, other)
   call jam_destroy(sys)

@@ -13,7 +13,7 @@ class StatusCode(IntEnum):
     OK = 0  # done: the target was reached
     CANCELLED = 1  # jam_cancel or a callback asked to stop
     LIMIT = 2  # a limit on work or time came before the target
-    NOT_CONVERGED = 3  # the method stopped making progress; state is the best so far
+    NOT_CONVERGED = 3  # the method made no more progress; the state is the best so far
     PRECISION = 4  # the target lies beyond what the numbers can resolve
     NOT_JAMMED = 5  # there is no jammed network to work on
     AMBIGUOUS = 6  # the answer is not unique; the text says which was returned
@@ -24,7 +24,7 @@ class StatusCode(IntEnum):
     E_NONFINITE = -5  # NaN or infinity where a number is needed
     E_OVERLAP = -6  # spheres overlap; the text names the worst pair
     E_UNPLACEABLE = -7  # the random start cannot reach the packing fraction
-    E_BUFFER = -8  # the caller's buffer is too short; *needed says how much
+    E_BUFFER = -8  # the caller's buffer is too short; *needed tells the length
     E_MEMORY = -9  # out of memory
     E_IO = -10  # a file cannot be opened, read or written
     E_FORMAT = -11  # a file does not have the format; the text names the line
@@ -91,14 +91,14 @@ class LogLevel(IntEnum):
 class Format(IntEnum):
     """File formats. @since 0.1"""
     AUTO = 0  # by name: .xyz and .extxyz are XYZ, all else PLAIN
-    PLAIN = 1  # line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more column; then a position a line, 17 digits; box side after line 3's value when it is not 1: `<diameter> box <L>`
+    PLAIN = 1  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 
 
 class GrowthLaw(IntEnum):
     """How the spheres grow. @since 0.1"""
     DIAMETER = 0  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
-    DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a per cent of sigma); d times it is the relative rate of density. The same number at every n
+    DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
 
 
 class SeriesColumn(IntEnum):
@@ -128,15 +128,15 @@ class LpSolver(IntEnum):
 
 
 class CrunchMethod(IntEnum):
-    """Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1"""
-    BARRIER_PATH = 0  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
-    SEQUENTIAL_LP = 1  # the published chain of LPs alone
+    """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1"""
+    BARRIER_PATH = 0  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
+    SEQUENTIAL_LP = 1  # LPs alone, as published
 
 
 class StepPhase(IntEnum):
     """What kind of step a row of the history is. @since 0.1"""
-    PATH = 1  # a Newton step of the re-linearising path (the first row: all of its opening)
-    LP = 2  # an LP and the move to its answer
+    PATH = 1  # a Newton step of the barrier path (the first row: all steps that open it)
+    LP = 2  # an LP and the move to its solution
     POLISH = 3  # contacts closed and forces balanced to rounding
 
 
@@ -158,8 +158,8 @@ class HistoryColumn(IntEnum):
     FACTORISATIONS = 12  # in this step
     DUALITY_GAP = 13  # after the step, in Gamma
     PAIRS = 14  # rows of the LP
-    HELD = 15  # LP: displacement components at the step bound: these spheres are out of balance
-    PART = 16  # LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list
+    HELD = 15  # LP: displacement components at the step bound; forces on these spheres do not balance
+    PART = 16  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
     BOUND = 17  # LP: step bound
 
 
@@ -341,14 +341,14 @@ class Glass:
 class CrunchReport:
     """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
 
-    jammed: 1: converged to a rigid network that carries balanced forces
+    jammed: 1: converged to a rigid network with balanced forces
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
-    method: jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it
+    method: jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out
-    rattlers: removed again and again until every sphere left has d+1 contacts
+    rattlers: spheres removed until every sphere left has at least d + 1 contacts
     stable: n - rattlers = N'
     bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
@@ -401,13 +401,13 @@ class CrunchReport:
 
 @dataclass(frozen=True, repr=False)
 class Estimate:
-    """What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
+    """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
 
     pairs: of the longest neighbour list
     bytes: peak memory beside what is in use now; mostly good to a factor of 2
     factor_bytes: of it for the factorisation
     flops: of one factorisation
-    factorisations: about how many: guessed from density and method, may be wrong by a factor of 5
+    factorisations: a guess from density and method, good to a factor of 5
     step_seconds: of one factorisation and what goes with it, on this core
     seconds: the product of both"""
     pairs: int
@@ -509,7 +509,7 @@ OPTIONS = {
         "packing_fraction": ("float", 'of a random start, > 0, default 0.2'),
         "overlap": ("OverlapPolicy", 'jam_overlap_policy for given positions, default REFUSE'),
         "model": ("Model", 'jam_model, default EUCLID'),
-        "mk_zeta": ("float", 'MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted'),
+        "mk_zeta": ("float", 'MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'jam_masses, default EQUAL'),
         "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
     },
@@ -544,7 +544,7 @@ OPTIONS = {
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM (optimizer)'),
         "method": ("CrunchMethod", 'jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
-        "polish": ("int", "1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
+        "polish": ("int", "1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
         "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)'),
@@ -569,7 +569,7 @@ OPTIONS = {
     },
     "jam_geometry_options": {
         "tolerance": ("float", 'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps'),
-        "window": ("float", 'jumps are looked for in |h| < window, in (0, 1], default 0.1'),
+        "window": ("float", 'jumps are searched in |h| < window, in (0, 1], default 0.1'),
     },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),

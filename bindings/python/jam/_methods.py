@@ -17,17 +17,18 @@ class Methods:
         raise NotImplementedError
 
     def checkpoint_write(self, path: str) -> None:
-        """Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
-        stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
-        renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+        """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
+        and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
+        written under another name and then renamed. A run that goes on from it makes the same bits as one that never
+        stopped. Threads: const. Errors:
         JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
 
     def observe(self, *, collisions: int | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
-        """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
-        dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
-        show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
-        it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+        """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+        dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
+        callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
+        Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
 
         Options:
         collisions: 1: collisions of each sphere, and collisions and momentum of each pair; default 0
@@ -42,7 +43,7 @@ class Methods:
         return self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
 
     def observe_stop(self, *, progress: Progressing = None) -> None:
-        """Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"""
+        """Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"""
         return self.call('observe_stop', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
@@ -56,14 +57,15 @@ class Methods:
         return self.call('observed_spheres')
 
     def observed_pairs(self) -> ObservedPairsResult:
-        """Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
-        sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
-        may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
+        units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
+        Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_pairs')
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
-        limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+        """Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
+        ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
+        equal spheres in d = 3. Each may be NULL
         with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_gaps')
 
@@ -80,7 +82,7 @@ class Methods:
         Options:
         lp_solver: jam_lp_solver, default IPM (optimizer)
         method: jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
-        polish: 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+        polish: 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
         max_lps: >= 1, default 1000 (max_iters)
         threads: 1 or 2, default 1; bits are reproducible on 1 (threads)
         gain_tolerance: on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
@@ -93,21 +95,21 @@ class Methods:
         return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps)
 
     def crunch_history(self, column: int | str) -> np.ndarray:
-        """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
-        from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+        """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
+        LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
         @since 0.1"""
         return self.call('crunch_history', column)
 
     def crunch_step_displacements(self) -> np.ndarray:
-        """The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
-        and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
-        followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+        """Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
+        steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
+        with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
         JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
         return self.call('crunch_step_displacements')
 
     def crunch_step_contacts(self) -> np.ndarray:
-        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
-        steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"""
+        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
+        none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"""
         return self.call('crunch_step_contacts')
 
     def crunch_step_vectors(self) -> np.ndarray:
@@ -126,9 +128,9 @@ class Methods:
         return self.call('contact_vectors')
 
     def contact_gaps(self) -> np.ndarray:
-        """Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
-        the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
-        Errors: as jam_contacts. @since 0.1"""
+        """Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
+        a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
+        f. Threads: const. Errors: as jam_contacts. @since 0.1"""
         return self.call('contact_gaps')
 
     def hessian_map(self) -> np.ndarray:
@@ -138,30 +140,30 @@ class Methods:
 
     def contacts_from_geometry(self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None) -> GeometryReport:
         """Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-        moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
-        are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
-        state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
-        states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
-        or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
-        Threads: alone. @since 0.1
+        moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
+        until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
+        JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+        candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
+        norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+        JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 
         Options:
         tolerance: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
-        window: jumps are looked for in |h| < window, in (0, 1], default 0.1"""
+        window: jumps are searched in |h| < window, in (0, 1], default 0.1"""
         return self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
 
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
         """Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-        jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
-        with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
-        Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
+        as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
+        network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
         return self.call('contact_candidates', window)
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
-        """States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
-        (never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
-        with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
-        = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
+        """States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
+        space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
+        NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+        JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('stress_states', progress=progress)
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
@@ -222,9 +224,9 @@ class Methods:
         return self.call('local_fraction')
 
     def floppy_mode(self, contact: int, *, progress: Progressing = None) -> np.ndarray:
-        """Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
-        a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
-        (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"""
+        """Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
+        all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
+        a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
@@ -249,8 +251,8 @@ class Methods:
         return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
     def project(self, vector: Any = None, u: Any = None) -> np.ndarray:
-        """Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
-        all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
+        """Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
+        squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
         return self.call('project', vector, u)
 
     def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:

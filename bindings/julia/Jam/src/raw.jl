@@ -14,7 +14,7 @@ const JAM_MAX_DIM = Int32(8)
 const JAM_OK = Int32(0)  # done: the target was reached
 const JAM_CANCELLED = Int32(1)  # jam_cancel or a callback asked to stop
 const JAM_LIMIT = Int32(2)  # a limit on work or time came before the target
-const JAM_NOT_CONVERGED = Int32(3)  # the method stopped making progress; state is the best so far
+const JAM_NOT_CONVERGED = Int32(3)  # the method made no more progress; the state is the best so far
 const JAM_PRECISION = Int32(4)  # the target lies beyond what the numbers can resolve
 const JAM_NOT_JAMMED = Int32(5)  # there is no jammed network to work on
 const JAM_AMBIGUOUS = Int32(6)  # the answer is not unique; the text says which was returned
@@ -25,7 +25,7 @@ const JAM_E_DIMENSION = Int32(-4)  # dim is not in 2..JAM_MAX_DIM
 const JAM_E_NONFINITE = Int32(-5)  # NaN or infinity where a number is needed
 const JAM_E_OVERLAP = Int32(-6)  # spheres overlap; the text names the worst pair
 const JAM_E_UNPLACEABLE = Int32(-7)  # the random start cannot reach the packing fraction
-const JAM_E_BUFFER = Int32(-8)  # the caller's buffer is too short; *needed says how much
+const JAM_E_BUFFER = Int32(-8)  # the caller's buffer is too short; *needed tells the length
 const JAM_E_MEMORY = Int32(-9)  # out of memory
 const JAM_E_IO = Int32(-10)  # a file cannot be opened, read or written
 const JAM_E_FORMAT = Int32(-11)  # a file does not have the format; the text names the line
@@ -78,12 +78,12 @@ const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
 # jam_format: File formats. @since 0.1
 const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz and .extxyz are XYZ, all else PLAIN
-const JAM_FORMAT_PLAIN = Int32(1)  # line 1 d; 2 N; 3 the diameter, or the word `diameters` and one more column; then a position a line, 17 digits; box side after line 3's value when it is not 1: `<diameter> box <L>`
+const JAM_FORMAT_PLAIN = Int32(1)  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 
 # jam_growth_law: How the spheres grow. @since 0.1
 const JAM_GROWTH_DIAMETER = Int32(0)  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
-const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box, constant (in steps of half a per cent of sigma); d times it is the relative rate of density. The same number at every n
+const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
 
 # jam_series_column: Columns of jam_observed_series. @since 0.1
 const JAM_SERIES_TIME = Int32(0)  # simulated time, unit box / sqrt(kT/m)
@@ -105,13 +105,13 @@ const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
 const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 
-# jam_crunch_method: Which quench leads to the jamming point. Both end in LPs solved in full that move nothing. @since 0.1
-const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs while they stride or all but finish, between the two one barrier path with rows made anew after each Newton step: fewest factorisations, a slower quench that mostly ends denser
-const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # the published chain of LPs alone
+# jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
+const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
+const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # LPs alone, as published
 
 # jam_step_phase: What kind of step a row of the history is. @since 0.1
-const JAM_STEP_PATH = Int32(1)  # a Newton step of the re-linearising path (the first row: all of its opening)
-const JAM_STEP_LP = Int32(2)  # an LP and the move to its answer
+const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path (the first row: all steps that open it)
+const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
 const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
 
 # jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step. NaN where a column has no meaning. @since 0.1
@@ -130,8 +130,8 @@ const JAM_HISTORY_ITERATIONS = Int32(11)  # of the LP solver; Newton steps elsew
 const JAM_HISTORY_FACTORISATIONS = Int32(12)  # in this step
 const JAM_HISTORY_DUALITY_GAP = Int32(13)  # after the step, in Gamma
 const JAM_HISTORY_PAIRS = Int32(14)  # rows of the LP
-const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bound: these spheres are out of balance
-const JAM_HISTORY_PART = Int32(16)  # LP: part of its answer that was followed, 1 but for a pair beyond the neighbour list
+const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bound; forces on these spheres do not balance
+const JAM_HISTORY_PART = Int32(16)  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
 const JAM_HISTORY_BOUND = Int32(17)  # LP: step bound
 
 # jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
@@ -200,7 +200,7 @@ mutable struct jam_create_options
     packing_fraction::Cdouble  # of a random start, > 0, default 0.2
     overlap::Int32  # jam_overlap_policy for given positions, default REFUSE
     model::Int32  # jam_model, default EUCLID
-    mk_zeta::Cdouble  # MK shift strength, >= 0; default infinity: uniform shifts. Random starts are planted
+    mk_zeta::Cdouble  # MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
     non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
@@ -328,18 +328,18 @@ mutable struct jam_glass
 end
 
 """
-Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. In brackets the parameter of
-CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Of its others,
-sqrGamma0, thresholds_bounds and ratio_sl_update are not needed (radius and bound follow phi and the last step),
-zero_force neither (a pair is a contact when its force exceeds its gap, both relative), overlaps are looked for after
-every step (tol_overlap, interval_overlaps_check), the progress callback prints (verbose, monitor_step),
-jam_crunch_report.excess_contacts tells what non_iso_warn and non_iso_break watch. @since 0.1
+Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
+CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
+sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
+Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
+after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
+jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1
 """
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
     lp_solver::Int32  # jam_lp_solver, default IPM (optimizer)
     method::Int32  # jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
-    polish::Int32  # 1 (default): close contacts and balance forces to rounding at the end, which is there too where LPs below gain_tolerance still move but leave contacts that can; 0: leave the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+    polish::Int32  # 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     max_lps::Int32  # >= 1, default 1000 (max_iters)
     threads::Int32  # 1 or 2, default 1; bits are reproducible on 1 (threads)
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
@@ -358,15 +358,15 @@ Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to
 """
 mutable struct jam_crunch_report
     struct_size::UInt32  # set by the caller: sizeof(jam_crunch_report)
-    jammed::Int32  # 1: converged to a rigid network that carries balanced forces
+    jammed::Int32  # 1: converged to a rigid network with balanced forces
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
-    method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if LPs alone did it
+    method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
     reserved::Int32  # 0
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
     contacts::Int64  # pairs with a force, rattlers left out
-    rattlers::Int64  # removed again and again until every sphere left has d+1 contacts
+    rattlers::Int64  # spheres removed until every sphere left has at least d + 1 contacts
     stable::Int64  # n - rattlers = N'
     bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
@@ -391,7 +391,7 @@ mutable struct jam_crunch_report
 end
 
 """
-What a crunch will take, from the graph of pairs and its elimination tree. @since 0.1
+Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
 """
 mutable struct jam_estimate
     struct_size::UInt32  # set by the caller: sizeof(jam_estimate)
@@ -400,7 +400,7 @@ mutable struct jam_estimate
     bytes::Cdouble  # peak memory beside what is in use now; mostly good to a factor of 2
     factor_bytes::Cdouble  # of it for the factorisation
     flops::Cdouble  # of one factorisation
-    factorisations::Cdouble  # about how many: guessed from density and method, may be wrong by a factor of 5
+    factorisations::Cdouble  # a guess from density and method, good to a factor of 5
     step_seconds::Cdouble  # of one factorisation and what goes with it, on this core
     seconds::Cdouble  # the product of both
     jam_estimate() = new(64, 0, 0, 0, 0, 0, 0, 0, 0)
@@ -437,7 +437,7 @@ mutable struct jam_geometry_options
     struct_size::UInt32  # sizeof(jam_geometry_options)
     reserved::Int32  # 0
     tolerance::Cdouble  # contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
-    window::Cdouble  # jumps are looked for in |h| < window, in (0, 1], default 0.1
+    window::Cdouble  # jumps are searched in |h| < window, in (0, 1], default 0.1
     jam_geometry_options() = new(24, 0, 0, 0)
 end
 
@@ -558,8 +558,8 @@ end
 Makes a system. Example: examples/c/first.c
 o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
 [0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
-diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they
-are taken as they are (and must be given); for a random start only their ratios count.
+diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
+taken as they are. For a random start only their ratios count.
 out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
 JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
@@ -592,8 +592,8 @@ function jam_info_get(sys, info)
 end
 
 """
-View of positions (n, d) in [0, box). The pointer is good for the life of the handle; its
-content changes only at the end of calls that move spheres. Threads: const.
+View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
+end of calls that move spheres. Threads: const.
 Errors: JAM_E_NULL. @since 0.1
 """
 function jam_positions_view(sys, view, view_len)
@@ -624,8 +624,7 @@ function jam_set_positions(sys, positions, positions_len)
 end
 
 """
-Replaces velocities (n, d). The next MD call uses them as they are, rescaled to kT/m = 1 only by
-jam_compress. Threads: alone.
+Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
 """
 function jam_set_velocities(sys, velocities, velocities_len)
@@ -658,16 +657,16 @@ end
 
 """
 Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
-stops. Sets an atomic flag only. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1
+stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1
 """
 function jam_cancel(sys)
     return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
-Reads a file in either format (told by content). o: overlap policy, seed, model, and the box for
-plain files that give none; NULL for defaults. Nothing is allocated before the data is there. The
-last line must end with a newline (a file cut inside a number is told by that); XYZ ids are not kept.
+Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
+that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
+refused. XYZ ids are not kept.
 Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
 and those of jam_create. Threads: any. @since 0.1
 """
@@ -676,9 +675,10 @@ function jam_read(path, o, out)
 end
 
 """
-Writes the packing; format: a jam_format. Written beside and renamed, 17 digits, so that reading
-gives the same bits; links are followed, pipes and devices written in place. The shifts of JAM_MODEL_MK
-are not written: read with the same seed and mk_zeta; those of a planted start cannot be had again.
+Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
+under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
+JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
+jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
 """
 function jam_write(sys, path, format)
@@ -702,9 +702,9 @@ end
 """
 Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
 drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
-JAM_CANCELLED or JAM_LIMIT stays with the handle (and in jam_checkpoint_write) until the next call that moves, grows
-or re-aims spheres; with resume = 1 it goes on to the same bits as if it had not stopped (JAM_E_STATE when there is
-none). A failure while it goes on loses it, not the packing. Slices of wall_time are thus free: write checkpoints so.
+JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
+run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
 JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
@@ -727,9 +727,10 @@ function jam_compress(sys, o, report)
 end
 
 """
-Writes all that the dynamics depend on (positions, diameters, velocities, shifts of the MK model, a stage that
-stopped early or, from a callback, runs; not the contact network, nor what was observed) to a binary file, beside and
-renamed. A run that goes on from it makes the same bits as one that never stopped there. Threads: const. Errors:
+Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
+and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
+written under another name and then renamed. A run that goes on from it makes the same bits as one that never
+stopped. Threads: const. Errors:
 JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_write(sys, path)
@@ -752,17 +753,17 @@ function jam_observe_options_init(o, size)
 end
 
 """
-From now on jam_run and jam_compress record, over all calls, until jam_observe_stop; what was recorded before is
-dropped. Nothing that is recorded changes the dynamics, and when off nothing is computed. At a snapshot the views
-show the present state and the progress callback is called with jam_progress.snapshot > 0: every const call works on
-it there. Threads: alone. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
+callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
+Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
 """
 function jam_observe(sys, o)
     return ccall((:jam_observe, libjam), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
 end
 
 """
-Records no more; what was recorded can still be had. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
 """
 function jam_observe_stop(sys)
     return ccall((:jam_observe_stop, libjam), Int32, (Ptr{Cvoid},), sys)
@@ -785,17 +786,18 @@ function jam_observed_spheres(sys, collisions, collisions_len, displacement, dis
 end
 
 """
-Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), momentum (m) exchanged in units of
-sqrt(m kT), without the part of the growth; over *time it is the mean force of the pair. *time is simulated. Arrays
-may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
+units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
+Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, rows)
     return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, rows))
 end
 
 """
-Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins): pairs over those of an ideal gas, so that its
-limit at h = 0 is g(sigma), (p - 1) / (4 phi) for equal spheres in d = 3; error (bins) over samples. Each may be NULL
+Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
+ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
+equal spheres in d = 3. Each may be NULL
 with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
@@ -835,7 +837,8 @@ end
 
 """
 Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
-106, 055310 (2022)) and keeps the contact network. report may be NULL. No step can create an overlap.
+106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
+packing: call it again to continue. report may be NULL.
 Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
@@ -862,8 +865,8 @@ function jam_crunch_report_get(sys, report)
 end
 
 """
-One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for the chain
-from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
+LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
 @since 0.1
 """
 function jam_crunch_history(sys, column, out, out_len, needed)
@@ -871,9 +874,9 @@ function jam_crunch_history(sys, column, out, out_len, needed)
 end
 
 """
-The step that the progress callback was called for: these four only from that callback, in jam_crunch with steps = 1,
-and only when a step has just ended (else JAM_E_STATE). Displacements (n, d) of all spheres, unit of box, images
-followed: their sum over the steps leads from the start to the end. Threads: the callback's. Errors: JAM_E_NULL,
+Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
+steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
+with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
 JAM_E_BUFFER, JAM_E_STATE. @since 0.1
 """
 function jam_crunch_step_displacements(sys, out, out_len, needed)
@@ -881,8 +884,8 @@ function jam_crunch_step_displacements(sys, out, out_len, needed)
 end
 
 """
-Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, those of rattlers too; none for
-steps that are no LP. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
+Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
+none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
 """
 function jam_crunch_step_contacts(sys, iout, iout_len, needed)
     return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
@@ -921,17 +924,17 @@ function jam_contact_vectors(sys, out, out_len, needed)
 end
 
 """
-Gaps h of the contacts, length contacts: after a polish rounding, 1e-14, but of tens of thousands of spheres a few of
-the weakest may stay open by up to 2e-6, where sum f h is below 3e-14 of sum f (a log line says so). Threads: const.
-Errors: as jam_contacts. @since 0.1
+Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
+a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
+f. Threads: const. Errors: as jam_contacts. @since 0.1
 """
 function jam_contact_gaps(sys, out, out_len, needed)
     return ccall((:jam_contact_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Contact forces, mean 1, length contacts; times report.force_scale gives lambda r. With more contacts than one state
-of self-stress needs they are not unique: those of least norm after a polish, if none of them pulls, else the LP's.
+Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
+self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
 Threads: const. Errors: as jam_contacts. @since 0.1
 """
 function jam_forces(sys, out, out_len, needed)
@@ -995,12 +998,12 @@ end
 
 """
 Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-moves. Rattlers (fewer than d + 1 contacts, or contacts that do not span space) are removed again and again; forces
-are the null vector of S^T. report may be NULL. Status: JAM_OK (one jump stands out, or the null space decides: one
-state of self-stress, more than isostatic in the next candidate); JAM_AMBIGUOUS (kept; else, see second_*, or several
-states of self-stress: the non-negative force of least norm); JAM_NOT_JAMMED (kept; no balance of repulsive forces,
-or no contacts). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY.
-Threads: alone. @since 0.1
+moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
+until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
+JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
+norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
@@ -1008,19 +1011,19 @@ end
 
 """
 Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window (as jam_geometry_options)
-with enough contacts for a rigid network below it; the largest jump comes first. No network needed. Threads: const.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
+as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
+network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
 """
 function jam_contact_candidates(sys, window, table, table_len, needed)
     return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null space of S^T
-(never from multipliers); basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be NULL
-with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm), JAM_NOT_JAMMED (m
-= 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
+States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
+space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
+NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
 """
 function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
     return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
@@ -1117,9 +1120,9 @@ function jam_local_fraction(sys, out, out_len, needed)
 end
 
 """
-Displacement (N', d) when contact opens by s, over s: to first order all others stay closed while the diameters take
-a common factor 1 - s f / sum f sigma; no net translation. contact in 0..n_c-1. Needs a single state of self-stress
-(JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
+Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
+all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
+a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
 """
 function jam_floppy_mode(sys, contact, out, out_len, needed)
     return ccall((:jam_floppy_mode, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1151,8 +1154,8 @@ function jam_density_of_states(sys, h, o, table, table_len, needed)
 end
 
 """
-Projections u . v of a displacement u (N', d) on modes vector (m, N', d), as jam_modes gives them; their squares over
-all d N' modes add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
+squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
 """
 function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
     return ccall((:jam_project, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))

@@ -417,10 +417,10 @@ module jam
     real(c_double) :: step_bound = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
-    ! 1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default
+    ! 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
     integer(c_int32_t) :: steps = 0
-    ! 0
-    integer(c_int32_t) :: reserved = 0
+    ! 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
+    integer(c_int32_t) :: full_lps = 0
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1

@@ -77,7 +77,7 @@ def crunch(seed, n, pressure):
                 found.append(here)
             return False
 
-        packing.crunch(method="sequential_lp", steps=1, progress=look)
+        packing.crunch(method="sequential_lp", steps=1, full_lps=1, progress=look)
         lp = packing.crunch_history("phase") == 2
         gains, held = packing.crunch_history("gain")[lp], packing.crunch_history("held")[lp]
     if len(gains) != len(found):

@@ -8,7 +8,6 @@
 #include "core/pair_rule.hpp"
 #include "crunch/barrier.hpp"
 #include "crunch/barrier_schedule.hpp"
-#include "crunch/blocking_constraints.hpp"
 #include "crunch/crunch.hpp"
 #include "crunch/neighbour_selection.hpp"
 #include "crunch/path_matrix.hpp"
@@ -16,37 +15,16 @@
 namespace jam {
 namespace {
 
-// Each mu is followed to its maximum before mu falls (`cooling`), and every step is the best along its line: that keeps
-// the path from wandering along a network that buckles.
-
-// A product y c may differ from mu by this factor either way before y is pulled back to the central path.
-constexpr double centrality = 100.0;
-constexpr int most_reheats = 16;
-// Longest step of one sphere, mean diameters: the linear model of the rows is good to (0.1)^2.
-constexpr double trust = 0.1;
-// Pairs nearer than this (mean diameters) are listed, and what else a rattler needs to feel its cage (`cages`), else it
-// runs.
-constexpr double least_reach = 0.15;
-// Correctors of a direction (Gondzio, Comput. Optim. Appl. 6, 137 (1996), with the true gaps in the place of the linear
-// ones): a step is cut short by a few rows that were slack until now, and a triangular solve that pulls their products
-// y c back into this band costs a few percent of a factorisation.
-constexpr int most_correctors = 5;
-constexpr double band = 10.0, farther = 0.3;
-// A step of so much of Newton's needs no help.
-constexpr double whole = 0.95;
-// A step shorter than this part of Newton's, as the last one was (or there was none), has a few rows in its way
-// (`blocking_rows`): so many more triangular solves push them aside, until so many in a row do not make it better.
-constexpr double cut = 0.3;
-constexpr int most_pushes = 12, most_worse = 3;
-
-class Path {
+class BarrierPath {
  public:
-  Path(Packing &p, const BarrierPathControl &control, NewtonSystem &system, Monitor &monitor)
+  BarrierPath(Packing &p, const BarrierPathControl &control, NewtonSystem &system, Monitor &monitor)
       : p_(p),
         control_(control),
         system_(system),
         monitor_(monitor),
-        matrix_(system, control.threads, control.solves_worth) {}
+        t_(control.tuning),
+        schedule_(control.tuning),
+        matrix_(system, control.threads) {}
 
   BarrierPathResult run() {
     BarrierPathResult out;
@@ -55,16 +33,19 @@ class Path {
     while (measure()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
-      out.reheats = schedule_.reheats();
+      out.increases = schedule_.increases();
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size());
       monitor_.log(JAM_LOG_DEBUG,
                    "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps "
-                   "%.2f %.2f moved %.1e solves %d",
+                   "%.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(),
-                   matrix_.near(), correctors_, alpha_p_, alpha_d_, last_step_, matrix_.solves());
-      out.reached = balance_ < 1e-2 && gap_ <= control_.target;
-      if (out.reached || out.reheats > most_reheats || out.factorisations >= control_.max_factorisations ||
-          monitor_.interrupted() || report(out.factorisations) || !newton())
+                   matrix_.near(), correctors_, alpha_p_, alpha_d_, last_step_);
+      out.reached = balance_ < 1e-2 && gap_ <= t_.target_gap;
+      const bool crystal =
+          out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
+      if (out.reached || crystal || out.increases > t_.max_increases ||
+          out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() || report(out.factorisations) ||
+          !newton())
         break;
     }
     out.multipliers = {std::move(b_.pairs), std::move(b_.y)};
@@ -76,19 +57,18 @@ class Path {
   // least.
   void open() {
     b_.unit = diameter_mean(p_);
-    reach_ = b_.unit * (least_reach + 1.5 * free_spacing(p_));
+    reach_ = b_.unit * (t_.least_reach + t_.reach_per_spacing * free_spacing(p_));
     std::vector<double> gaps = make_lp(p_, find_pairs(p_, reach_, 1.0), b_.unit).c;
     if (!gaps.empty()) {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
       std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
       const double smallest = *std::min_element(gaps.begin(), gaps.end());
-      const double room = std::max(0.1 * std::max(gaps[half], 1e-12), control_.room);
-      if (smallest < room)
-        for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + room));
+      const double opening = std::max(0.1 * std::max(gaps[half], 1e-12), control_.opening);
+      if (smallest < opening)
+        for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + opening));
     }
     list_pairs();
     b_.y.assign(b_.pairs.size(), 0.0);
-    if (control_.start) b_.y = carry_over(control_.start->pairs, control_.start->y, b_.pairs);
     b_.mu = centre_multipliers(b_.y, b_.lp.c, static_cast<double>(p_.position.size()));
   }
 
@@ -96,7 +76,7 @@ class Path {
   void list_again() {
     const Multipliers old{std::move(b_.pairs), std::move(b_.y)};
     b_.unit = diameter_mean(p_);
-    reach_ = std::max(least_reach * b_.unit, std::min(reach_, 6.0 * recent_));
+    reach_ = std::max(t_.least_reach * b_.unit, std::min(reach_, 6.0 * recent_));
     list_pairs();
     b_.y = carry_over(old.pairs, old.y, b_.pairs);
     for (size_t k = 0; k < b_.y.size(); ++k)
@@ -104,11 +84,11 @@ class Path {
   }
 
   void list_pairs() {
-    b_.pairs = select_neighbours(p_, reach_);
+    b_.pairs = select_neighbours(p_, reach_, 1.0, t_);
     b_.measure(p_);
     const size_t rows = b_.pairs.size(), unknowns = p_.position.size();
     travelled_ = grown_ = 0.0;
-    matrix_.forget(rows, unknowns);
+    matrix_.reset(rows, unknowns);
     for (auto *v : {&target_, &row_}) v->resize(rows);
     for (auto *v : {&unbalanced_, &rhs_}) v->assign(unknowns, 0.0);
     for (auto *x : {&main_, &trial_}) x->s.resize(unknowns), x->w.resize(rows), x->y.resize(rows);
@@ -120,7 +100,7 @@ class Path {
     double sum = 0.0, scale = 0.0, worst = 0.0;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       const double c = b_.lp.c[k], *a = &b_.lp.a[k * p_.dim];
-      b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (centrality * c)), centrality * b_.mu / c);
+      b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (t_.centrality * c)), t_.centrality * b_.mu / c);
       sum += b_.y[k];
       double a2 = 0.0;
       for (int q = 0; q < p_.dim; ++q) a2 += a[q] * a[q];
@@ -134,20 +114,14 @@ class Path {
     return std::isfinite(gap_) && std::isfinite(balance_);
   }
 
-  // With the factor of an earlier step where that will do. False: no direction.
   bool direct() {
     // The proximal term fixes translations and lets no sphere run far for a gain below the gap.
     matrix_.weigh(p_, b_, gap_ / static_cast<double>(p_.n()));
-    // The path ends with balanced forces: its last steps have factors of their own.
-    if (gap_ > control_.target && matrix_.follow(alpha_p_, balance_)) {
-      std::fill(main_.s.begin(), main_.s.end(), 0.0);
-      if (aim()) return true;
-    }
     return matrix_.factorise() && aim();
   }
 
   // Direction for changes target_ of the products y c that also takes the force balance and sum y = 1 up.
-  bool solve(BarrierStep &out) {
+  void solve(BarrierStep &out) {
     double h = rest_;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       row_[k] = target_[k] / b_.lp.c[k];
@@ -155,13 +129,12 @@ class Path {
     }
     transpose_times(b_.lp, row_.data(), rhs_.data());
     for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += unbalanced_[k];
-    const bool found = matrix_.solve(rhs_.data(), h, out.s.data(), &out.g);
+    matrix_.solve(rhs_.data(), h, out.s.data(), &out.g);
     rows_times(b_.lp, out.s.data(), out.w.data());
     for (size_t k = 0; k < b_.y.size(); ++k) {
       out.w[k] -= out.g;
       out.y[k] = row_[k] - matrix_.weight()[k] * out.w[k];
     }
-    return found;
   }
 
   // The direction at this mu, or where that is centred at the next. False when not found.
@@ -169,62 +142,40 @@ class Path {
     const double rows = static_cast<double>(b_.y.size());
     for (bool colder = false;; colder = true) {
       for (size_t k = 0; k < b_.y.size(); ++k) target_[k] = b_.mu - b_.y[k] * b_.lp.c[k];
-      if (!solve(main_)) return false;
+      solve(main_);
       decrement_ = b_.decrement(main_);
       if (colder || !schedule_.centred(decrement_, rows)) break;
-      b_.mu *= BarrierSchedule::shrink;
+      b_.mu *= t_.reduction;
     }
-    matrix_.found();
     return std::isfinite(b_.longest_move(main_)) && std::isfinite(main_.g);
   }
 
   bool newton() {
-    const bool last = control_.saddle_ends && gap_ * BarrierSchedule::shrink <= control_.target;
-    const double turn = schedule_.before(
-        {decrement_, static_cast<double>(b_.y.size()), gap_, balance_, alpha_p_, last_step_ / trust, last});
-    if (last && turn > 1.0) return false;  // a saddle so near the end: LPs tell which contacts it lacks
-    b_.mu *= turn;
+    b_.mu *= schedule_.next_factor({decrement_, static_cast<double>(b_.y.size()), alpha_p_});
     if (!direct()) return false;
     move(correct());
     return alpha_p_ > 0.0;
   }
 
-  // Correctors as long as they make the best step better. Returns its length.
+  // Gondzio's correctors (Comput. Optim. Appl. 6, 137 (1996)) with the true gaps in place of the linear ones. A few
+  // rows that were slack cut a step short; one triangular solve pulls their products y c back into a band around mu.
+  // Returns the length of the best step.
   double correct() {
-    Barrier::Best best = b_.search(main_, trust);
-    for (correctors_ = 0; correctors_ < most_correctors && best.alpha < whole; ++correctors_) {
-      const double aim = std::min(1.0, best.alpha + farther),
-                   aim_dual = std::min(1.0, b_.longest_dual(main_) + farther);
+    Barrier::Best best = b_.search(main_, t_.trust);
+    const double band = t_.corrector_band;
+    for (correctors_ = 0; correctors_ < t_.max_correctors && best.alpha < t_.whole_step; ++correctors_) {
+      const double aim = std::min(1.0, best.alpha + t_.corrector_ahead),
+                   aim_dual = std::min(1.0, b_.longest_dual(main_) + t_.corrector_ahead);
       for (size_t k = 0; k < b_.y.size(); ++k) {
         const double product = b_.gap_after(main_, k, aim) * (b_.y[k] + aim_dual * main_.y[k]);
         const double inside = std::min(std::max(product, b_.mu / band), band * b_.mu);
         target_[k] += std::min(band * b_.mu, std::max(inside - product, -band * b_.mu));
       }
-      if (matrix_.following()) trial_.s = main_.s;
-      if (!solve(trial_)) break;
-      const Barrier::Best other = b_.search(trial_, trust);
+      solve(trial_);
+      const Barrier::Best other = b_.search(trial_, t_.trust);
       if (!(other.merit < best.merit)) break;
       best = other;
       std::swap(main_, trial_);
-    }
-    return best.alpha < cut && alpha_p_ < cut ? push(best) : best.alpha;
-  }
-
-  // Where this step and the last are short a few rows block, others each time. Returns the length of the best step.
-  double push(Barrier::Best best) {
-    BarrierStep &x = pushed_;
-    x = main_;
-    b_.search(x, trust);  // its rows' bend: the last search may have been of a corrector that was refused
-    blocking_.begin(b_, matrix_.weight(), x);
-    for (int k = 0, worse = 0; k < most_pushes && worse < most_worse && best.alpha < whole; ++k, ++correctors_) {
-      if (!blocking_.push(b_, x, std::min(1.0, best.alpha + farther), target_)) break;
-      if (matrix_.following()) trial_.s = x.s;
-      if (!solve(trial_)) break;
-      blocking_.learn(x, trial_);
-      std::swap(x, trial_);
-      const Barrier::Best other = b_.search(x, trust);
-      ++worse;
-      if (other.merit < best.merit) best = other, main_ = x, worse = 0;
     }
     return best.alpha;
   }
@@ -266,9 +217,9 @@ class Path {
   const BarrierPathControl control_;
   NewtonSystem &system_;
   Monitor &monitor_;
+  const Tuning t_;
   Barrier b_;
-  BarrierStep main_, trial_, pushed_;
-  BlockingConstraints blocking_;
+  BarrierStep main_, trial_;
   BarrierSchedule schedule_;
   PathMatrix matrix_;
   std::vector<double> target_, row_, unbalanced_, rhs_;
@@ -280,9 +231,14 @@ class Path {
 
 }  // namespace
 
+bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning) {
+  const auto strong = std::count_if(y.begin(), y.end(), [&](double v) { return v * isostatic > 0.1; });
+  return static_cast<double>(strong) > tuning.crystal_rows * isostatic;
+}
+
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,
                                       Monitor &monitor) {
-  return Path(p, control, system, monitor).run();
+  return BarrierPath(p, control, system, monitor).run();
 }
 
 }  // namespace jam

@@ -1,38 +1,38 @@
-// The re-linearising interior point: one barrier path for the true, curved problem instead of one for each LP.
-// After every Newton step the spheres move, the diameters grow and the rows are made anew at the true distances; the
-// multipliers stay. Safe because the linearised set lies inside the true one. The barrier is the entropy of cell
-// theory, so this is another quench than the chain of LPs and may end at another jamming point.
+// The barrier path: one interior-point method for the true, curved problem instead of one for each LP. After every
+// Newton step the spheres move, the diameters grow, and the rows are made anew at the true distances; the multipliers
+// stay. Every step is safe because the linearised set lies inside the true one. The barrier is the entropy of cell
+// theory: this is a slower quench than sequential LPs and may end at another jamming point.
 #pragma once
 #include <functional>
 
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
+#include "crunch/tuning.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {
 
 struct BarrierPathControl {
-  double target = 1e-12;  // stop when the duality gap, in units of Gamma, is below this: a few LPs decide the rest
-  double room = 0.0;      // the closest pair is opened to this relative gap at least
-  const Multipliers *start = nullptr;  // NULL or empty: those of the central path at the gaps of the start
-  int max_factorisations = 600;
+  Tuning tuning;
+  double opening = 0.0;  // the closest pair is opened to this relative gap at least
   int threads = 1;
-  bool saddle_ends =
-      false;             // where one cooling more would be the last, a saddle ends the path instead of warming it up
-  int solves_worth = 0;  // a factorisation costs as much as so many triangular solves; 0: from the sizes of both
-  std::function<void(double gap, size_t pairs)> on_step;  // after every move that stays; may be empty
+  std::function<void(double gap, size_t pairs)> on_step;  // after every move; may be empty
 };
 
 struct BarrierPathResult {
-  bool reached = false;  // gap below target with balanced forces
+  bool reached = false;  // duality gap below tuning.target_gap with balanced forces
   double gap = 0.0;
   int factorisations = 0;
-  int reheats = 0;          // saddles left by warming up
+  int increases = 0;        // of mu, at saddles
   Multipliers multipliers;  // of the last list
 };
 
-// Moves p (always without overlap) towards its jamming point.
+// True when more rows carry a tenth of the mean force than one state of self-stress has: a crystal in the making, whose
+// path meets one saddle after the other. y: multipliers, sum 1; isostatic: d n.
+bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning);
+
+// Moves p towards its jamming point, always without overlap.
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,
                                       Monitor &monitor);
 

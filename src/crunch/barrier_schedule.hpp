@@ -1,6 +1,8 @@
-// When the barrier path cools and when it is warmed up: what mu is multiplied by before the next Newton step.
+// How mu changes along the barrier path: it falls where the barrier function is at its maximum, and rises at a saddle.
 #pragma once
 #include <limits>
+
+#include "crunch/tuning.hpp"
 
 namespace jam {
 
@@ -8,30 +10,21 @@ class BarrierSchedule {
  public:
   // What the last Newton step left.
   struct Step {
-    double decrement;   // squared Newton decrement over mu at its start
-    double rows;        // how many terms the barrier has
-    double gap;         // duality gap
-    double balance;     // largest force out of balance, relative
-    double part;        // of the whole Newton step that was taken
-    double trust;       // of the longest step allowed that was taken
-    bool last = false;  // one cooling more would end the path
+    double decrement;  // squared Newton decrement over mu at its start
+    double rows;       // terms of the barrier
+    double part;       // of the whole Newton step that was taken
   };
-  // The factor of mu before the next Newton step: 1; `shrink`, to cool; above 1, to warm up.
-  double before(const Step &last);
-  // True where the maximum at mu counts as reached: mu falls by `shrink`.
+  explicit BarrierSchedule(const Tuning &tuning) : t_(tuning) {}
+  // Factor of mu before the next Newton step: 1; above 1 at a saddle; tuning.reduction where the rest is centred.
+  double next_factor(const Step &last);
+  // True where the maximum at mu counts as reached: mu then falls by tuning.reduction.
   bool centred(double decrement, double rows);
-
-  // Each mu is followed to its maximum before mu falls.
-  static constexpr double shrink = 0.2;
-  int reheats() const { return reheats_; }
+  int increases() const { return increases_; }
 
  private:
-  double turn(const Step &last);
-
-  double least_ = 0.0, mark_ = 0.0;  // lowest decrement at this mu; where the count of cuts began
-  double saddle_ = std::numeric_limits<double>::infinity();  // duality gap of the last one
-  int at_mu_ = 0, cuts_ = 0, reheats_ = 0, creeping_ = 0, warmed_ = 0;
-  bool centred_once_ = false;
+  const Tuning t_;
+  double least_ = 0.0, mark_ = 0.0;  // lowest decrement at this mu; the one at which short steps began to count
+  int steps_ = 0, short_steps_ = 0, increases_ = 0;
 };
 
 }  // namespace jam

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <new>
 #include <utility>
 
-#include "crunch/sequential_lp.hpp"
+#include "core/error.hpp"
+#include "crunch/state.hpp"
 
 namespace jam {
 
@@ -13,8 +16,38 @@ double free_spacing(const Packing &p) {
   return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed, -1.0 / p.dim));
 }
 
+CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_in,
+                         History &history_in, const CrunchHooks &hooks_in)
+    : o(options), tuning(hooks_in.tuning), monitor(monitor_in), history(history_in), hooks(hooks_in) {
+  out.packing = start;
+  out.contacts.coordination.assign(start.n(), 0);
+  out.report.struct_size = sizeof out.report;
+  history.begin(start, o.steps != 0);
+}
+
+bool CrunchState::interrupted() {
+  if (monitor.cancelled()) return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
+  if (monitor.interrupted()) return stop(JAM_STOP_WALL_TIME, JAM_LIMIT), true;
+  return false;
+}
+
+bool CrunchState::show(jam_phase phase, double gain, double step, bool finished) {
+  jam_progress progress{};
+  progress.phase = phase;
+  progress.packing_fraction = packing_fraction(out.packing);
+  progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
+  progress.gain = gain;
+  progress.max_step = step;
+  progress.steps = out.report.lp_solves;
+  progress.factorisations = system.factorisations;
+  history.step().shown = finished && history.details();
+  const bool stopped = monitor.report(progress, true);
+  history.step().shown = false;
+  return stopped;
+}
+
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
-                    const CrunchSeams *seams) {
+                    const CrunchHooks *hooks) {
   check_options(start, o);
   monitor.wall_time = o.wall_time;
   if (monitor.log_fn && monitor.log_level >= JAM_LOG_INFO) {
@@ -23,26 +56,36 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
                 "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
                 e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
   }
-  History own;
-  History &steps = history ? *history : own;
-  const CrunchSeams none;
-  CrunchResult result = SequentialLp(start, o, monitor, steps, seams ? *seams : none).run();
-  if (seams && seams->attempt) seams->attempt(result);
-  const bool gave_up = result.status == JAM_NOT_CONVERGED || result.status == JAM_NOT_JAMMED;
-  if (!gave_up || o.method != JAM_CRUNCH_BARRIER_PATH || monitor.interrupted()) return result;
-  // The path led to a point where a contact's force is too weak for the LPs to decide whether it closes. The chain
-  // takes another way from the same start; its answer counts if it is a jammed packing.
-  monitor.log(JAM_LOG_WARNING, "the barrier path ended at an undecided contact; the chain of LPs starts again");
-  jam_crunch_options chain = o;
-  chain.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  History again;
-  std::swap(again, steps);  // callbacks look at `steps`
-  CrunchResult second = SequentialLp(start, chain, monitor, steps, seams ? *seams : none).run();
-  second.report.lp_solves += result.report.lp_solves;
-  second.report.factorisations += result.report.factorisations;
-  if (second.report.jammed) return second;
-  std::swap(again, steps);
-  return result;
+  History own_history;
+  const CrunchHooks no_hooks;
+  CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);
+  try {
+    s.bound = first_bound(s);
+    for (Phase phase = Phase::approach; phase != Phase::done;) {
+      switch (phase) {
+        case Phase::approach:
+          phase = approach(s);
+          break;
+        case Phase::barrier_path:
+          phase = follow_path(s);
+          break;
+        case Phase::identify:
+          phase = identify(s);
+          break;
+        case Phase::done:
+          break;
+      }
+    }
+    finish(s);
+  } catch (const Error &e) {
+    s.stop(JAM_STOP_SOLVER, e.code());
+    s.out.text = e.what();
+    finish_failed(s);
+  } catch (const std::bad_alloc &) {
+    s.stop(JAM_STOP_SOLVER, JAM_E_MEMORY);
+    finish_failed(s);
+  }
+  return std::move(s.out);
 }
 
 }  // namespace jam

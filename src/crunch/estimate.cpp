@@ -19,9 +19,8 @@ constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0,
 // Steps of a path: from a state grown to high pressure, and from a dilute start, whose network buckles again and again.
 constexpr double steps_dense = 60.0, steps_dilute = 300.0;
 
-// The chain's step bound follows its last step: up to this, mean diameters, unless the start is close to its jamming
-// point.
-constexpr double chain_bound = 0.5, close_gap = 3e-5;
+// Median contact gap below which the step bound of sequential LPs stays near its first value.
+constexpr double close_gap = 3e-5;
 
 // The list that the run begins with, a little denser as the spheres grow before it is shortened, and from a start with
 // few neighbours at least as many of the nearest pairs as a list holds near jamming.
@@ -29,7 +28,7 @@ PairList longest_list(const Packing &p, const jam_crunch_options &o) {
   const double unit = diameter_mean(p), free = free_spacing(p),
                jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
   const double chain = 2.2 * (o.step_bound > 0.0           ? o.step_bound
-                              : contact_gap(p) > close_gap ? chain_bound
+                              : contact_gap(p) > close_gap ? Tuning().max_bound
                                                            : 0.1 + 0.6 * free);
   double reach = unit * (o.method == JAM_CRUNCH_SEQUENTIAL_LP ? chain
                          : o.step_bound > 0.0                 ? std::max(chain, 0.15 + 1.5 * free)

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/pair_rule.hpp"
-#include "crunch/crunch.hpp"
+#include "crunch/state.hpp"
 
 namespace jam {
 namespace {

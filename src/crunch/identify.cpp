@@ -1,109 +1,194 @@
-// The end of a chain: which contacts, their last digits, the report.
+// Phase 3: which contacts carry force, their last digits, and the verdict.
+//
+//   active set of the LP -> closed contacts, balanced forces (polish) -> test of collective jamming -> jammed, or a
+//   flex
+//
+// A flex is a motion that opens contacts: the packing is a saddle of the density. The spheres move along it until a
+// pair blocks, and LPs go on.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <new>
 
-#include "crunch/sequential_lp.hpp"
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+#include "crunch/polish.hpp"
+#include "crunch/state.hpp"
+#include "network/rigidity_test.hpp"
 
 namespace jam {
+namespace {
 
-// Where LPs gain nothing that counts but still move spheres, the answer may be at the end all the same: the contacts
-// close at once, and forces that balance and push then bound the gain by nothing, which is what an LP that moves
-// nothing would say. True: the crunch is at its end.
-bool SequentialLp::closes() {
-  constexpr int patience = 2;
-  if (!o_.polish || idle_ < patience || out_.report.gain > o_.gain_tolerance || held_ > 0 || moved_ > settled ||
-      network_.active.empty())
-    return false;
-  out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
-  const PolishEnd end = polished();
-  closed_ = end == PolishEnd::done;
-  if (closed_) stop(JAM_STOP_CONVERGED, JAM_OK);
-  if (end == PolishEnd::interrupted) cut_off();
-  return out_.report.stop_reason != JAM_STOP_NONE;
+const char *text_of(PolishEnd end) {
+  switch (end) {
+    case PolishEnd::open_contact:
+      return "a contact does not close";
+    case PolishEnd::too_few:
+      return "the contacts are too few to balance";
+    case PolishEnd::negative_force:
+      return "a force turns negative";
+    case PolishEnd::overlap:
+      return "another pair would overlap";
+    default:
+      return "";
+  }
 }
 
-// Contacts of the last LP and their last digits. Where polish refuses, an LP that lists fewer pairs that nearly touch
-// decides once more which of them carry force; after that its answer stays.
-bool SequentialLp::wants_another_lp() {
-  if (closed_ || answer_.y.empty() || network_.stable.empty()) return false;
-  out_.contacts = make_contacts(out_.packing, pairs_, answer_, network_);
-  if (out_.report.stop_reason != JAM_STOP_CONVERGED || !o_.polish || last_digits() || retried_) return false;
-  if (out_.report.lp_solves >= o_.max_lps || out_.report.stop_reason != JAM_STOP_CONVERGED) return false;
-  retried_ = true;
-  bound_ = std::max(0.03 * lp_.bound, 1e-9), last_gain_ = 0.0;
-  moved_ = 1.0;    // a cold start: the warm one leads to a corner of the multipliers where they are not unique
-  pairs_.clear();  // polish left another graph in system_
-  stop(JAM_STOP_NONE, JAM_OK);
+void add_history_row(CrunchState &s) {
+  HistoryRow &row = s.history.moved(s.out.packing, JAM_STEP_POLISH, s.monitor.seconds(), s.system.factorisations);
+  const ContactNetwork &net = s.out.contacts;
+  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  row[JAM_HISTORY_CONTACTS] = static_cast<double>(net.size());
+  row[JAM_HISTORY_EXCESS] = static_cast<double>(excess_contacts(net, s.out.packing.dim));
+  row[JAM_HISTORY_RATTLERS] = static_cast<double>(static_cast<int64_t>(s.out.packing.n()) - stable);
+  if (s.history.details()) s.show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
+}
+
+// Closes the contacts and balances the forces. False: refused, one more LP decides anew.
+bool last_digits(CrunchState &s) {
+  if (s.show(JAM_PHASE_POLISH, s.out.report.gain, s.out.report.max_step, false))
+    return s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
+  if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
+  PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, s.tuning, &s.monitor);
+  if (end != PolishEnd::done && end != PolishEnd::interrupted) {
+    // No LP in doubles tells a gap of 1e-8 from a force of 1e-8: all such pairs are closed together and tested.
+    ContactNetwork all = with_near_pairs(s.out.packing, s.out.contacts, s.tuning.undecided_gap);
+    if (all.size() > s.out.contacts.size()) {
+      const PolishEnd wider = polish(s.out.packing, all, s.system, s.o.threads, s.tuning, &s.monitor);
+      if (wider == PolishEnd::done) s.out.contacts = std::move(all);
+      if (wider == PolishEnd::done || wider == PolishEnd::interrupted) end = wider;
+    }
+  }
+  s.pairs.clear();  // polish left another graph in the system
+  if (end == PolishEnd::interrupted) return s.interrupted(), true;
+  s.polished = end == PolishEnd::done;
+  if (s.polished) return add_history_row(s), true;
+  const bool again = ++s.stalled < s.tuning.max_stalled_lps && s.out.report.lp_solves < s.o.max_lps;
+  s.monitor.log(JAM_LOG_WARNING, "polish refused: %s; %s", text_of(end),
+                again ? "one more LP" : "the LP's answer stays");
+  return !again;
+}
+
+// The longest part of the motion v, at most `most`, that no pair blocks. v is zero for spheres that do not move.
+double free_length(const Packing &p, const std::vector<double> &v, double most) {
+  const PairList pairs = find_pairs(p, 2.2 * most, 1.0);
+  const size_t d = p.dim;
+  double length = most, r[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
+    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]), r2 = pair_vector(p, pairs, k, r);
+    double rv = 0.0, vv = 0.0;
+    for (size_t c = 0; c < d; ++c)
+      rv += r[c] * (v[i + c] - v[j + c]), vv += (v[i + c] - v[j + c]) * (v[i + c] - v[j + c]);
+    const double gap = std::max(0.0, r2 - sigma * sigma), disc = rv * rv - vv * gap;
+    if (rv < -1e-9 * sigma * std::sqrt(vv) && disc > 0.0) length = std::min(length, gap / (-rv + std::sqrt(disc)));
+  }
+  return length;
+}
+
+// Moves along the flex of a saddle. False where a pair blocks at once or the kicks are used up.
+bool leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
+  Packing &p = s.out.packing;
+  const double now = packing_fraction(p);
+  if (verdict.result.flex.empty() || s.kicks >= s.tuning.max_kicks) return false;
+  ++s.kicks;
+  std::vector<double> v(p.position.size(), 0.0);
+  const size_t d = p.dim;
+  for (size_t q = 0; q < verdict.sphere.size(); ++q)
+    for (size_t c = 0; c < d; ++c) v[verdict.sphere[q] * d + c] = verdict.result.flex[q * d + c];
+  const double unit = diameter_mean(p), length = 0.9 * free_length(p, v, s.tuning.kick * unit);
+  s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along one of them", now,
+                static_cast<long long>(verdict.result.flexes), length / unit);
+  if (length < 1e-6 * unit) return --s.kicks, false;
+  for (size_t k = 0; k < v.size(); ++k) p.position[k] = wrap(p.position[k] + length * v[k], p.box);
+  s.bound = first_bound(s);
+  s.last_gain = s.moved = 1.0;
+  s.stalled = 0;
   return true;
 }
 
-// False when polish refused.
-bool SequentialLp::last_digits() {
-  if (show(JAM_PHASE_POLISH, out_.report.gain, out_.report.max_step, false))
-    return stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
-  PolishEnd end = polished();
-  ContactNetwork fewer = out_.contacts;
-  while (end != PolishEnd::done && end != PolishEnd::interrupted && drop_idle_contact(fewer, lp_.dim)) {
-    end = polish(out_.packing, fewer, system_, o_.threads, &monitor_);
-    if (end == PolishEnd::done) out_.contacts = std::move(fewer), polish_step();
+// A cold LP: a warm one leads to the same corner where multipliers are not unique.
+Phase one_more_lp(CrunchState &s) {
+  s.moved = 1.0;
+  s.last_gain = 0.0;
+  return Phase::approach;
+}
+
+// Collectively jammed or not, from positions alone; LPs go on from a saddle.
+Phase judge(CrunchState &s) {
+  const PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, Jamming::collective);
+  s.monitor.log(
+      JAM_LOG_INFO,
+      "test: jammed %d, stressed %d, contacts %lld of %zu, needed %lld, self-stresses %lld, flexes %lld, margin "
+      "%.1e, undecided contacts %lld, residual %.1e",
+      static_cast<int>(verdict.result.jammed), static_cast<int>(verdict.result.stressed),
+      static_cast<long long>(verdict.result.contacts), s.out.contacts.size(),
+      static_cast<long long>(verdict.result.contacts_needed), static_cast<long long>(verdict.result.self_stresses),
+      static_cast<long long>(verdict.result.flexes), verdict.result.margin,
+      static_cast<long long>(verdict.undecided_contacts), verdict.result.force_residual);
+  if (verdict.result.jammed == Verdict::yes) {
+    // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
+    // balances forces that polish refused.
+    if (s.o.polish && (!s.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0)) {
+      const double scale = s.out.contacts.force_scale;
+      s.out.contacts = verdict.carrying(s.out.packing.dim);
+      s.out.contacts.force_scale = scale;
+    }
+    s.jammed = true;
+    return s.stop(JAM_STOP_CONVERGED, JAM_OK), Phase::done;
   }
-  const char *why = end == PolishEnd::open_contact     ? "a contact does not close"
-                    : end == PolishEnd::too_few        ? "contacts are too few to balance"
-                    : end == PolishEnd::negative_force ? "a force turns negative"
-                    : end == PolishEnd::overlap        ? "another pair would overlap"
-                                                       : nullptr;
-  if (why)
-    monitor_.log(JAM_LOG_WARNING, "polish refused: %s; %s", why, retried_ ? "the LP's answer stays" : "one more LP");
-  if (end == PolishEnd::interrupted) cut_off();
-  return !why;
+  if (leave_saddle(s, verdict)) return Phase::approach;
+  if (++s.stalled < s.tuning.max_stalled_lps) return one_more_lp(s);
+  if (verdict.result.jammed == Verdict::undecided)
+    s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+  else if (verdict.result.stressed == Verdict::yes)
+    s.stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+  else
+    s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+  return Phase::done;
 }
 
-// The contacts at hand, and what that changed in the history.
-PolishEnd SequentialLp::polished() {
-  if (seams_.before_polish) seams_.before_polish(out_.packing, out_.contacts);
-  const PolishEnd end = polish(out_.packing, out_.contacts, system_, o_.threads, &monitor_);
-  if (end == PolishEnd::done) polish_step();
-  return end;
+}  // namespace
+
+Phase identify(CrunchState &s) {
+  if (s.active.rows.empty()) {
+    if (s.out.report.stop_reason == JAM_STOP_NONE) s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+    return Phase::done;
+  }
+  s.out.contacts = make_contacts(s.out.packing, s.pairs, s.answer, s.active);
+  if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
+  if (s.o.polish && !last_digits(s)) return one_more_lp(s);
+  if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
+  return judge(s);
 }
 
-void SequentialLp::polish_step() {
-  HistoryRow &row = history_.moved(out_.packing, JAM_STEP_POLISH, monitor_.seconds(), system_.factorisations);
-  for (const auto column : {JAM_HISTORY_CONTACTS, JAM_HISTORY_EXCESS, JAM_HISTORY_RATTLERS})
-    row[column] = history_.rows().end()[-2][column];
-  const double idle = row[JAM_HISTORY_CONTACTS] - static_cast<double>(out_.contacts.size());
-  row[JAM_HISTORY_CONTACTS] -= idle, row[JAM_HISTORY_EXCESS] -= idle;
-  if (history_.details()) show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
+void finish(CrunchState &s) {
+  jam_crunch_report &r = s.out.report;
+  r.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
+  certify(s.out.packing, s.out.contacts, r);
+  r.jammed = s.jammed && r.force_residual < (s.o.polish ? 1e-6 : 1e-5) && r.min_force >= 0.0;
+  if (s.jammed && !r.jammed) s.stop(JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
+  r.factorisations = s.system.factorisations;
+  r.seconds = s.monitor.seconds();
+  r.seconds_factor = s.system.seconds_factor;
+  r.seconds_assemble = s.system.seconds_assemble;
+  r.seconds_solve = s.system.seconds_solve;
 }
 
-void SequentialLp::finish() {
-  jam_crunch_report &r = out_.report;
-  r.method = paths_ ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
-  certify(out_.packing, out_.contacts, r);
-  r.jammed = r.stop_reason == JAM_STOP_CONVERGED && r.excess_contacts >= 0 &&
-             r.force_residual < (o_.polish ? 1e-6 : 1e-5) && r.min_force > 0.0;
-  if (r.stop_reason == JAM_STOP_CONVERGED && !r.jammed) stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
-  r.factorisations = system_.factorisations;
-  r.seconds = monitor_.seconds();
-  r.seconds_factor = system_.seconds_factor;
-  r.seconds_assemble = system_.seconds_assemble;
-  r.seconds_solve = system_.seconds_solve;
-}
-
-// Out of memory, or no LP solved: the state is the last good one, without contacts. Allocates nothing that it cannot do
-// without.
-void SequentialLp::finish_failed() {
-  for (double &x : out_.packing.position) x = wrap(x, out_.packing.box);
-  ContactNetwork &c = out_.contacts;
+// Out of memory, or no LP solved: the state is the last good one, without contacts. It allocates only what it must.
+void finish_failed(CrunchState &s) {
+  for (double &x : s.out.packing.position) x = wrap(x, s.out.packing.box);
+  ContactNetwork &c = s.out.contacts;
   c.pairs.clear(), c.vector.clear(), c.gap.clear(), c.force.clear();
   std::fill(c.coordination.begin(), c.coordination.end(), 0);
   try {
-    certify(out_.packing, c, out_.report);
+    certify(s.out.packing, c, s.out.report);
   } catch (const std::bad_alloc &) {
-    out_.report.packing_fraction = packing_fraction(out_.packing);
+    s.out.report.packing_fraction = packing_fraction(s.out.packing);
   }
-  out_.report.method = paths_ ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
-  out_.report.factorisations = system_.factorisations;
-  out_.report.seconds = monitor_.seconds();
+  s.out.report.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
+  s.out.report.factorisations = s.system.factorisations;
+  s.out.report.seconds = s.monitor.seconds();
 }
 
 }  // namespace jam

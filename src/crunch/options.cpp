@@ -38,6 +38,7 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   positive(o.wall_time, "wall_time");
   check_range("neighbour_radius", o.neighbour_radius, 0.0, limits::radius_max);
   if (!(o.step_bound >= 0.0)) fail(JAM_E_ARGUMENT, "step_bound is %g, it must be >= 0", o.step_bound);
+  if (o.full_lps != 0 && o.full_lps != 1) fail(JAM_E_ARGUMENT, "full_lps is %d, it must be 0 or 1", o.full_lps);
   if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
   if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
   const ClosestPair worst = closest_pair(p);

@@ -1,17 +1,15 @@
-// The last digits: contacts closed and forces balanced to rounding.
+#include "crunch/polish.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/crossover.hpp"
-#include "crunch/crunch.hpp"
+#include "crunch/exact_vertex.hpp"
 #include "crunch/gap_rows.hpp"
-#include "network/contact_network.hpp"
 
 namespace jam {
 namespace {
 
-// A tiny diagonal fixes the translations (and the rattlers, which no row holds); what it costs in accuracy the
-// repeated steps win back.
+// A tiny diagonal fixes the translations, a unit one the rattlers. Iterative refinement wins back the accuracy.
 std::vector<double> small_diagonal(const Packing &p, const ContactNetwork &net) {
   std::vector<double> diagonal(p.position.size(), 1e-12);
   for (size_t i = 0; i < p.n(); ++i)
@@ -19,17 +17,15 @@ std::vector<double> small_diagonal(const Packing &p, const ContactNetwork &net) 
   return diagonal;
 }
 
-// A pair that stays wider than this, relative, when all contacts are closed together is none.
-constexpr double closed = 1e-8;
-// Gaps above this are more than what rounding leaves of closed contacts.
-constexpr double rounding = 3e-14;
-// Vertices tried before a network is given up.
-constexpr int most_vertices = 4;
-
 double largest(const std::vector<double> &x) {
   double m = 0.0;
   for (double v : x) m = std::max(m, std::fabs(v));
   return m;
+}
+
+// Rounding of closed contacts grows with the box over the diameter.
+double closed_limit(const Packing &p, const Tuning &t) {
+  return t.closed_gap * std::max(1.0, 0.1 * p.box / diameter_mean(p));
 }
 
 double norm(const std::vector<double> &x) {
@@ -38,163 +34,137 @@ double norm(const std::vector<double> &x) {
   return std::sqrt(sum);
 }
 
-// One Gauss-Newton step of all gaps to zero over positions and the common factor of the diameters. On a network with a
-// single state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
-void close_contacts(Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  const std::vector<double> a = relative_rows(p, net);
-  GapRows rows(net.pairs, p.dim, a, diagonal, system);
-  if (!rows.factorise()) return;
-  std::vector<double> wanted(net.gap), got;
-  for (double &h : wanted) h = -h;
-  move(p, net.pairs, rows.towards(wanted, got));
-  measure_contacts(p, net);
-}
-
-// The nearest forces that balance on every sphere, in units of their mean.
-void balance_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  GapRows rows(net.pairs, p.dim, net.vector, diagonal, system);
-  if (!rows.factorise()) return;
-  rows.balance(net.force);
-  double mean = 0.0;
-  for (double f : net.force) mean += std::fabs(f) / static_cast<double>(net.size());  // a sign that is wrong must show
-  for (double &f : net.force) f /= mean;
-  net.force_scale *= mean;
-}
-
 bool pushes_only(const ContactNetwork &net) {
   return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
 }
 
-// More contacts than one state of self-stress needs: the forces are not unique. Those of least norm at the same mean
-// are the projection of equal forces; false, and nothing changed, if one of them pulls (the LP's forces then have to
-// do).
-bool least_forces(const Packing &p, ContactNetwork &net, NewtonSystem &system, const std::vector<double> &diagonal) {
-  if (excess_contacts(net, p.dim) <= 0) return false;
-  ContactNetwork least = net;
-  std::fill(least.force.begin(), least.force.end(), 1.0);
-  balance_forces(p, least, system, diagonal);
-  if (!pushes_only(least)) return false;
-  least.force_scale = net.force_scale;
-  net = std::move(least);
-  return true;
-}
+class Polish {
+ public:
+  Polish(NewtonSystem &system, int threads, const Tuning &tuning, double allowed_overlap, Monitor *monitor)
+      : system_(system), threads_(threads), t_(tuning), allowed_(allowed_overlap), monitor_(monitor) {}
 
-// False where a sphere would be left with too few contacts.
-bool drop(ContactNetwork &net, size_t k, int dim) {
-  int32_t &zi = net.coordination[net.pairs.i[k]], &zj = net.coordination[net.pairs.j[k]];
-  if (zi <= dim + 1 || zj <= dim + 1) return false;
-  --zi, --zj;
-  const auto erase = [k](auto &v, size_t width) { v.erase(v.begin() + k * width, v.begin() + (k + 1) * width); };
-  erase(net.pairs.i, 1), erase(net.pairs.j, 1), erase(net.pairs.offset, dim);
-  erase(net.vector, dim), erase(net.gap, 1), erase(net.force, 1);
-  return true;
-}
-
-// What least squares leave of the gaps is orthogonal to every change of the packing: itself a state of self-stress g,
-// without pressure. Of the forces f - t g the first to vanish, as t grows, is of the contact that opens when the others
-// close: a pivot of the dual simplex. False where all are closed, and where that contact's spheres have none to spare.
-bool drop_open_contact(ContactNetwork &net, int dim) {
-  if (excess_contacts(net, dim) <= 0 || !(largest(net.gap) > rounding)) return false;
-  size_t first = net.size();
-  for (size_t k = 0; k < net.size(); ++k)
-    if (net.gap[k] > 0.0 && (first == net.size() || net.force[k] * net.gap[first] < net.force[first] * net.gap[k]))
-      first = k;
-  return first < net.size() && drop(net, first, dim);
-}
-
-// Closes all contacts as far as they go: on a network with one state of self-stress to rounding, else in least squares.
-// False when interrupted.
-bool close_all(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
-  system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
-  const std::vector<double> diagonal = small_diagonal(p, net);
-  const auto open = [&] { return excess_contacts(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
-  double worst = open();
-  for (int round = 0; round < 4 && worst > 1e-16; ++round) {
-    if (monitor) monitor->log(JAM_LOG_DEBUG, "polish %d largest gap %.2e", round, largest(net.gap));
-    if (monitor && monitor->interrupted()) return false;
-    Packing p_old = p;
-    ContactNetwork old = net;
-    close_contacts(p, net, system, diagonal);
-    const double now = open();
-    if (!(now < 0.5 * worst)) {  // no gain: rounding rules, or the contacts cannot all close
-      if (!(now < worst)) p = std::move(p_old), net = std::move(old);
-      break;
+  PolishEnd close_and_balance(Packing &p, ContactNetwork &net) {
+    if (!close_all(p, net)) return PolishEnd::interrupted;
+    if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
+    if (excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
+    balance_forces(p, net);
+    const bool one_state = excess_contacts(net, p.dim) == 0;
+    // Forces of several states of self-stress are not unique: the test of the network decides which contacts carry.
+    if (one_state && !pushes_only(net)) {
+      log("polish: %td of %zu contacts pull, the strongest with %.1e",
+          std::count_if(net.force.begin(), net.force.end(), [](double f) { return !(f > 0.0); }), net.size(),
+          -*std::min_element(net.force.begin(), net.force.end()));
+      return PolishEnd::negative_force;
     }
-    worst = now;
+    if (closest_pair(p).gap < allowed_) return PolishEnd::overlap;
+    return largest(net.gap) > closed_limit(p, t_) ? PolishEnd::open_contact : PolishEnd::done;
   }
-  return !(monitor && monitor->interrupted());
-}
 
-PolishEnd close_and_balance(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed,
-                            Monitor *monitor) {
-  do {
-    if (!close_all(p, net, system, threads, monitor)) return PolishEnd::interrupted;
-    if (!(largest(net.gap) < closed)) return PolishEnd::open_contact;
-  } while (drop_open_contact(net, p.dim));
-  if (excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
-  const std::vector<double> diagonal = small_diagonal(p, net);
-  if (!least_forces(p, net, system, diagonal)) balance_forces(p, net, system, diagonal);
-  if (monitor && !pushes_only(net))
-    monitor->log(JAM_LOG_DEBUG, "polish: %td of %zu contacts pull, the strongest with %.1e",
-                 std::count_if(net.force.begin(), net.force.end(), [](double f) { return !(f > 0.0); }), net.size(),
-                 -*std::min_element(net.force.begin(), net.force.end()));
-  if (!pushes_only(net)) return PolishEnd::negative_force;
-  return closest_pair(p).gap < allowed ? PolishEnd::overlap : PolishEnd::done;
-}
-
-// From closed contacts of which some pull, or one is missing, to a vertex. Closing that may make others pull again,
-// where vertices lie so near each other that a step between them changes the weakest forces: what no double can tell
-// apart ends as it is, with its weakest contacts open, if their weighted gap is below rounding.
-PolishEnd at_vertex(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, double allowed,
-                    Monitor *monitor, PolishEnd end) {
-  for (int k = 0; k < most_vertices; ++k) {
-    Vertex vertex;
-    if (!find_vertex(p, net, system, threads, monitor, vertex))
-      return monitor && monitor->interrupted() ? PolishEnd::interrupted : end;
-    Packing moved = p;
-    ContactNetwork others = vertex.net;
-    move(moved, others.pairs, vertex.step);
-    measure_contacts(moved, others);
-    end = close_and_balance(moved, others, system, threads, allowed, monitor);
-    const bool exact = end == PolishEnd::done,
-               enough = vertex.open < rounding && pushes_only(vertex.net) && closest_pair(p).gap >= allowed;
-    if (monitor)
-      monitor->log(JAM_LOG_DEBUG, "vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(),
-                   vertex.open, largest(vertex.step.s), exact ? "closed" : "open");
-    if (end == PolishEnd::interrupted) return end;
-    if (!exact && enough) {
-      net = std::move(vertex.net);
-      system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads);
-      balance_forces(p, net, system, small_diagonal(p, net));
-      return pushes_only(net) ? PolishEnd::done : PolishEnd::negative_force;
+  // Closing the contacts of one vertex may turn other forces negative, where vertices lie so near each other that the
+  // step between them changes the weakest forces. Such a vertex is kept with its weakest contacts open, when their
+  // weighted gap is below rounding.
+  PolishEnd at_vertex(Packing &p, ContactNetwork &net, PolishEnd end) {
+    for (int k = 0; k < t_.max_vertices; ++k) {
+      Vertex vertex;
+      if (!find_vertex(p, net, system_, threads_, t_, monitor_, vertex))
+        return monitor_ && monitor_->interrupted() ? PolishEnd::interrupted : end;
+      Packing moved = p;
+      ContactNetwork others = vertex.net;
+      move(moved, others.pairs, vertex.step);
+      measure_contacts(moved, others);
+      end = close_and_balance(moved, others);
+      const bool exact = end == PolishEnd::done;
+      const bool enough =
+          vertex.open < closed_limit(p, t_) && pushes_only(vertex.net) && closest_pair(p).gap >= allowed_;
+      log("vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(), vertex.open,
+          largest(vertex.step.s), exact ? "closed" : "open");
+      if (end == PolishEnd::interrupted) return end;
+      if (!exact && enough) {
+        net = std::move(vertex.net);
+        system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
+        balance_forces(p, net);
+        return pushes_only(net) ? PolishEnd::done : PolishEnd::negative_force;
+      }
+      p = std::move(moved), net = std::move(others);
+      if (exact) return end;
     }
-    p = std::move(moved), net = std::move(others);
-    if (exact) return end;
+    return end;
   }
-  return end;
-}
+
+ private:
+  template <class... T>
+  void log(const char *format, T... values) const {
+    if (monitor_) monitor_->log(JAM_LOG_DEBUG, format, values...);
+  }
+
+  // One Gauss-Newton step of all gaps to zero over positions and the common factor of the diameters. With a single
+  // state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
+  void close_once(Packing &p, ContactNetwork &net, const std::vector<double> &diagonal) {
+    const std::vector<double> a = relative_rows(p, net);
+    GapRows rows(net.pairs, p.dim, a, diagonal, system_);
+    if (!rows.factorise()) return;
+    std::vector<double> wanted(net.gap), got;
+    for (double &h : wanted) h = -h;
+    move(p, net.pairs, rows.towards(wanted, got));
+    measure_contacts(p, net);
+  }
+
+  // False when interrupted.
+  bool close_all(Packing &p, ContactNetwork &net) {
+    system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
+    const std::vector<double> diagonal = small_diagonal(p, net);
+    const auto open = [&] { return excess_contacts(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
+    double worst = open();
+    for (int round = 0; round < 4 && worst > 1e-16; ++round) {
+      log("polish %d largest gap %.2e", round, largest(net.gap));
+      if (monitor_ && monitor_->interrupted()) return false;
+      Packing p_old = p;
+      ContactNetwork old = net;
+      close_once(p, net, diagonal);
+      const double now = open();
+      if (!(now < 0.5 * worst)) {  // rounding, or the contacts cannot all close
+        if (!(now < worst)) p = std::move(p_old), net = std::move(old);
+        break;
+      }
+      worst = now;
+    }
+    return !(monitor_ && monitor_->interrupted());
+  }
+
+  // The nearest forces that balance on every sphere, in units of their mean.
+  void balance_forces(const Packing &p, ContactNetwork &net) {
+    const std::vector<double> diagonal = small_diagonal(p, net);
+    GapRows rows(net.pairs, p.dim, net.vector, diagonal, system_);
+    if (!rows.factorise()) return;
+    rows.balance(net.force);
+    double mean = 0.0;
+    for (double f : net.force) mean += std::fabs(f) / static_cast<double>(net.size());
+    for (double &f : net.force) f /= mean;
+    net.force_scale *= mean;
+  }
+
+  NewtonSystem &system_;
+  const int threads_;
+  const Tuning &t_;
+  const double allowed_;
+  Monitor *monitor_;
+};
 
 }  // namespace
 
-bool drop_idle_contact(ContactNetwork &net, int dim) {
-  constexpr double idle = 1e-5;
-  if (net.size() == 0 || excess_contacts(net, dim) <= 0) return false;
-  const size_t k = std::min_element(net.force.begin(), net.force.end()) - net.force.begin();
-  return net.force[k] <= idle && drop(net, k, dim);
-}
-
-PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor) {
+PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, const Tuning &tuning,
+                 Monitor *monitor) {
   if (net.size() == 0) return PolishEnd::no_contacts;
-  const double allowed = std::min(-1e-14, closest_pair(p).gap);
+  Polish polisher(system, threads, tuning, std::min(-1e-14, closest_pair(p).gap), monitor);
   Packing q = p;
   ContactNetwork better = net;
-  PolishEnd end = close_and_balance(q, better, system, threads, allowed, monitor);
-  if (end == PolishEnd::too_few || end == PolishEnd::negative_force || end == PolishEnd::overlap) {
-    better = net;  // the LP's forces: where a contact is wrong so are all forces
-    end = at_vertex(q, better, system, threads, allowed, monitor, end);
+  PolishEnd end = polisher.close_and_balance(q, better);
+  if (end != PolishEnd::done && end != PolishEnd::interrupted) {
+    better = net;  // the LP's forces: one misidentified contact changes every force
+    end = polisher.at_vertex(q, better, end);
   }
   if (end != PolishEnd::done) return end;
-  if (monitor && largest(better.gap) > rounding)
+  if (monitor && largest(better.gap) > closed_limit(q, tuning))
     monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),
                  largest(better.gap));
   p = std::move(q);

@@ -21,7 +21,6 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
   dim_ = dim;
   n_ = n;
   threads_ = threads;
-  has_factor_ = false;
   pair_i_ = pairs.i;
   pair_j_ = pairs.j;
   edge_of_pair_.resize(pairs.size());
@@ -112,8 +111,7 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   ++factorisations;
   const double t2 = now_seconds();
   seconds_factor += t2 - t1;
-  has_factor_ = replaced >= 0;
-  if (!has_factor_) return false;
+  if (replaced < 0) return false;
   transpose_times(a, weight, column_.data());
   delta_ = 0.0;
   for (size_t k = 0; k < pair_i_.size(); ++k) delta_ += weight[k];
@@ -157,64 +155,6 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
     *dg += dg_more;
   }
   seconds_solve += now_seconds() - t0;
-}
-
-int NewtonSystem::solves_worth() const {
-  // A solve passes twice over the factor: for each of its numbers the processor does some 60 operations of a front.
-  return static_cast<int>(cholesky_.flops() / (60.0 * static_cast<double>(cholesky_.factor_nonzeros()) + 1.0));
-}
-
-void NewtonSystem::follow(const double *a, const double *weight, const double *box) {
-  a_ = a;
-  weight_ = weight;
-  std::copy(box, box + box_.size(), box_.begin());
-  for (auto *v : {&now_column_, &way_, &image_}) v->resize(column_.size());
-  transpose_times(a, weight, now_column_.data());
-  now_delta_ = std::accumulate(weight, weight + pair_i_.size(), 0.0);
-  energy_ = 0.0;
-  pcg_solves = 0;
-}
-
-// The matrix that is left when dg is eliminated: A^T D A + diag(box) - q q^T / delta.
-void NewtonSystem::times(const double *s, double *out) {
-  rows_times(a_, s, row_work_.data());
-  const double g = dot(now_column_, s) / now_delta_;
-  for (size_t k = 0; k < row_work_.size(); ++k) row_work_[k] = weight_[k] * (row_work_[k] - g);
-  transpose_times(a_, row_work_.data(), out);
-  for (size_t k = 0; k < box_.size(); ++k) out[k] += box_[k] * s[k];
-}
-
-// The energy of the error after a step is what later steps gain (Strakos and Tichy, Electron. Trans. Numer. Anal. 13,
-// 56 (2002)): below the bound when the last three gained no more. The preconditioned residual alone would not do, nor
-// as a measure of the first solution: a rattler that met its cage since the factorisation makes it a million times too
-// large. It must be small, though: then nothing is unseen.
-bool NewtonSystem::solve_pcg(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
-  constexpr int last = 3;
-  const double t0 = now_seconds();
-  const size_t unknowns = column_.size();
-  times(ds, residual_.data());
-  for (size_t k = 0; k < unknowns; ++k) residual_[k] = rhs[k] + now_column_[k] * (h / now_delta_) - residual_[k];
-  double product = 0.0, gained[last] = {}, energy = 0.0, unused;
-  bool done = false;
-  for (int step = 0; pcg_solves < most; ++step) {
-    solve_once(residual_.data(), 0.0, correction_.data(), &unused);
-    ++pcg_solves;
-    const double before = product, whole = std::max(energy, energy_);
-    product = dot(residual_, correction_.data());
-    done = product <= accuracy * (step < last ? accuracy : 1.0) * whole &&
-           std::accumulate(gained, gained + last, 0.0) <= accuracy * accuracy * whole;
-    if (done || !std::isfinite(product)) break;
-    for (size_t k = 0; k < unknowns; ++k) way_[k] = correction_[k] + (step > 0 ? product / before * way_[k] : 0.0);
-    times(way_.data(), image_.data());
-    const double length = product / dot(image_, way_.data());
-    for (size_t k = 0; k < unknowns; ++k) ds[k] += length * way_[k], residual_[k] -= length * image_[k];
-    gained[step % last] = length * product;
-    energy += length * product;
-  }
-  if (energy_ == 0.0) energy_ = energy;
-  *dg = (h + dot(now_column_, ds)) / now_delta_;
-  seconds_solve += now_seconds() - t0;
-  return done;
 }
 
 void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {

@@ -24,24 +24,12 @@ class NewtonSystem {
   // is above 1e-9 of the right-hand side.
   void solve(const double *rhs, double h, double *ds, double *dg, int refine = 1);
 
-  // The same system with other numbers, without a factorisation: solve_pcg() goes by conjugate gradients with the
-  // factor at hand as preconditioner. Where steps are short few weights change much. The pairs must be those of the
-  // last factorise(). Keeps a and weight.
-  void follow(const double *a, const double *weight, const double *box);
-  // Solves from the guess in ds until the energy of the error is some `accuracy` squared of that of the first solution
-  // since follow(). False after `most` triangular solves since follow(); ds, dg are then the best so far.
-  bool solve_pcg(const double *rhs, double h, double *ds, double *dg, double accuracy, int most);
-  // How many triangular solves cost as much as a factorisation, from the numbers of both alone: 5 at N = 4096, 70 at
-  // 65536.
-  int solves_worth() const;
-  bool has_factor() const { return has_factor_; }  // of these pairs
-
   // out[k] = a_k . (s_i - s_j)
   void rows_times(const double *a, const double *s, double *out) const;
   // out += sum_k y_k a_k on i, minus on j (out is zeroed first)
   void transpose_times(const double *a, const double *y, double *out) const;
 
-  int factorisations = 0, pcg_solves = 0;  // pcg_solves: since follow()
+  int factorisations = 0;
   double seconds_factor = 0.0, seconds_assemble = 0.0, seconds_solve = 0.0;
   const BlockCholesky &cholesky() const { return cholesky_; }
 
@@ -49,10 +37,8 @@ class NewtonSystem {
   template <int D>
   void assemble(const double *a, const double *weight);
   void solve_once(const double *rhs, double h, double *ds, double *dg);
-  void times(const double *s, double *out);
 
   int dim_ = 0, threads_ = 0;
-  bool has_factor_ = false;
   int32_t n_ = 0;
   std::vector<int32_t> pair_i_, pair_j_, edge_of_pair_;  // edge -1: an image of one sphere with itself
   size_t edges_ = 0;
@@ -60,9 +46,6 @@ class NewtonSystem {
   std::vector<double> diag_, off_, box_;        // blocks
   std::vector<double> column_, column_solved_;  // q = A^T D 1 and K^-1 q
   double delta_ = 0.0, schur_ = 0.0;            // 1^T D 1, and minus q . K^-1 q
-  std::vector<double> now_column_, way_,
-      image_;  // of follow(): q of the present numbers; a direction and what the matrix makes of it
-  double now_delta_ = 0.0, energy_ = 0.0;
   const double *a_ = nullptr, *weight_ = nullptr;
   std::vector<double> row_work_, work_, residual_, correction_;
 };

@@ -1,5 +1,6 @@
 #include "network/rigidity_matrix.hpp"
 #include "core/pair_rule.hpp"
+#include "linalg/pair_products.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,41 +50,39 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
 }
 
 void apply_compatibility(const RigidityMatrix &g, const double *x, double *y) {
-  const int d = g.dim;
-  for (size_t k = 0; k < g.contacts(); ++k) {
-    const double *n = &g.normal[k * d], *u = x + static_cast<size_t>(g.a[k]) * d,
-                 *v = x + static_cast<size_t>(g.b[k]) * d;
-    double s = 0.0;
-    for (int c = 0; c < d; ++c) s += n[c] * (u[c] - v[c]);
-    y[k] = s;
-  }
+  rows_times(g.dim, g.a, g.b, g.normal.data(), x, y);
 }
 
 void apply_equilibrium(const RigidityMatrix &g, const double *f, double *y) {
-  const int d = g.dim;
-  std::fill(y, y + g.unknowns(), 0.0);
-  for (size_t k = 0; k < g.contacts(); ++k) {
-    const double *n = &g.normal[k * d];
-    double *u = y + static_cast<size_t>(g.a[k]) * d, *v = y + static_cast<size_t>(g.b[k]) * d;
-    for (int c = 0; c < d; ++c) {
-      u[c] += f[k] * n[c];
-      v[c] -= f[k] * n[c];
-    }
-  }
+  transpose_times(g.dim, g.nodes, g.a, g.b, g.normal.data(), f, y);
 }
+
+namespace {
+// Largest |sum_j f_ij n_ij| of the net forces y (spheres, dim), over the mean of |f|.
+double over_mean_force(int dim, const std::vector<double> &y, const double *f, size_t contacts) {
+  double worst = 0.0, mean = 0.0;
+  for (size_t i = 0; i < y.size(); i += static_cast<size_t>(dim)) {
+    double s = 0.0;
+    for (int c = 0; c < dim; ++c) s += y[i + c] * y[i + c];
+    worst = std::max(worst, s);
+  }
+  for (size_t k = 0; k < contacts; ++k) mean += std::fabs(f[k]);
+  mean /= static_cast<double>(contacts);
+  return mean > 0.0 ? std::sqrt(worst) / mean : 0.0;
+}
+}  // namespace
 
 double balance_residual(const RigidityMatrix &g, const double *f) {
   std::vector<double> y(g.unknowns());
   apply_equilibrium(g, f, y.data());
-  double worst = 0.0, mean = 0.0;
-  for (int32_t i = 0; i < g.nodes; ++i) {
-    double s = 0.0;
-    for (int c = 0; c < g.dim; ++c) s += y[i * g.dim + c] * y[i * g.dim + c];
-    worst = std::max(worst, s);
-  }
-  for (size_t k = 0; k < g.contacts(); ++k) mean += std::fabs(f[k]);
-  mean /= static_cast<double>(g.contacts());
-  return mean > 0.0 ? std::sqrt(worst) / mean : 0.0;
+  return over_mean_force(g.dim, y, f, g.contacts());
+}
+
+double balance_residual(int dim, size_t n, const ContactNetwork &network) {
+  std::vector<double> y(n * static_cast<size_t>(dim));
+  transpose_times(dim, static_cast<int32_t>(n), network.pairs.i, network.pairs.j, network.vector.data(),
+                  network.force.data(), y.data());
+  return over_mean_force(dim, y, network.force.data(), network.size());
 }
 
 }  // namespace jam

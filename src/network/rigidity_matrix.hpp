@@ -34,5 +34,7 @@ void apply_compatibility(const RigidityMatrix &g, const double *x, double *y);
 void apply_equilibrium(const RigidityMatrix &g, const double *f, double *y);
 // Largest |sum_j f_ij n_ij| over mean |f|.
 double balance_residual(const RigidityMatrix &g, const double *f);
+// The same with the forces and vectors of a network of n spheres.
+double balance_residual(int dim, size_t n, const ContactNetwork &network);
 
 }  // namespace jam

@@ -15,6 +15,8 @@ namespace {
 constexpr size_t most_flexes = 512;
 // A flex may close a contact by no more than this, where the largest displacement is 1.
 constexpr double flex_rounding = 1e-9;
+// Forces that balance worse than this, over the mean force, prove nothing.
+constexpr double most_residual = 1e-10;
 
 // Spheres of `sub` (a subset of g): displacements of its nodes put in the place of those of g.
 void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v) {
@@ -139,6 +141,7 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const Cancel
   for (size_t k = 0; k < sub.contacts(); ++k)
     if (cone.carrying[k]) f.push_back(cone.force[k]);
   out.force_residual = balance_residual(carrying, f.data());
+  if (out.jammed == Verdict::yes && !(out.force_residual < most_residual)) out.jammed = Verdict::undecided;
   if (out.flexes == 0) return out;
   // A flex of B, and as much of the motion that opens all other contacts as keeps them open.
   std::vector<double> x(rows.columns(), 0.0), y0(rows.rows()), y1(rows.rows());
@@ -181,6 +184,22 @@ RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, J
 
 }  // namespace
 
+namespace {
+
+// With the closed contacts jammed, another contact between two of their force-carrying spheres changes nothing: its row
+// is a combination of theirs. True when all undecided contacts are of that kind or cannot carry force at all.
+bool within_jammed(const RigidityMatrix &g, const std::vector<char> &closed, const std::vector<char> &carrying) {
+  std::vector<char> stable(g.nodes, 0), on(g.contacts(), 1);
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (carrying[k]) stable[g.a[k]] = stable[g.b[k]] = 1;
+  drop_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on);
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (on[k] && !closed[k] && !(stable[g.a[k]] && stable[g.b[k]])) return false;
+  return true;
+}
+
+}  // namespace
+
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
                             const CancellationPoint &cancel_point) {
   PackingVerdict out;
@@ -201,13 +220,16 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   out.undecided_contacts = std::count(closed.begin(), closed.end(), 0);
   const RigidityMatrix g = make_rigidity_matrix(p, net);
   out.sphere = g.sphere;
-  out.result = test_rigidity(g, kind, cancel_point);
-  if (out.undecided_contacts > 0) {
-    RigidityResult open = test_part(g, closed, kind, cancel_point);
-    if (open.jammed == Verdict::yes && out.result.jammed == Verdict::yes)
-      out.result = std::move(open);
-    else if (open.jammed != out.result.jammed)
-      out.result.jammed = Verdict::undecided;
+  const std::vector<char> all(net.size(), 1);
+  const bool undecided = out.undecided_contacts > 0;
+  out.result = test_part(g, undecided ? closed : all, kind, cancel_point);
+  if (undecided && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
+    RigidityResult shut = test_rigidity(g, kind, cancel_point);
+    if (shut.jammed != Verdict::yes || out.result.jammed != Verdict::yes) {
+      const bool same = shut.jammed == out.result.jammed;
+      out.result = std::move(shut);
+      if (!same) out.result.jammed = Verdict::undecided;
+    }
   }
   net.force = out.result.force;
   double sum = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/rng.hpp"
 
@@ -11,6 +12,8 @@ namespace {
 // In units of the mean |force|: below the first a force is zero, above the second it is not; between them the digits
 // do not decide.
 constexpr double zero_force = 1e-11, sure_force = 1e-9;
+// The same for the opening of a contact, where the largest displacement is 1.
+constexpr double zero_opening = 1e-11, sure_opening = 1e-9;
 
 double mean_size(const std::vector<double> &f) {
   double sum = 0.0;
@@ -64,10 +67,24 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
   return out;
 }
 
-// The central path of the self-dual problem A^T f = x, w = A x + delta, f w = 1, f > 0, w > 0. As delta falls, f grows
-// as 1 / delta on K+ and w stays finite on all others, where x opens them (Goldman and Tucker 1956; path following as
-// in S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, with Mehrotra's corrector). On K+ the limit of
-// delta f is the analytic centre: the state that maximises sum log f at a given sum.
+// The step length along dw that minimises - sum log(w + t dw), which is convex in t; inside the boundary.
+double best_length(const std::vector<double> &w, const std::vector<double> &dw) {
+  double low = 0.0, high = 1e3;
+  for (size_t k = 0; k < w.size(); ++k)
+    if (w[k] + high * dw[k] < 0.0) high = -w[k] / dw[k];
+  high *= 1.0 - 1e-12;
+  for (int pass = 0; pass < 50; ++pass) {
+    const double t = 0.5 * (low + high);
+    double slope = 0.0;
+    for (size_t k = 0; k < w.size(); ++k) slope -= dw[k] / (w[k] + t * dw[k]);
+    (slope < 0.0 ? low : high) = t;
+  }
+  return low;
+}
+
+// The central path of the self-dual problem A^T f = mu x, w = A x + mu, f w = mu, f > 0, w > 0. As mu falls, f stays
+// finite on K+ and falls as mu on all others, where x opens them (Goldman and Tucker 1956; path following with
+// Mehrotra's corrector as in S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997).
 class CentralPath {
  public:
   CentralPath(const ConstraintRows &rows, const CancellationPoint &cancel_point)
@@ -78,53 +95,66 @@ class CentralPath {
         f_(rows.rows(), 1.0),
         w_(rows.rows(), 1.0) {}
 
-  // One step towards a smaller delta. False where steps end.
+  // One step towards a smaller mu. False where steps have become too short to go on.
   bool step() {
     cancel_point_();
     const size_t m = f_.size();
     std::vector<double> weight(m);
     for (size_t k = 0; k < m; ++k) weight[k] = f_[k] / w_[k];
-    solver_.factorise(weight, 1.0);
+    solver_.factorise(weight, mu_);
     std::vector<double> df, dw, dx, correction(m, 0.0);
     direction(0.0, correction, df, dw, dx);
     const double reach = std::min(longest(f_, df), longest(w_, dw));
-    const double target = delta_ * std::max(1e-3, std::min(0.9, std::pow(1.0 - reach, 2.0)));
-    for (size_t k = 0; k < m; ++k) correction[k] = -reach * reach * df[k] * dw[k];
+    const double target = mu_ * std::max(1e-3, std::min(0.95, std::pow(1.0 - reach, 2.0)));
+    for (size_t k = 0; k < m; ++k)
+      correction[k] = std::max(-10.0 * target, std::min(0.9 * target, -reach * reach * df[k] * dw[k]));
     direction(target, correction, df, dw, dx);
-    const double length = std::min(1.0, 0.99 * std::min(longest(f_, df), longest(w_, dw)));
+    double length = std::min(1.0, 0.99 * std::min(longest(f_, df), longest(w_, dw)));
+    while (length > least_step && worst_product(length, df, dw) < neighbourhood) length *= 0.8;
     for (size_t k = 0; k < m; ++k) f_[k] += length * df[k], w_[k] += length * dw[k];
     for (size_t k = 0; k < x_.size(); ++k) x_[k] += length * dx[k];
-    delta_ += length * (target - delta_);
+    mu_ += length * (target - mu_);
     ++steps_;
-    return length > 1e-3;
+    return length > least_step;
   }
 
-  double delta() const { return delta_; }
+  double mu() const { return mu_; }
   int steps() const { return steps_; }
   const std::vector<double> &f() const { return f_; }
   const std::vector<double> &w() const { return w_; }
   const std::vector<double> &x() const { return x_; }
 
  private:
+  // No product f w falls below this part of their mean, so that no contact is stuck at the boundary.
+  static constexpr double neighbourhood = 1e-3, least_step = 1e-3;
+
   static double longest(const std::vector<double> &v, const std::vector<double> &dv) {
     double t = 1.0;
     for (size_t k = 0; k < v.size(); ++k)
       if (v[k] + t * dv[k] < 0.0) t = -v[k] / dv[k];
     return t;
   }
-  // Newton: A^T (f + df) = x + dx, A (x + dx) + delta = w + dw, f w + w df + f dw = 1 + correction.
-  void direction(double delta, const std::vector<double> &correction, std::vector<double> &df, std::vector<double> &dw,
+  double worst_product(double t, const std::vector<double> &df, const std::vector<double> &dw) const {
+    double least = std::numeric_limits<double>::infinity(), sum = 0.0;
+    for (size_t k = 0; k < f_.size(); ++k) {
+      const double product = (f_[k] + t * df[k]) * (w_[k] + t * dw[k]);
+      least = std::min(least, product), sum += product;
+    }
+    return least * static_cast<double>(f_.size()) / sum;
+  }
+  // Newton towards mu: A^T (f + df) = mu x + mu_ dx, w + dw = A (x + dx) + mu, f w + w df + f dw = mu + correction.
+  void direction(double mu, const std::vector<double> &correction, std::vector<double> &df, std::vector<double> &dw,
                  std::vector<double> &dx) const {
     const size_t m = f_.size();
     std::vector<double> gap(m), g(m);
     rows_.multiply(x_.data(), gap.data());
     for (size_t k = 0; k < m; ++k) {
-      gap[k] += delta - w_[k];
-      g[k] = (1.0 + correction[k] - f_[k] * gap[k]) / w_[k];  // f + df without the part of A dx
+      gap[k] += mu - w_[k];
+      g[k] = (mu + correction[k] - f_[k] * gap[k]) / w_[k];  // f + df without the part of A dx
     }
     dx.resize(x_.size());
     rows_.transpose(g.data(), dx.data());
-    for (size_t k = 0; k < dx.size(); ++k) dx[k] -= x_[k];
+    for (size_t k = 0; k < dx.size(); ++k) dx[k] -= mu * x_[k];
     solver_.solve(dx.data());
     dw.resize(m), df.resize(m);
     rows_.multiply(dx.data(), dw.data());
@@ -138,27 +168,25 @@ class CentralPath {
   const CancellationPoint &cancel_point_;
   NormalSolver solver_;
   std::vector<double> x_, f_, w_;
-  double delta_ = 1.0;
+  double mu_ = 1.0;
   int steps_ = 0;
 };
 
-// Guesses of K+ from a point of the path: f is of the order 1 / delta on K+ and 1 elsewhere. First the middle between
-// both; then the largest jump of the sorted forces, for a few that are much weaker or open much less.
+// Guesses of K+ from a point of the path. First all contacts: weak forces fall for long before they stay. Then those
+// with f > w, and those above the largest jump of the sorted forces, for a few that are much weaker or open much less.
 std::vector<std::vector<char>> guess_support(const CentralPath &path) {
   const std::vector<double> &f = path.f();
-  const auto above = [&](double limit) {
-    std::vector<char> on(f.size());
-    for (size_t k = 0; k < f.size(); ++k) on[k] = f[k] > limit;
-    return on;
-  };
+  const size_t m = f.size();
+  std::vector<std::vector<char>> out{std::vector<char>(m, 1)};
+  std::vector<char> larger(m), jumped(m);
   std::vector<double> sorted(f);
   std::sort(sorted.begin(), sorted.end());
   size_t jump = 0;
-  for (size_t k = 1; k < sorted.size(); ++k)
+  for (size_t k = 1; k < m; ++k)
     if (jump == 0 || sorted[k] * sorted[jump - 1] > sorted[jump] * sorted[k - 1]) jump = k;
-  std::vector<std::vector<char>> out{above(1.0 / std::sqrt(path.delta()))};
-  const std::vector<char> second = jump > 0 ? above(sorted[jump - 1]) : out[0];
-  if (second != out[0]) out.push_back(second);
+  for (size_t k = 0; k < m; ++k) larger[k] = f[k] > path.w()[k], jumped[k] = f[k] >= sorted[jump];
+  for (const auto &guess : {larger, jumped})
+    if (std::find(out.begin(), out.end(), guess) == out.end()) out.push_back(guess);
   return out;
 }
 
@@ -210,59 +238,57 @@ bool certify_support(const ConstraintRows &rows, const NormalSolver &solver, con
       x[rows.g.unknowns() + q] -= back[sub.unknowns() + q] * rows.length / kept.length;
     rows.multiply(x.data(), y.data());
   }
-  double largest = 0.0, least = -1.0, closed = 0.0;
-  for (size_t k = 0; k < m; ++k) {
-    largest = std::max(largest, std::fabs(y[k]));
+  double size = 0.0, least = std::numeric_limits<double>::infinity(), closed = 0.0;
+  for (const double v : x) size = std::max(size, std::fabs(v));
+  for (size_t k = 0; k < m; ++k)
     if (out.carrying[k])
       closed = std::max(closed, std::fabs(y[k]));
-    else if (least < 0.0 || y[k] < least)
-      least = std::max(0.0, y[k]);
-  }
+    else
+      least = std::min(least, y[k]);
   out.motion = std::move(x);
-  return least > sure_force * largest && closed < zero_force * largest;
+  return least > sure_opening * size && closed < zero_opening * size;
 }
 
-// The analytic centre of the states on K+: minimises - sum log(1 + A u), whose gradient is A^T f with f = 1 / (1 + A
-// u), by Newton steps from a point near it. The last projection on the balance takes the rest out.
-void centre(const RigidityMatrix &all, bool strain, const CentralPath &path, StressCone &out,
-            const CancellationPoint &cancel_point) {
-  constexpr int most_steps = 20;
-  const RigidityMatrix sub = subset(all, out.carrying);
-  const ConstraintRows rows(sub, strain);
+// The analytic centre of the states on K+: minimises - sum log w over w = w0 + A u, whose gradient is - A^T f with
+// f = 1 / w, by damped Newton steps. w: 1 / f of a state near it, or all ones; then the unit solver makes the first
+// step. Returns the forces, balanced to rounding, mean 1; empty when one of them vanishes.
+std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit, std::vector<double> w, bool ones,
+                           int &factorisations, const CancellationPoint &cancel_point) {
+  constexpr int most_steps = 50;
+  constexpr double largest_ratio = 1e12;  // of two forces
   const size_t m = rows.rows();
-  if (m == 0) return;
-  std::vector<double> w, f(m), step(rows.columns()), dw(m), weight(m);
-  for (size_t k = 0; k < out.carrying.size(); ++k)
-    if (out.carrying[k]) w.push_back(path.w()[k] / path.delta());
+  std::vector<double> f(m), step(rows.columns()), dw(m), weight(m);
   NormalSolver solver(rows);
   for (int pass = 0; pass < most_steps; ++pass) {
     cancel_point();
-    double largest = 0.0;
-    for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k], weight[k] = f[k] * f[k], largest = std::max(largest, weight[k]);
-    solver.factorise(weight, 1e-13 * largest);
-    ++out.factorisations;
+    const double widest = *std::max_element(w.begin(), w.end());
+    if (!(widest < largest_ratio * *std::min_element(w.begin(), w.end()))) return {};
+    for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k], weight[k] = f[k] * f[k];
     rows.transpose(f.data(), step.data());
     const std::vector<double> gradient = step;
-    solver.solve(step.data());
-    double decrement = 0.0, length = 1.0;
+    if (ones && pass == 0) {
+      unit.solve(step.data());
+    } else {
+      solver.factorise(weight, 1e-13 * *std::max_element(weight.begin(), weight.end()));
+      ++factorisations;
+      solver.solve(step.data());
+    }
+    double decrement = 0.0;
     for (size_t k = 0; k < step.size(); ++k) decrement += gradient[k] * step[k];
     rows.multiply(step.data(), dw.data());
-    for (size_t k = 0; k < m; ++k)
-      if (w[k] + dw[k] < 0.01 * w[k]) length = std::min(length, -0.99 * w[k] / dw[k]);
-    if (decrement > 0.25) length = std::min(length, 1.0 / (1.0 + std::sqrt(decrement)));
+    double length = decrement > 0.25 ? 1.0 / (1.0 + std::sqrt(decrement)) : 1.0;  // stays inside, goes down for sure
+    if (decrement > 0.25) length = std::max(length, best_length(w, dw));
     for (size_t k = 0; k < m; ++k) w[k] += length * dw[k];
-    if (decrement < 1e-16) break;
+    if (decrement < 1e-12) break;
   }
   for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k];
-  const double mean = mean_size(f);
+  double mean = mean_size(f);
   for (double &v : f) v /= mean;
-  solver.factorise(std::vector<double>(m, 1.0), 1e-12);
-  project_on_balance(rows, solver, f, cancel_point);
-  const double scale = mean_size(f);
-  if (*std::min_element(f.begin(), f.end()) <= zero_force * scale) return;  // the certified forces stay
-  size_t at = 0;
-  for (size_t k = 0; k < out.carrying.size(); ++k)
-    if (out.carrying[k]) out.force[k] = f[at++] / scale;
+  project_on_balance(rows, unit, f, cancel_point);
+  mean = mean_size(f);
+  for (double &v : f) v /= mean;
+  if (*std::min_element(f.begin(), f.end()) <= zero_force) f.clear();
+  return f;
 }
 
 }  // namespace
@@ -270,22 +296,45 @@ void centre(const RigidityMatrix &all, bool strain, const CentralPath &path, Str
 StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states,
                             const CancellationPoint &cancel_point) {
   if (states == 0 || states == 1) return of_one_state(rows, solver, states, cancel_point);
-  constexpr double first_guess = 1e-2, least_delta = 1e-7;
-  constexpr int most_steps = 60;
-  CentralPath path(rows, cancel_point);
+  constexpr double first_guess = 1e-2, least_mu = 1e-12;
+  constexpr int most_path_steps = 60;
+  const size_t m = rows.rows();
   StressCone out;
+  // Equal forces, balanced: where none of them pulls, every contact carries.
+  std::vector<double> equal(m, 1.0);
+  project_on_balance(rows, solver, equal, cancel_point);
+  const double mean = mean_size(equal);
+  if (mean > sure_force && *std::min_element(equal.begin(), equal.end()) > sure_force * mean) {
+    out.decided = true, out.carrying.assign(m, 1), out.force = equal;
+    for (double &v : out.force) v /= mean;
+    const std::vector<double> f =
+        centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations, cancel_point);
+    if (!f.empty()) out.force = f;
+    return out;
+  }
+  CentralPath path(rows, cancel_point);
   double next = first_guess;
   bool going = true;
-  while (going && path.steps() < most_steps && path.delta() > least_delta) {
+  while (going && !out.decided && path.steps() < most_path_steps && path.mu() > least_mu) {
     going = path.step();
-    if (path.delta() > next) continue;
-    next = 0.1 * path.delta();
+    if (path.mu() > next) continue;
+    next = 0.1 * path.mu();
     for (const std::vector<char> &guess : guess_support(path))
       if (!out.decided) out.decided = certify_support(rows, solver, path, guess, out, cancel_point);
-    if (out.decided) break;
   }
   out.factorisations += path.steps();
-  if (out.decided) centre(rows.g, rows.strains > 0, path, out, cancel_point);
+  if (!out.decided || std::count(out.carrying.begin(), out.carrying.end(), 1) == 0) return out;
+  const RigidityMatrix sub = subset(rows.g, out.carrying);
+  const ConstraintRows kept(sub, rows.strains > 0);
+  NormalSolver unit(kept);
+  unit.factorise(std::vector<double>(kept.rows(), 1.0), solver.shift());
+  ++out.factorisations;
+  std::vector<double> w;
+  for (size_t k = 0; k < m; ++k)
+    if (out.carrying[k]) w.push_back(path.w()[k] / path.mu());
+  const std::vector<double> f = centre(kept, unit, std::move(w), false, out.factorisations, cancel_point);
+  for (size_t k = 0, at = 0; k < m && !f.empty(); ++k)
+    if (out.carrying[k]) out.force[k] = f[at++];
   return out;
 }
 

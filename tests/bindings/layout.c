@@ -114,7 +114,7 @@ CHECK(jam_crunch_options, neighbour_radius, 48, 8);
 CHECK(jam_crunch_options, step_bound, 56, 8);
 CHECK(jam_crunch_options, wall_time, 64, 8);
 CHECK(jam_crunch_options, steps, 72, 4);
-CHECK(jam_crunch_options, reserved, 76, 4);
+CHECK(jam_crunch_options, full_lps, 76, 4);
 CHECK_SIZE(jam_crunch_report, 216);
 CHECK(jam_crunch_report, struct_size, 0, 4);
 CHECK(jam_crunch_report, jammed, 4, 4);
@@ -328,7 +328,7 @@ int main(void) {
   SHOW(jam_crunch_options, step_bound);
   SHOW(jam_crunch_options, wall_time);
   SHOW(jam_crunch_options, steps);
-  SHOW(jam_crunch_options, reserved);
+  SHOW(jam_crunch_options, full_lps);
   printf("jam_crunch_report sizeof %zu\n", sizeof(jam_crunch_report));
   SHOW(jam_crunch_report, struct_size);
   SHOW(jam_crunch_report, jammed);

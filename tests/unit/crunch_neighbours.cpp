@@ -1,5 +1,4 @@
-// What the path lists: longer reaches for spheres that find no cage within the common one, and paths of mixtures that
-// arrive by them.
+// The pairs that the barrier path lists: longer reaches for uncovered spheres, and paths of mixtures that need them.
 #include <cmath>
 #include "test.h"
 
@@ -11,9 +10,9 @@ using namespace jam;
 
 namespace {
 
-// A small sphere in the hole between 2^d large ones, none within reach: all are listed, or off the middle those that
-// wall it on every side. The large ones have their cage and get no pairs but those.
-void a_hole_is_a_cage(void **) {
+// A small sphere lies in the hole between 2^d large ones, none within reach. All of them are listed, or off the middle
+// those that cover it in every direction. The large spheres are covered and get no other pairs.
+void holes_are_covered(void **) {
   for (int dim = 2; dim <= 4; ++dim)
     for (const double off : {0.0, 0.05}) {
       Packing p;
@@ -40,9 +39,8 @@ void a_hole_is_a_cage(void **) {
     }
 }
 
-// Spheres with nothing around them keep an empty list; a reach of nothing grows too, and one beyond the farthest stays
-// as it is.
-void no_cage_to_find(void **) {
+// Spheres with nothing around them keep an empty list. A reach of zero grows too; one beyond the farthest stays.
+void nothing_within_reach(void **) {
   Packing p;
   p.dim = 3, p.box = 40.0, p.position = {1.0, 1.0, 1.0, 20.0, 20.0, 20.0}, p.diameter = {1.0, 1.0},
   p.velocity.assign(6, 0.0);
@@ -51,9 +49,8 @@ void no_cage_to_find(void **) {
   for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(select_neighbours(p, reach).size(), 1);
 }
 
-// In random packings: nothing is lost, what is added is of spheres that were free and within their reach, and where
-// none is free nothing is added.
-void nothing_else_is_listed(void **) {
+// In random packings no pair is lost. Added pairs belong to uncovered spheres; where all are covered none is added.
+void only_uncovered_spheres_get_more(void **) {
   for (const double ratio : {1.0, 4.0}) {
     jam_create_options o = default_create_options();
     o.n = 200, o.packing_fraction = 0.3, o.seed = 3;
@@ -80,8 +77,8 @@ void nothing_else_is_listed(void **) {
   }
 }
 
-// Disks of two sizes, 1 : 10, and spheres, 1 : 4: with rows that change as small ones cross their holes the path gave
-// up at a gap of 2e-4 after 600 factorisations.
+// Disks of sizes 1 : 10 and spheres of 1 : 4. With the plain reach the path ends at a gap of 2e-4 after 600
+// factorisations: rows change as small spheres cross their holes.
 void mixtures_arrive(void **) {
   for (const int dim : {2, 3})
     for (int seed = 1; seed <= 4; ++seed) {
@@ -94,14 +91,14 @@ void mixtures_arrive(void **) {
       Monitor monitor;
       monitor.begin();
       const BarrierPathResult end = follow_barrier_path(p, BarrierPathControl(), system, monitor);
-      assert_true(end.reached && end.gap <= BarrierPathControl().target && closest_pair(p).gap > 0.0);
+      assert_true(end.reached && end.gap <= Tuning().target_gap && closest_pair(p).gap > 0.0);
     }
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(a_hole_is_a_cage), cmocka_unit_test(no_cage_to_find),
-                              cmocka_unit_test(nothing_else_is_listed), cmocka_unit_test(mixtures_arrive)};
+  const CMUnitTest tests[] = {cmocka_unit_test(holes_are_covered), cmocka_unit_test(nothing_within_reach),
+                              cmocka_unit_test(only_uncovered_spheres_get_more), cmocka_unit_test(mixtures_arrive)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

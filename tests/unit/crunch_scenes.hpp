@@ -21,11 +21,11 @@ inline Packing start(int n, int dim, double phi, int64_t seed) {
   return make_packing(o, nullptr, 0, nullptr, 0);
 }
 
-inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchSeams *seams = nullptr,
+inline CrunchResult run(const Packing &p, const jam_crunch_options &o, const CrunchHooks *hooks = nullptr,
                         History *history = nullptr) {
   Monitor monitor;
   monitor.begin();
-  return crunch(p, o, monitor, history, seams);
+  return crunch(p, o, monitor, history, hooks);
 }
 
 // Near enough to jamming that the path begins where it does in a crunch.

@@ -70,7 +70,7 @@ void path_from_low_density(void **) {
   for (const Case &c : dilute) {
     Packing p = start(c.n, c.dim, c.phi, c.ratio);
     BarrierPathControl control;
-    control.max_factorisations = 150;
+    control.tuning.max_path_factorisations = 150, control.tuning.max_increases = 16;
     int steps = 0;
     double worst = 1.0;
     control.on_step = [&](double, size_t) {
@@ -89,7 +89,7 @@ void path_from_low_density(void **) {
 }
 
 // The chain, stopped after each of its first LPs, which take the longest steps.
-void chain_from_low_density(void **) {
+void sequential_lp_from_low_density(void **) {
   for (const Case &c : dilute) {
     const Packing p = start(c.n, c.dim, c.phi, c.ratio);
     jam_crunch_options o = default_crunch_options();
@@ -129,7 +129,7 @@ void careless_options(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(unlisted_pair), cmocka_unit_test(pair_through_the_wall),
-                              cmocka_unit_test(path_from_low_density), cmocka_unit_test(chain_from_low_density),
+                              cmocka_unit_test(path_from_low_density), cmocka_unit_test(sequential_lp_from_low_density),
                               cmocka_unit_test(careless_options)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

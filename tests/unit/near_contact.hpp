@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crunch/polish.hpp"
 #include "crunch_scenes.hpp"
 
 namespace jam {
@@ -45,7 +46,7 @@ inline double bring_together(Packing &p, ContactNetwork &net, PairList &pair, in
   NewtonSystem system;
   for (int k = 0; k < 60 && std::fabs(last - wanted) > 1e-3 * wanted; ++k) {
     resize(p, net, sphere, change);
-    if (polish(p, net, system, 1) != PolishEnd::done) return 0.0;
+    if (polish(p, net, system, 1, Tuning()) != PolishEnd::done) return 0.0;
     const double now = relative_gap(p, pair);
     rate = (now - last) / change;
     pair = nearest_other(p, net);  // another may have become the nearest

@@ -553,7 +553,8 @@ OPTIONS = {
         "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)'),
         "step_bound": ("float", 'bound on each |s_i| component; 0, the default: adapts (sbound, in radii)'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
-        "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*; every LP is then solved in full. 0, the default'),
+        "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*. 0, the default'),
+        "full_lps": ("int", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
     },
     "jam_hessian_options": {
         "stiffness": ("Stiffness", 'jam_stiffness, default HARMONIC'),

@@ -1,4 +1,4 @@
-#include "crunch/crossover.hpp"
+#include "crunch/exact_vertex.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,11 +12,9 @@
 namespace jam {
 namespace {
 
-// Contacts with less than `weak` of the mean force and gaps below `narrow` are undecided, and `choice` more than must
-// be open; `batch` of those that pull join at a time; of more than `most` the interior point was not at its end.
-constexpr double weak = 1e-3, narrow = 2e-6;
-constexpr size_t most = 800, choice = 16, batch = 64;
-constexpr int most_rounds = 30;
+// Undecided at first: at least this many more than must be open. Later so many of those that pull join at a time.
+constexpr size_t least_choice = 16, batch = 64;
+constexpr int max_rounds = 30;
 
 // Translations are fixed by one sphere, rattlers by themselves: neither costs accuracy.
 std::vector<double> pins(const ContactNetwork &net, int dim) {
@@ -30,19 +28,20 @@ std::vector<double> pins(const ContactNetwork &net, int dim) {
   return diagonal;
 }
 
-// Undecided rows u change by o >= -h; the others stay. Both are rows of one motion where the change is in the range of
-// all rows, of projector P: (1 - P) (0, o) = 0. On u alone that is (1 - G) o = 0 with G = P_uu, of rank `spare`: as
-// many as there are states of self-stress without pressure. The gain is gamma . o.
+// The gaps of the undecided rows u change by o >= -h; all other gaps stay. A motion does both when (0, o) lies in the
+// range of all rows. With P the projector on that range, this is (1 - G) o = 0 with G = P_uu. The rank of 1 - G is the
+// number of redundant states: states of self-stress without pressure. The gain is gamma . o.
 class SmallLp {
  public:
-  SmallLp(const Packing &p, const ContactNetwork &all, NewtonSystem &system, Monitor *monitor)
+  SmallLp(const Packing &p, const ContactNetwork &all, NewtonSystem &system, const Tuning &tuning, Monitor *monitor)
       : all_(all),
+        t_(tuning),
         dim_(p.dim),
         monitor_(monitor),
         a_(relative_rows(p, all)),
         pins_(pins(all, p.dim)),
         rows_(all.pairs, p.dim, a_, pins_, system),
-        spare_(static_cast<size_t>(excess_contacts(all, p.dim))),
+        redundant_(static_cast<size_t>(excess_contacts(all, p.dim))),
         sigma_(all.size()),
         undecided_(all.size(), 0),
         wanted_(all.size()) {
@@ -56,8 +55,8 @@ class SmallLp {
     for (size_t k = 0; k < all_.size(); ++k) balanced_[k] = all_.force[k] * sigma_[k];
     rows_.balance(balanced_);
     y_ = balanced_;
-    if (spare_ == 0) return none_pulls() && finish(out);  // what was missing is there now
-    for (int round = 0; round < most_rounds; ++round) {
+    if (redundant_ == 0) return none_pulls() && finish(out);  // what was missing is there now
+    for (int round = 0; round < max_rounds; ++round) {
       if (round > 0 && none_pulls()) return finish(out);
       if (!admit() || !vertex()) return false;
       forces();
@@ -79,19 +78,19 @@ class SmallLp {
     std::vector<double> sorted;
     for (size_t k = 0; k < y_.size(); ++k)
       if (!undecided_[k] && (first || y_[k] < 0.0)) sorted.push_back(y_[k]);
-    if (sorted.empty()) return spare_ <= u_.size();
-    const auto last =
-        sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first ? spare_ + choice : batch, sorted.size()) - 1);
+    if (sorted.empty()) return redundant_ <= u_.size();
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(
+                                           std::min(first ? redundant_ + least_choice : batch, sorted.size()) - 1);
     std::nth_element(sorted.begin(), last, sorted.end());
-    const double limit = first ? std::max(weak, *last) : *last;
+    const double limit = first ? std::max(t_.weak_force, *last) : *last;
     for (size_t k = 0; k < y_.size(); ++k)
       if (!undecided_[k] && y_[k] <= limit && !take(k)) return false;
-    return spare_ <= u_.size();
+    return redundant_ <= u_.size();
   }
 
   // Its column: what opening it alone by one does to the rows that are undecided, and to the diameters.
   bool take(size_t k) {
-    if (u_.size() == most || (monitor_ && monitor_->interrupted())) return false;
+    if (u_.size() == t_.max_undecided || (monitor_ && monitor_->interrupted())) return false;
     undecided_[k] = 1;
     u_.push_back(k);
     std::fill(wanted_.begin(), wanted_.end(), 0.0);
@@ -103,28 +102,30 @@ class SmallLp {
     return std::isfinite(gamma_.back());
   }
 
-  // In x = (o + h) / narrow >= 0 and the eigenvectors of 1 - G that are not of eigenvalue 0.
+  // In x = (o + h) / t_.near_gap >= 0 and the eigenvectors of 1 - G that are not of eigenvalue 0.
   bool vertex() {
     const size_t n = u_.size();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rest_);
-    const Eigen::MatrixXd v = eigen.eigenvectors().rightCols(spare_);
+    const Eigen::MatrixXd v = eigen.eigenvectors().rightCols(redundant_);
     Eigen::VectorXd h(n);
-    std::vector<double> cost(n), rows(spare_ * n);
+    std::vector<double> cost(n), rows(redundant_ * n);
     const double largest = std::abs(
         *std::max_element(gamma_.begin(), gamma_.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
-    for (size_t q = 0; q < n; ++q) h[q] = all_.gap[u_[q]] / narrow, cost[q] = -gamma_[q] / largest;
-    for (size_t r = 0; r < spare_; ++r)
+    for (size_t q = 0; q < n; ++q) h[q] = all_.gap[u_[q]] / t_.near_gap, cost[q] = -gamma_[q] / largest;
+    for (size_t r = 0; r < redundant_; ++r)
       for (size_t q = 0; q < n; ++q) rows[r * n + q] = v(q, r);
     const Eigen::VectorXd rhs = v.transpose() * h;
     x_ = solve_small_lp(cost, rows, std::vector<double>(rhs.data(), rhs.data() + rhs.size()));
     if (monitor_) {
       const auto pull = std::count_if(y_.begin(), y_.end(), [](double y) { return y < 0.0; });
-      const double zero = n > spare_ ? eigen.eigenvalues()[n - spare_ - 1] : 0.0,
-                   least = eigen.eigenvalues()[n - spare_];
-      monitor_->log(JAM_LOG_DEBUG, "crossover: %td pull, %zu undecided, %zu spare, eigenvalues %.1e | %.1e, %s", pull,
-                    n, spare_, zero, least, x_.empty() ? "no vertex" : "vertex");
+      const double zero = n > redundant_ ? eigen.eigenvalues()[n - redundant_ - 1] : 0.0,
+                   least = eigen.eigenvalues()[n - redundant_];
+      monitor_->log(JAM_LOG_DEBUG, "exact vertex: %td pull, %zu undecided, %zu redundant, eigenvalues %.1e | %.1e, %s",
+                    pull, n, redundant_, zero, least, x_.empty() ? "no vertex" : "vertex");
     }
-    return !x_.empty();
+    // With flexes the excess of contacts is not the number of redundant states: no vertex then.
+    const bool rank = eigen.eigenvalues()[n - redundant_] > 1e-9;
+    return rank && !x_.empty();
   }
 
   // The state of self-stress with nothing on the open ones: balanced_ plus states without pressure, (1 - P) of forces c
@@ -154,7 +155,7 @@ class SmallLp {
     std::vector<char> on(all_.size(), 1);
     std::fill(wanted_.begin(), wanted_.end(), 0.0);
     for (size_t q = 0; q < u_.size(); ++q) {
-      wanted_[u_[q]] = x_[q] * narrow - all_.gap[u_[q]];
+      wanted_[u_[q]] = x_[q] * t_.near_gap - all_.gap[u_[q]];
       on[u_[q]] = !(x_[q] > 0.0);
     }
     out.step = rows_.towards(wanted_, got_);
@@ -173,11 +174,12 @@ class SmallLp {
   }
 
   const ContactNetwork &all_;
+  const Tuning &t_;
   const int dim_;
   Monitor *monitor_;
   const std::vector<double> a_, pins_;
   GapRows rows_;
-  const size_t spare_;
+  const size_t redundant_;
   std::vector<double> sigma_;  // mean of the two diameters, in mean diameters
   std::vector<char> undecided_;
   std::vector<size_t> u_;  // the undecided, in the order of their coming
@@ -187,14 +189,14 @@ class SmallLp {
 
 }  // namespace
 
-bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, Monitor *monitor,
-                 Vertex &out) {
-  const ContactNetwork all = with_near_pairs(p, net, narrow);
-  const int64_t spare = excess_contacts(all, p.dim);
-  const bool undecided = spare > 0 || (spare == 0 && net.size() < all.size());
-  if (all.size() == 0 || !undecided || spare > static_cast<int64_t>(most)) return false;
+bool find_vertex(const Packing &p, const ContactNetwork &net, NewtonSystem &system, int threads, const Tuning &tuning,
+                 Monitor *monitor, Vertex &out) {
+  const ContactNetwork all = with_near_pairs(p, net, tuning.near_gap);
+  const int64_t redundant = excess_contacts(all, p.dim);
+  const bool undecided = redundant > 0 || (redundant == 0 && net.size() < all.size());
+  if (all.size() == 0 || !undecided || redundant > static_cast<int64_t>(tuning.max_undecided)) return false;
   system.set_graph(p.dim, static_cast<int32_t>(p.n()), all.pairs, threads);
-  return SmallLp(p, all, system, monitor).solve(out);
+  return SmallLp(p, all, system, tuning, monitor).solve(out);
 }
 
 }  // namespace jam

@@ -1,0 +1,89 @@
+// Which rows of an LP carry force, and which spheres they touch.
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair_rule.hpp"
+#include "crunch/state.hpp"
+#include "network/rattlers.hpp"
+
+namespace jam {
+namespace {
+
+// A slack far below the narrowest gap of spheres that do not touch, above what an LP leaves open of a contact.
+constexpr double closed_slack = 1e-11;
+
+}  // namespace
+
+// At a strictly complementary optimum a row has either force or slack. Both are compared in their own units: y times
+// d n, about the number of carrying rows, is a force over the mean force; w is twice a relative gap. A solver that
+// ends at a vertex may leave a closed row without force: no slack counts as well.
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &x) {
+  std::vector<char> on(lp.rows());
+  const double carrying = static_cast<double>(lp.dim) * static_cast<double>(lp.n);
+  for (size_t k = 0; k < on.size(); ++k) on[k] = x.y[k] * carrying > std::max(x.w[k], 1e-9) || x.w[k] < closed_slack;
+  return on;
+}
+
+ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x) {
+  const PairList &pairs = *lp.pairs;
+  std::vector<char> on = force_carrying(lp, x);
+  std::vector<double> normal(lp.a);
+  for (size_t k = 0; k < on.size(); ++k) {
+    on[k] = on[k] && pairs.i[k] != pairs.j[k];
+    double a2 = 0.0;
+    for (int c = 0; c < lp.dim; ++c) a2 += normal[k * lp.dim + c] * normal[k * lp.dim + c];
+    for (int c = 0; c < lp.dim && a2 > 0.0; ++c) normal[k * lp.dim + c] /= std::sqrt(a2);
+  }
+  drop_unbalanced(lp.dim, static_cast<size_t>(lp.n), pairs.i, pairs.j, normal, on);
+  ActiveSet active;
+  active.coordination.assign(lp.n, 0);
+  for (size_t k = 0; k < on.size(); ++k)
+    if (on[k]) active.rows.push_back(k), ++active.coordination[pairs.i[k]], ++active.coordination[pairs.j[k]];
+  active.stable =
+      std::count_if(active.coordination.begin(), active.coordination.end(), [](int32_t z) { return z > 0; });
+  return active;
+}
+
+double largest_step(const LpSolution &x, const ActiveSet &active, int dim) {
+  std::vector<double> mean(dim, 0.0);
+  const bool any = active.stable > 0;
+  const size_t n = active.coordination.size();
+  for (size_t i = 0; i < n && any; ++i)
+    for (int c = 0; c < dim && active.coordination[i] > 0; ++c)
+      mean[c] += x.s[i * dim + c] / static_cast<double>(active.stable);
+  double largest = 0.0;
+  for (size_t i = 0; i < n; ++i) {
+    if (any && active.coordination[i] == 0) continue;
+    double s2 = 0.0;
+    for (int c = 0; c < dim; ++c) s2 += (x.s[i * dim + c] - mean[c]) * (x.s[i * dim + c] - mean[c]);
+    largest = std::max(largest, s2);
+  }
+  return std::sqrt(largest);
+}
+
+int64_t excess_of(const ActiveSet &active, int dim) {
+  return static_cast<int64_t>(active.rows.size()) - (active.stable > 0 ? dim * (active.stable - 1) + 1 : 0);
+}
+
+ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &x, const ActiveSet &active) {
+  ContactNetwork out;
+  const int d = p.dim;
+  out.coordination = active.coordination;
+  double r[JAM_MAX_DIM], sum = 0.0;
+  for (const size_t k : active.rows) {
+    const int32_t i = pairs.i[k], j = pairs.j[k];
+    out.pairs.i.push_back(i);
+    out.pairs.j.push_back(j);
+    out.pairs.offset.insert(out.pairs.offset.end(), &pairs.offset[k * d], &pairs.offset[k * d] + d);
+    const double length = std::sqrt(pair_vector(p, pairs, k, r)), sigma = contact_distance(p, i, j);
+    for (int c = 0; c < d; ++c) out.vector.push_back(r[c] / length);
+    out.gap.push_back(length / sigma - 1.0);
+    out.force.push_back(x.y[k] / (sigma * sigma) * length);
+    sum += out.force.back();
+  }
+  out.force_scale = out.size() ? sum / static_cast<double>(out.size()) : 0.0;
+  for (double &f : out.force) f /= out.force_scale;
+  return out;
+}
+
+}  // namespace jam

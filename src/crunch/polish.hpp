@@ -1,0 +1,20 @@
+// The last digits: contacts closed by Newton steps on the positions and one common diameter factor, forces projected on
+// the null space of S^T.
+#pragma once
+#include "core/monitor.hpp"
+#include "core/packing.hpp"
+#include "crunch/tuning.hpp"
+#include "lp/newton_system.hpp"
+#include "network/contact_network.hpp"
+
+namespace jam {
+
+enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, negative_force, overlap };
+
+// Changes p and contacts only when it returns done: all contacts closed to rounding, no overlap, and forces that push
+// where they are unique (one state of self-stress). Where the contacts do not close together, balance or push, it looks
+// for the exact vertex (exact_vertex.hpp). The graph of `system` is replaced.
+PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, const Tuning &tuning,
+                 Monitor *monitor = nullptr);
+
+}  // namespace jam

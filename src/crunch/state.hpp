@@ -1,0 +1,76 @@
+// What the phases of a crunch hand to each other.
+#pragma once
+#include <vector>
+
+#include "crunch/crunch.hpp"
+#include "crunch/tuning.hpp"
+#include "lp/newton_system.hpp"
+#include "lp/packing_lp.hpp"
+
+namespace jam {
+
+// approach: sequential LPs. barrier_path: Newton steps on the true gaps. identify: contacts, last digits, verdict.
+enum class Phase { approach, barrier_path, identify, done };
+
+// Rows of an LP that carry force, and the spheres that they touch.
+struct ActiveSet {
+  std::vector<size_t> rows;           // indices into the LP's pairs, ascending
+  std::vector<int32_t> coordination;  // n
+  int64_t stable = 0;                 // spheres with a force
+};
+// One flag a row: it carries force.
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer);
+ActiveSet find_active_set(const PackingLp &lp, const LpSolution &answer);
+// Largest |s| over spheres with a force, their mean taken out; over all spheres if no sphere has one.
+double largest_step(const LpSolution &answer, const ActiveSet &active, int dim);
+// Contacts above those of one state of self-stress.
+int64_t excess_of(const ActiveSet &active, int dim);
+// The active rows as contacts of p: unit vectors, gaps, forces from the multipliers.
+ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer,
+                             const ActiveSet &active);
+
+struct CrunchState {
+  CrunchState(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History &history,
+              const CrunchHooks &hooks);
+
+  void stop(jam_stop_reason reason, jam_status status) { out.report.stop_reason = reason, out.status = status; }
+  // True where the call was cancelled or its time is over; the stop reason then says which.
+  bool interrupted();
+  // Calls the progress callback at once; with `finished` it may ask for the details of the last step. True: stop.
+  bool show(jam_phase phase, double gain, double step, bool finished = true);
+
+  const jam_crunch_options o;
+  const Tuning tuning;
+  Monitor &monitor;
+  History &history;
+  const CrunchHooks &hooks;
+  CrunchResult out;
+  NewtonSystem system;
+  // the last LP
+  PairList pairs;
+  PackingLp lp;
+  LpSolution answer;
+  ActiveSet active;
+  bool early = false;       // it ended before its optimum: its duality gap leaves room for a gain
+  int64_t at_bound = 0;     // displacements that its bound ended
+  Multipliers multipliers;  // of the last LP or path
+  double bound = 0.0;       // of the next LP
+  double last_gain = 1.0;
+  double moved = 1.0;  // longest step since `multipliers`; 0 after a path that reached its end
+  int stalled = 0, paths = 0, kicks = 0;
+  bool polished = false;  // the last polish closed its contacts
+  bool jammed = false;    // by the test of the final network
+};
+
+// approach.cpp. Each phase function returns the phase that follows.
+Phase approach(CrunchState &s);
+double first_bound(const CrunchState &s);
+// path_phase.cpp
+Phase follow_path(CrunchState &s);
+bool path_is_shorter(const CrunchState &s, double gain, double step);
+// identify.cpp
+Phase identify(CrunchState &s);
+void finish(CrunchState &s);
+void finish_failed(CrunchState &s);
+
+}  // namespace jam

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Where crunch jams, where it stops and why: start density x method x dimension, and size ratio x number of spheres.
+"""Where crunch jams, where it stops and why: start density x method x dimension, size ratio x number of spheres, crystals.
 
 usage: failure_map.py [--out MAP.json] [--picture MAP.png] [--seeds 2] [--limit SECONDS] [--scale 1] [--only-draw]
 
-Every result is checked here from positions, diameters and contacts alone, over all images. "wrong" is a packing with an
-overlap, or one called jammed that is not; it must not come up: then the exit status is 1. Set PYTHONPATH to the built module.
+Every result is checked here from positions, diameters and contacts alone, over all images. An independent linear program
+(HiGHS of scipy) looks for a motion of each packing that is called jammed. "wrong" is a packing with an overlap, or one called
+jammed that is not; it must not come up: then the exit status is 1. Set PYTHONPATH to the built module.
 """
 import argparse
 import itertools
@@ -41,6 +42,29 @@ def overlap(x, sizes, box):
     return worst
 
 
+def moves(n, d, pairs, normals):
+    """Whether a motion opens contacts of the force-carrying spheres and closes none: the test of collective jamming."""
+    from scipy.optimize import linprog
+    from scipy.sparse import coo_matrix
+
+    carrying = np.unique(pairs)
+    index = np.full(n, -1)
+    index[carrying] = np.arange(len(carrying))
+    k = np.repeat(np.arange(len(pairs)), d)
+    columns = [(index[pairs[:, e]][:, None] * d + np.arange(d)).ravel() for e in (0, 1)]
+    s = coo_matrix(
+        (np.concatenate([normals.ravel(), -normals.ravel()]), (np.concatenate([k, k]), np.concatenate(columns))),
+        shape=(len(pairs), d * len(carrying)),
+    ).tocsr()
+    rng = np.random.default_rng(1)
+    for direction in (np.asarray(s.sum(axis=0)).ravel(), rng.standard_normal(s.shape[1])):
+        found = linprog(-direction, A_ub=-s, b_ub=np.zeros(len(pairs)), bounds=(-1, 1), method="highs")
+        v = found.x.reshape(-1, d)
+        if abs(v - v.mean(axis=0)).max() > 1e-6:
+            return True
+    return False
+
+
 def verdict(system, report):
     """Kind and reason of a result, by what can be recomputed from it."""
     x, sizes = np.array(system.positions), np.array(system.diameters)
@@ -66,6 +90,8 @@ def verdict(system, report):
     excess = len(c) - (d * (stable - 1) + 1)
     if excess < 0 or excess != report.excess_contacts:
         return "wrong", "count of contacts"
+    if moves(n, d, np.array(c.pairs), np.array(c.vectors)):
+        return "wrong", "a motion is left"
     return ("jammed 1SS", "") if excess == 0 else ("jammed hyperstatic", f"+{excess}")
 
 
@@ -107,8 +133,55 @@ def run(dim, n, sizes, start, method, seed, limit):
     return row
 
 
+def lattice(name):
+    """Positions in the unit cube and the diameter at contact of a named lattice."""
+    kind, cells = name.split()[0], int(name.split()[1].split("^")[0])
+    basis = {
+        "square": [(0, 0)],
+        "cubic": [(0, 0, 0)],
+        "FCC": [(0, 0, 0), (0, 0.5, 0.5), (0.5, 0, 0.5), (0.5, 0.5, 0)],
+    }[kind]
+    d = len(basis[0])
+    grid = np.stack(np.meshgrid(*[np.arange(cells)] * d, indexing="ij"), -1).reshape(-1, 1, d)
+    x = ((grid + np.array(basis)) / cells).reshape(-1, d)
+    return x, (np.sqrt(0.5) if kind == "FCC" else 1.0) / cells
+
+
+def crystal(name, seed, limit):
+    """Lattices at contact, with vacancies; disks that order while they grow."""
+    import jam
+
+    began = time.process_time()
+    if name.split()[0] in ("square", "cubic", "FCC"):
+        x, sigma = lattice(name)
+        vacancies = int(name.split(", ")[1].split()[0]) if "," in name else 0
+        keep = np.random.default_rng(seed).permutation(len(x))[vacancies:]
+        s = jam.System.from_arrays(x[np.sort(keep)], diameters=np.full(len(keep), sigma), box=1.0)
+    else:
+        n, spread = int(name.split()[1].strip(",")), float(name.split(", ")[1]) if "," in name else 0.0
+        sizes = np.exp(spread * np.random.default_rng(seed).standard_normal(n))
+        s = jam.System.random(n, 2, seed, packing_fraction=0.3, diameters=sizes)
+        s.compress([(1e-2, 500.0)], wall_time=limit)
+    report = s.crunch(wall_time=limit)
+    row = dict(zip(("kind", "reason"), verdict(s, report)))
+    row.update(phi=report.packing_fraction, excess=report.excess_contacts, factorisations=report.factorisations)
+    return dict(row, lps=report.lp_solves, cpu=round(time.process_time() - began, 3))
+
+
+def crystals(args):
+    names = ["square 6^2", "cubic 4^3", "FCC 3^3", "FCC 3^3, 1 vacancy", "FCC 3^3, 8 vacancies"]
+    names += [f"disks {n}" for n in (100, 300, 1000)] + ["disks 300, 1e-3", "disks 300, 1e-2"]
+    for name, seed in itertools.product(names, range(1, 5 * args.seeds + 1)):
+        if name == "disks 1000" and args.scale < 1:
+            continue
+        row = dict(map="crystals", dim=3 if name[0] in "cF" else 2, line=name, start=f"seed {seed}", seed=seed)
+        row.update(crystal(name, seed, args.limit))
+        print(row, file=sys.stderr, flush=True)
+        yield row
+
+
 def study(args):
-    rows = []
+    rows = list(crystals(args))
     starts = [("phi", f) for f in (0.05, 0.2, 0.4, 0.6, 0.8, 0.95)] + [("p", p) for p in (1e1, 1e3, 1e6, 1e9, 1e12)]
     sizes = {2: (128, 1.4), 3: (128, 1.0), 4: (96, 1.0), 5: (64, 1.0)}
     for dim, method, start, seed in itertools.product(
@@ -138,7 +211,7 @@ def draw(data, picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(2, 1, figsize=(10.5, 9), height_ratios=(8, 7))
+    figure, axes = plt.subplots(3, 1, figsize=(10.5, 14), height_ratios=(8, 7, 9))
     maps = (
         (
             "density",
@@ -150,6 +223,11 @@ def draw(data, picture):
             lambda r: (r["sizes"], f"d = {r['dim']}, N = {r['n']}"),
             "diameters half and half or log-normal (deviation over mean), random start at 0.3 of the jammed density; +k: contacts beyond one state of self-stress",
         ),
+        (
+            "crystals",
+            lambda r: (r["line"], r["start"]),
+            "lattices at contact with vacancies; disks grown to p = 500, equal or log-normal (deviation); +k: contacts beyond one state of self-stress",
+        ),
     )
     order = list(KINDS)
     for axis, (name, key, title) in zip(axes, maps):
@@ -157,7 +235,7 @@ def draw(data, picture):
         lines = list(dict.fromkeys(key(r)[0] for r in rows))
         columns = (
             list(dict.fromkeys(key(r)[1] for r in rows))
-            if name == "density"
+            if name != "sizes"
             else sorted({key(r)[1] for r in rows}, key=lambda c: (c[:5], int(c.split("N = ")[1])))
         )
         for a, line in enumerate(lines):
@@ -197,7 +275,7 @@ def draw(data, picture):
             rotation=12,
         )
         axis.set_yticklabels(lines, fontsize=8)
-        sizes = {r["dim"]: r["n"] for r in rows}
+        sizes = {r["dim"]: r["n"] for r in rows} if name == "density" else {}
         axis.set_title(
             (", ".join(f"N = {n} (d = {d})" for d, n in sizes.items()) + ":\n" if name == "density" else "") + title,
             fontsize=8,

@@ -10,8 +10,8 @@
 namespace jam {
 namespace {
 
-// Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: as it stands, and
-// with the spheres relaxing. The relaxed one is summed over what is left of each du, so nothing cancels.
+// Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: affine, and with
+// relaxed spheres. The relaxed one is summed over the residual of each du, so that no digits cancel.
 struct Strained {
   const RigidityMatrix &g;
   const ContactWeights &w;

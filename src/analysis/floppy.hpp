@@ -1,4 +1,4 @@
-// Floppy modes: what moves when one contact of a packing with a single state of self-stress opens.
+// Floppy modes: displacements when one contact opens, in a packing with a single state of self-stress.
 #pragma once
 #include <vector>
 #include "network/self_stress.hpp"
@@ -19,7 +19,7 @@ struct FloppyModes {
 // gamma = -f_l / sum f sigma. dr has no net translation and is given for s = 1.
 class FloppySolver {
  public:
-  // JAM_E_STATE unless there is exactly one state of self-stress and only translations cost nothing.
+  // JAM_E_STATE unless there is exactly one state of self-stress and translations are the only zero modes.
   FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
                const CancellationPoint &cancel_point = CancellationPoint());
   // dr (count, nodes, dim) of contacts first .. first + count - 1.

@@ -12,7 +12,7 @@
 namespace jam {
 namespace {
 
-// Whether pair k of `all` stands in the network; `at` walks along, both lists are sorted by (i, j).
+// Whether pair k of `all` is a contact. Both lists are sorted by (i, j); `at` advances through the network.
 bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNetwork &net, size_t &at) {
   const int32_t i = all.i[k], j = all.j[k];
   while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;

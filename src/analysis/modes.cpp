@@ -62,7 +62,7 @@ class Operator {
     apply_(work_.data(), y);
     project(y);
   }
-  std::vector<double> found;  // vectors to leave out, one after the other
+  std::vector<double> found;  // vectors to project out, one after the other
 
  private:
   void project(double *x) const {
@@ -111,8 +111,8 @@ void append(Operator &op, std::vector<double> &theta, const Found &f) {
   }
 }
 
-// A single Krylov sequence sees one vector of a degenerate eigenspace, more only by rounding. So the search is
-// repeated with what was found left out, until the best that remains is worse than all that are kept.
+// A Krylov sequence finds one vector of a degenerate eigenspace, and more only by rounding. So the search is repeated
+// with the found vectors projected out, until the best new one is worse than all that are kept.
 bool search(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, std::vector<double> &theta) {
   auto rank = [&](double t) { return rule == Spectra::SortRule::LargestMagn ? std::fabs(t) : t; };
   append(op, theta, lanczos(op, count, rule, tolerance, 300));
@@ -185,7 +185,7 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
   return JAM_OK;
 }
 
-// What dense work found, cut to what was asked: the d translations go first.
+// Reduces the dense spectrum to the modes asked for. The d translations are removed first.
 void select(const RigidityMatrix &g, const jam_modes_options &o, Modes &m) {
   const size_t n = g.unknowns();
   std::vector<size_t> keep;

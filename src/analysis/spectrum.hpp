@@ -1,4 +1,4 @@
-// What follows from a Hessian without its modes: density of states, elastic moduli. And comparing packings.
+// Density of states and elastic moduli from a Hessian without its modes; comparison of packings.
 #pragma once
 #include <vector>
 #include "network/self_stress.hpp"

@@ -1,4 +1,4 @@
-// A flat run of bytes that objects write themselves to and read themselves from by one and the same function:
+// A byte buffer for saved states. One function of an object both writes it and reads it:
 //   void archive(Archive &a) { a(x); a(list); }
 #pragma once
 #include <cstdint>
@@ -34,7 +34,7 @@ class Archive {
     }
     if (count) raw(v.data(), count * sizeof(T));
   }
-  // What is read may come from a damaged file: nothing of it is used unchecked.
+  // The bytes may come from a damaged file, so every length is checked before it is used.
   static void check(bool good) {
     if (!good) fail(JAM_E_FORMAT, "the stage kept in the checkpoint does not make sense");
   }

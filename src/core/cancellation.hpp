@@ -1,4 +1,4 @@
-// Progress and cancelling inside the analysis: a long loop asks now and then, and is left by an exception.
+// Progress and cancelling inside the analysis: long loops call a CancellationPoint, which throws Cancelled to stop.
 #pragma once
 #include <cmath>
 #include "core/monitor.hpp"

@@ -51,7 +51,7 @@ std::vector<double> take_diameters(size_t n, const double *diameters, size_t len
   return std::vector<double>(n, len == 1 ? diameters[0] : 1.0);
 }
 
-// Cells no smaller than the largest diameter, as linked lists: spheres come one by one.
+// Cells at least as wide as the largest diameter, as linked lists, since spheres are added one by one.
 class GrowingCells {
  public:
   GrowingCells(const Packing &p, double cutoff) : p_(p) {
@@ -68,7 +68,7 @@ class GrowingCells {
     next_[i] = head_[cell];
     head_[cell] = i;
   }
-  // True when sphere i at x would overlap one that is there (nearest images).
+  // True when sphere i at x would overlap a sphere that is already placed (nearest images).
   bool blocked(const double *x, int32_t i) const { return side_ == 1 ? in_cell(0, x, i) : visit(p_.dim - 1, 0, x, i); }
 
  private:
@@ -104,7 +104,7 @@ class GrowingCells {
   std::vector<int32_t> head_, next_;
 };
 
-// Factor by which all diameters must shrink before the spheres could fit at all, wherever they lie; 1 when they could.
+// An upper bound on the factor by which diameters must shrink to fit at any positions; 1 when they may fit already.
 // Without this test a search for the worst pair would list images without end. Conditions: no sphere is wider than the
 // box; no contact distance exceeds sqrt(d)/2 box, the largest distance of nearest images; the volume of the hard cores,
 // which are (1 + Delta) sigma when Delta < 0, is at most that of the box. Mari-Kurchan spheres share space: there is no
@@ -168,7 +168,7 @@ void place_at_random(Packing &p) {
   GrowingCells cells(p, contact_distance_max(p));
   Rng rng(p.seed, Stream::rsa_positions);
   double placed = 0.0;
-  const int64_t most_tries = 200000;  // a sphere: well below saturation one of some hundred points is free
+  const int64_t most_tries = 200000;  // for each sphere; well below saturation about one point in a hundred is free
   const int64_t most_total = 20000 * static_cast<int64_t>(n) + most_tries;
   int64_t total = 0;
   for (int32_t i : order) {

@@ -1,4 +1,4 @@
-// How a packing comes to be: checked arrays, or a random sequential start.
+// Makes a packing from checked arrays or by random sequential addition.
 #pragma once
 #include "core/packing.hpp"
 
@@ -14,10 +14,10 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
 // Throws JAM_E_OVERLAP naming the worst pair, or shrinks all diameters to contact, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
 // Random sequential addition, largest spheres first, at the diameters that p holds. JAM_E_UNPLACEABLE with
-// the fraction reached when one sphere finds no place in many tries.
+// the fraction reached when many tries find no place for one sphere.
 void place_at_random(Packing &p);
 // Mari-Kurchan start at equilibrium at any density (Krzakala and Zdeborova, J. Chem. Phys. 134, 034513 (2011)):
-// positions anywhere, then the shift of each pair again and again until it does not overlap.
+// uniform positions; then each pair draws its shift anew until it does not overlap.
 void plant(Packing &p);
 
 }  // namespace jam

@@ -7,8 +7,8 @@
 
 namespace jam {
 
-// Thrown anywhere below src/capi, turned into a status there. Holds its text inline so that
-// throwing never needs the heap beyond the exception object itself.
+// Any layer throws it; src/capi turns it into a status. The text is stored inline, so that throwing needs no memory
+// beyond the exception object.
 class Error : public std::exception {
  public:
   Error(jam_status code, const char *text) noexcept : code_(code) { std::snprintf(text_, sizeof text_, "%s", text); }

@@ -1,4 +1,4 @@
-// What a long call needs to stay in touch: cancel flag, time limit, progress and log callbacks, clocks.
+// Cancel flag, time limit, progress and log callbacks, and clock of a long call.
 #pragma once
 #include <atomic>
 #include <chrono>

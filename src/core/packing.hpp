@@ -39,7 +39,7 @@ double diameter_mean(const Packing &p);
 double diameter_max(const Packing &p);
 // Mass of each sphere, mean 1; empty when all are equal.
 std::vector<double> sphere_masses(const Packing &p);
-// Puts x into [0, box), also for values like -1e-20 that would round up to box.
+// Wraps x into [0, box). Also right for values like -1e-20, where x + box rounds to box.
 double wrap(double x, double box);
 
 }  // namespace jam

@@ -80,7 +80,7 @@ class ImageScan {
   std::vector<Candidate> *found_ = nullptr;
 };
 
-// Two spheres farther apart are no pair. `own`: NULL, or a reach for each sphere, of which `reach` is the longest.
+// Pairs farther apart are left out. `own`: NULL, or a reach for each sphere, of which `reach` is the longest.
 struct Cutoff {
   const Packing &p;
   double reach, slope;

@@ -7,8 +7,8 @@
 
 namespace jam {
 
-// Structure of arrays; r_ij = position_i - position_j + offset_ij. i < j, or i == j for an image of itself
-// (then r_ij = offset_ij whatever the sphere does). One pair of spheres can stand here several times, once an image.
+// Structure of arrays; r_ij = position_i - position_j + offset_ij. i < j, or i == j for a sphere and its own image
+// (then r_ij = offset_ij). Two spheres can be listed several times, once for each image.
 struct PairList {
   std::vector<int32_t> i, j;
   std::vector<double> offset;  // (count, dim)
@@ -24,14 +24,14 @@ struct PairList {
 // O(n) by cells when the box holds at least three of them, else all images by brute force. MK: brute force.
 // JAM_E_MEMORY-like failures surface as std::bad_alloc.
 PairList find_pairs(const Packing &p, double reach, double slope);
-// A reach for each sphere: of a pair the longer one counts.
+// The same with a reach for each sphere. A pair uses the longer one.
 PairList find_pairs(const Packing &p, const std::vector<double> &reach, double slope);
-// The same by looking at every pair and every image: the reference for tests.
+// The same by brute force over all pairs and images: the reference for tests.
 PairList find_pairs_brute(const Packing &p, double reach, double slope);
 PairList find_pairs_brute(const Packing &p, const std::vector<double> &reach, double slope);
 
-// Values of the pairs of one list for those of another; 0 for pairs that the first does not hold. Images of one pair
-// keep their order.
+// Carries values from one list to another: 0 for pairs that the first does not hold. Images of one pair keep their
+// order.
 std::vector<double> carry_over(const PairList &from, const std::vector<double> &values, const PairList &to);
 
 // Smallest h = |r_ij| / sigma_ij - 1 over all pairs and its pair; h = +inf with no pair closer than 2 sigma_max.

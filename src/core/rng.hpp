@@ -1,12 +1,12 @@
-// Counter-based random numbers: value = f(seed, stream, counter), so that streams are independent of
-// the order in which they are used and nothing but a counter need be saved.
+// Counter-based random numbers: value = f(seed, stream, counter). Streams do not depend on the order of their use, and
+// only the counter has to be saved.
 #pragma once
 #include <cmath>
 #include <cstdint>
 
 namespace jam {
 
-// Every use of randomness has its number here, once, for ever (a change would change packings).
+// Every use of randomness has its own number. Never change one: that would change packings.
 enum class Stream : uint64_t {
   rsa_positions = 1,
   velocities = 2,
@@ -29,7 +29,7 @@ class Rng {
   uint64_t bits() { return mix64(key_ ^ mix64(counter_++)); }
   // Uniform in [0, 1), 53 bits.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
-  // Standard normal by Box and Muller; one of the pair is thrown away so that no state but the counter exists.
+  // Standard normal by Box and Muller; the second of the pair is discarded, so that the counter is the only state.
   double normal() {
     const double u = 1.0 - uniform();
     const double v = uniform();

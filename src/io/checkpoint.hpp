@@ -6,7 +6,7 @@
 
 namespace jam {
 
-// stage: bytes of a stage that waits to go on, or nothing.
+// stage: bytes of a paused stage, or empty.
 void write_checkpoint(const Packing &p, const std::string &stage, const char *path);
 Packing read_checkpoint(const char *path, std::string &stage);
 

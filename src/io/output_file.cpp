@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t chunk = 1 << 16;
 
-// Where a chain of symbolic links ends, also when nothing is there yet; relative links count from their own folder.
+// The target of a sequence of symbolic links, which need not exist. Relative links start from their own folder.
 std::string follow_links(std::string path) {
   for (int depth = 0; depth < 40; ++depth) {
     char link[4096];
@@ -50,7 +50,7 @@ OutputFile::OutputFile(const char *path) : path_(path), target_(follow_links(pat
     if (fd_ < 0) fail_errno("open");
     return;
   }
-  // Renaming would get round a write protection that the user has set on purpose.
+  // Renaming would bypass a write protection that the user set.
   if (exists && ::access(path, W_OK) != 0) fail_errno("write");
   const long long stamp = static_cast<long long>(now_seconds() * 1e9);
   for (int attempt = 0; attempt < 100 && fd_ < 0; ++attempt) {

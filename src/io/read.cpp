@@ -146,7 +146,7 @@ Columns read_properties(const LineReader &in, std::string_view properties) {
   return columns;
 }
 
-// The cube's side from the 9 numbers of Lattice; in d = 2 the third vector says nothing.
+// The cube's side from the 9 numbers of Lattice; in d = 2 the third vector is ignored.
 double read_lattice(const LineReader &in, std::string_view lattice, int dim) {
   std::vector<std::string_view> words;
   split(lattice, words);

@@ -11,7 +11,7 @@
 namespace jam {
 namespace {
 constexpr size_t buffer_size = 1 << 16;
-constexpr size_t longest_line = 1 << 16;  // a binary file has no line ends: it must not be swallowed whole
+constexpr size_t longest_line = 1 << 16;  // a binary file has no line ends and must not be read whole
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 }  // namespace
 

@@ -16,7 +16,7 @@ class LineReader {
  public:
   explicit LineReader(const char *path);
   // The next line without its end (LF or CRLF) in `line`; false at the end of the file. A last line without an
-  // end is refused: a file cut inside its last number would else be read as a slightly different packing.
+  // end is refused: the file may be cut inside its last number.
   bool next(std::string_view &line);
   // As next, skipping blank lines.
   bool next_filled(std::string_view &line);

@@ -40,7 +40,7 @@ void write_plain(const Packing &p, OutputFile &file) {
   }
 }
 
-// d = 2 gets a third coordinate of zero, since OVITO and ASE know only three; `dim` tells the reader so.
+// d = 2 gets a third coordinate 0, because OVITO and ASE expect three. `dim` tells readers.
 void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
   std::string &out = file.text();
   const int columns = p.dim == 2 ? 3 : p.dim;

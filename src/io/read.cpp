@@ -162,6 +162,15 @@ double read_lattice(const LineReader &in, std::string_view lattice, int dim) {
   return side;
 }
 
+// Every direction must be periodic, as T, True or 1; in d = 2 the third one is ignored.
+void check_periodic(const LineReader &in, std::string_view pbc, int dim) {
+  std::vector<std::string_view> words;
+  split(pbc, words);
+  for (size_t k = 0; k < words.size() && k < static_cast<size_t>(dim); ++k)
+    if (words[k] != "T" && words[k] != "True" && words[k] != "true" && words[k] != "1")
+      in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction", shown(pbc).c_str());
+}
+
 FileContent read_xyz(LineReader &in, int64_t n, std::string_view comment) {
   take_count(in, n);
   std::string_view value;
@@ -175,6 +184,7 @@ FileContent read_xyz(LineReader &in, int64_t n, std::string_view comment) {
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
   if (!find_key(in, comment, "Lattice", value)) in.fail(JAM_E_FORMAT, "no Lattice=");
   content.box = read_lattice(in, value, content.dim);
+  if (find_key(in, comment, "pbc", value)) check_periodic(in, value, content.dim);
   if (find_key(in, comment, "non_additivity", value)) {
     content.non_additivity = parse_number(in, value);
     content.has_non_additivity = true;

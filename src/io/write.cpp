@@ -8,10 +8,6 @@
 namespace jam {
 namespace {
 
-bool ends_with(std::string_view name, std::string_view ending) {
-  return name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending;
-}
-
 void write_plain(const Packing &p, OutputFile &file) {
   std::string &out = file.text();
   bool each = false;
@@ -79,13 +75,28 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
   }
 }
 
+// Whether a name asks for extended XYZ. Names of other programs' formats are refused: plain text under the name x.gsd
+// would mislead. Without an ending, or with one of digits alone (run.12), a name means plain text.
+bool xyz_by_name(std::string_view path) {
+  const std::string_view name = path.substr(path.find_last_of('/') + 1);
+  const size_t dot = name.find_last_of('.');
+  const std::string_view ending = dot == std::string_view::npos || dot == 0 ? "" : name.substr(dot + 1);
+  if (ending == "xyz" || ending == "extxyz") return true;
+  if (ending == "dat" || ending == "txt" || ending.find_first_not_of("0123456789") == std::string_view::npos)
+    return false;
+  fail(JAM_E_ARGUMENT,
+       "%.200s: no format is known by the ending .%.20s: write .xyz or .extxyz (extended XYZ), .dat or .txt (plain "
+       "text), "
+       "or name the format",
+       std::string(path).c_str(), std::string(ending).c_str());
+}
+
 }  // namespace
 
 void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format) {
   if (format != JAM_FORMAT_AUTO && format != JAM_FORMAT_PLAIN && format != JAM_FORMAT_XYZ)
     fail(JAM_E_ARGUMENT, "format is %d, not a jam_format", format);
-  const bool xyz = format == JAM_FORMAT_XYZ ||
-                   (format == JAM_FORMAT_AUTO && (ends_with(path, ".xyz") || ends_with(path, ".extxyz")));
+  const bool xyz = format == JAM_FORMAT_XYZ || (format == JAM_FORMAT_AUTO && xyz_by_name(path));
   if (!xyz && p.non_additivity != 0.0)
     fail(JAM_E_UNSUPPORTED, "plain text cannot hold non_additivity = %g: write extended XYZ or a checkpoint",
          p.non_additivity);

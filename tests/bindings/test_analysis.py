@@ -83,10 +83,10 @@ class Network(unittest.TestCase):
         floppy = s.floppy_modes()
         self.assertEqual(len(floppy.s_plus), r.contacts)
         self.assertEqual(s.floppy_mode(3).shape, (r.stable, 2))
-        g = s.pair_correlation(None, a=-1, b=-1, r_max=2.0, bins=30)
+        g = s.pair_correlation(2.0, 30)
         self.assertEqual(len(g), 30)
         kinds = np.arange(s.n) % 2
-        self.assertTrue((s.pair_correlation(kinds, 0, 1, 2.0, 30) != g).any())
+        self.assertTrue((s.pair_correlation(2.0, 30, kind=kinds, a=0, b=1) != g).any())
         big = s.class_values("force", "extended")
         np.testing.assert_allclose(
             s.histogram("force", jam.Class.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12

@@ -64,7 +64,7 @@ class Crunch(unittest.TestCase):
         self.assertEqual(s.bucklers.sum(), r.bucklers)
         t = c.table()
         np.testing.assert_array_equal(t["force"], c.forces)
-        np.testing.assert_array_equal(t["vector"], c.vectors)
+        np.testing.assert_array_equal(np.column_stack([t["n1"], t["n2"]]), c.vectors)
         self.assertLess(overlap(s), 1e-10)
 
     @unittest.skipUnless(os.path.exists(SHARED), "the shared packing is not there")

@@ -74,6 +74,40 @@ static void xyz_files(void **state) {
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 nan 0 0.1\n", JAM_E_NONFINITE, "line 3");
 }
 
+/* A box that is open in some direction is refused; words for true are read, and in d = 2 the third one is ignored. */
+static void open_boundaries_refused(void **state) {
+  jam_system *sys = NULL;
+  const char *good = "1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"True T 1\"\n0 0 0 0.1\n";
+  (void)state;
+  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"F T T\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
+                 "line 2: pbc='F T T'");
+  expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
+                 "periodic in every direction");
+  put_bytes(in_scratch("good.dat"), good, strlen(good));
+  assert_int_equal(jam_read(in_scratch("good.dat"), NULL, &sys), JAM_OK);
+  jam_destroy(sys);
+}
+
+/* Names of other programs' formats are refused with the list of ours, unless the format is named; nothing is written.
+ */
+static void unknown_endings_refused(void **state) {
+  static const char *const refused[] = {"q.gsd", "q.xyz.gz", "q.XYZ", "q.lammps"};
+  static const char *const taken[] = {"q", "q.dat", "q.txt", "q.12", "q.xyz", "q.extxyz", ".hidden"};
+  jam_system *sys = some_packing(3, 12, 1.0, 1.0);
+  size_t k;
+  int before = count_files();
+  (void)state;
+  for (k = 0; k < sizeof refused / sizeof *refused; ++k) {
+    assert_int_equal(jam_write(sys, in_scratch(refused[k]), JAM_FORMAT_AUTO), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), ".extxyz (extended XYZ), .dat or .txt"));
+  }
+  assert_int_equal(count_files(), before);
+  assert_int_equal(jam_write(sys, in_scratch("q.gsd"), JAM_FORMAT_PLAIN), JAM_OK);
+  for (k = 0; k < sizeof taken / sizeof *taken; ++k)
+    if (jam_write(sys, in_scratch(taken[k]), JAM_FORMAT_AUTO) != JAM_OK) fail_msg("%s: %s", taken[k], jam_last_error());
+  jam_destroy(sys);
+}
+
 /* A file cut at any byte is refused, but for the one cut that loses nothing needed: none here. */
 static void every_truncation(const char *name, double ratio) {
   jam_system *sys = some_packing(3, 12, ratio, 1.0), *back = NULL;
@@ -190,9 +224,15 @@ static void shared_file(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(no_allocation_ahead), cmocka_unit_test(plain_files),      cmocka_unit_test(xyz_files),
-      cmocka_unit_test(truncated),           cmocka_unit_test(missing_and_null), cmocka_unit_test(overlap_policy),
+      cmocka_unit_test(no_allocation_ahead),
+      cmocka_unit_test(plain_files),
+      cmocka_unit_test(xyz_files),
+      cmocka_unit_test(truncated),
+      cmocka_unit_test(missing_and_null),
+      cmocka_unit_test(overlap_policy),
       cmocka_unit_test(shared_file),
+      cmocka_unit_test(open_boundaries_refused),
+      cmocka_unit_test(unknown_endings_refused),
   };
   return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

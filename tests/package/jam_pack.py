@@ -95,6 +95,8 @@ class JamPack(unittest.TestCase):
             (["--no-md", "--nve", "5"], "contradicts --nve"),
             (["--no-crunch", "--contacts", "c.csv"], "--contacts needs the crunch"),
             (["--output", "a", "--report", "a"], "must be different"),
+            (["--output", "q.gsd"], "no format is known by this ending"),
+            (["--output", "q.xyz.gz"], "use .xyz, .extxyz, .dat, .txt or none"),
             (["--input", "a", "--report", "a"], "overwrite the input"),
             (["--gaps", "a", "--structure", "a"], "--gaps and --structure must be different"),
             (["--modes", "-1"], "--modes is '-1'"),

@@ -3,7 +3,7 @@
     import jam
     packing = jam.System.random(n=1024, dim=3, seed=1)
     packing.compress()            # event-driven molecular dynamics with growth
-    print(packing.crunch())       # iterated linear programming down to the jamming point
+    print(packing.crunch())       # to the jamming point
     packing.contacts.forces       # numpy
     jam.plot.packing(packing)     # matplotlib, loaded when it is used
 
@@ -43,4 +43,10 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(set(globals()) | set(_LAZY) | {"load"})
+    own = {name for name, value in globals().items() if not name.startswith("_") and _is_ours(value)}
+    return sorted(own | set(_LAZY) | {"__version__", "errors", "load", "raw"})
+
+
+def _is_ours(value: Any) -> bool:
+    """Leaves out what this module imported for itself: typing's names, helpers of the generated code."""
+    return getattr(value, "__module__", "").split(".")[0] == "jam" or isinstance(value, (int, str))

@@ -1,6 +1,7 @@
 """Calls any C function of the header by its conventions: options by keyword, arrays as numpy, count then fill."""
 from __future__ import annotations
 
+import difflib
 import math
 from typing import Any, Callable
 
@@ -14,8 +15,7 @@ _DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint
 
 
 def as_array(values: Any, dtype: str = "double", name: str = "array") -> np.ndarray:
-    """Values as a C-contiguous array of the C type: as it is where it fits, else copied once (other dtypes, strides
-    and Fortran order are welcome; complex numbers and text are not)."""
+    """Values as a C-contiguous array of the C type, copied only if needed. Complex numbers and text are refused."""
     array = np.asarray(values)
     wanted = np.dtype(_DTYPES[dtype])
     if array.dtype != wanted and not np.can_cast(array.dtype, wanted, "same_kind"):
@@ -34,13 +34,46 @@ def as_enum(value: Any, kind: str) -> int:
     return int(value)
 
 
+# Options of CALiPPSO.jl, for users who come from it; bindings/docs/coming_from.md has the whole table.
+_CALIPPSO = {
+    "l0": "neighbour_radius (in mean diameters)",
+    "ℓ0": "neighbour_radius (in mean diameters)",
+    "sbound": "step_bound (in mean diameters)",
+    "max_iters": "max_lps",
+    "tol_Gamma_convergence": "gain_tolerance",
+    "tol_Γ_convergence": "gain_tolerance",
+    "tol_S_convergence": "step_tolerance (in mean diameters)",
+    "optimizer": "lp_solver ('ipm' or 'clp')",
+    "solver": "lp_solver ('ipm' or 'clp')",
+    "solver_attributes": "lp_tolerance",
+    "tol_mechanical_equilibrium": "polish; report.force_residual tells the balance reached",
+    "tol_overlap": "nothing: no step can create an overlap; report.max_overlap tells the largest",
+    "zero_force": "nothing: report.min_force tells the smallest force",
+    "verbose": "progress=True",
+    "monitor_step": "progress=True",
+    "sqrGamma0": "nothing: the first stage is chosen by itself",
+    "sqrΓ0": "nothing: the first stage is chosen by itself",
+    "thresholds_bounds": "nothing: radius and bound follow the density",
+    "L": "box",
+    "R": "diameters (twice the radii) or radii",
+}
+
+
+def _unknown(name: str, known: Any) -> str:
+    """What to say of an option that does not exist: the nearest names, and ours for one of CALiPPSO."""
+    if name in _CALIPPSO:
+        return f"{name!r} of CALiPPSO is {_CALIPPSO[name]} here"
+    near = difflib.get_close_matches(name, list(known), 3)
+    return f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
+
+
 def options(struct: str, given: dict[str, Any]) -> Any:
-    """An option struct of the library's defaults, changed by what is given (None leaves the default)."""
+    """An option struct with the library's defaults and the given values. None keeps the default."""
     known = OPTIONS[struct]
     made = getattr(raw, struct)()
     for name, value in given.items():
         if name not in known:
-            raise TypeError(f"unknown option {name!r}; {struct[4:]} are {', '.join(known)}")
+            raise TypeError(f"unknown option {name!r}; {_unknown(name, known)}")
         if value is None:
             continue
         kind = known[name][0]
@@ -78,7 +111,7 @@ def freeze(struct: Any, name: str) -> Any:
             try:
                 value = getattr(_generated, kind)(value)
             except ValueError:
-                pass  # a value that is newer than this table stays a number
+                pass  # an unknown value of a newer library stays a number
         values[field] = value
     return cls(**values)
 
@@ -111,7 +144,7 @@ INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
 
 
 def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str, Any]:
-    """Python arguments by the header's names; what is no argument must be a member of an option struct."""
+    """Python arguments by the header's names. Other keywords must be members of an option struct."""
     inputs = [a for a in table if a[1] in INPUTS]
     plain = [a[0] for a in inputs if a[1] != "struct_in"]
     structs = {a[0]: a[2] for a in inputs if a[1] == "struct_in"}
@@ -128,9 +161,8 @@ def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str,
         elif len(owners) == 1:
             members[owners[0]][key] = value
         else:
-            raise TypeError(
-                f"{name}: unknown option {key!r}; there are {', '.join(plain + [k for s in structs.values() for k in OPTIONS[s]])}"
-            )
+            known = plain + [k for s in structs.values() for k in OPTIONS[s]]
+            raise TypeError(f"{name}: unknown option {key!r}; {_unknown(key, known)}")
     given.update({s: options(kind, members[s]) for s, kind in structs.items()})
     optional = {a[0] for a in inputs if a[1] == "array_in"}
     if missing := set(plain) - optional - set(given):

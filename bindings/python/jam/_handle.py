@@ -1,4 +1,4 @@
-"""What all parts of a System share: the C handle, views of its memory, the way of its progress records."""
+"""The base of a System: the C handle, views of its memory, and the route of its progress records."""
 from __future__ import annotations
 
 import threading
@@ -14,7 +14,7 @@ TRACE_LENGTH = 200_000  # progress records kept by a system
 
 
 class _View:
-    """Memory of a handle shown to numpy, read-only; keeps the handle alive as long as any array on it."""
+    """Read-only memory of a handle for numpy. It keeps the handle alive as long as an array uses it."""
 
     def __init__(self, handle: Any, address: int, shape: tuple[int, ...]) -> None:
         self._handle = handle
@@ -22,9 +22,9 @@ class _View:
 
 
 class _Dispatch:
-    """The progress callable of a handle for all its life: hands a record to whoever runs the call on this thread.
+    """The progress callable of a handle. It passes a record to the caller on the same thread.
 
-    Setting it anew for each call would not do: a setter is a call of its own and would use up a pending cancel.
+    It is set once, because a setter is a call of its own and would use up a pending cancel.
     """
 
     def __init__(self) -> None:
@@ -49,7 +49,7 @@ class _Dispatch:
 
 
 class Base(Methods):
-    """The handle of a system and how calls on it report."""
+    """The handle of a system, and the reports of its calls."""
 
     dim: int  # a property of State
 
@@ -84,7 +84,7 @@ class Base(Methods):
 
     @contextmanager
     def _reporting(self, progress: Any) -> Any:
-        """Progress records of the calls inside go to the trace and to what the caller asked for."""
+        """Sends progress records of the calls inside to the trace and to the caller's callable."""
         user = reporter(progress)
         with self._dispatch.to(self._recorder(user)):
             try:

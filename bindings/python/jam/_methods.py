@@ -197,12 +197,6 @@ class Methods:
         values there. Threads: const. Errors: as jam_class_values. @since 0.1"""
         return self.call('histogram', quantity, which, low, high, bins)
 
-    def pair_correlation(self, kind: Any, a: int, b: int, r_max: float, bins: int) -> np.ndarray:
-        """g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
-        mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
-        @since 0.1"""
-        return self.call('pair_correlation', kind, a, b, r_max, bins)
-
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
         """S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
         No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.

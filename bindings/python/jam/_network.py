@@ -1,4 +1,4 @@
-"""The jammed network of a system: contacts, forces, stiffness, modes."""
+"""The jammed network of a system: contacts, forces, stiffness, modes, pair correlation."""
 from __future__ import annotations
 
 from typing import Any
@@ -13,11 +13,11 @@ from .results import Contacts, Modes
 
 
 class Network(Base):
-    """What crunch, or contacts_from_geometry, found."""
+    """The contact network that crunch or contacts_from_geometry found."""
 
     @property
     def report(self) -> CrunchReport:
-        """CrunchReport and certificate of the last crunch."""
+        """Result and certificate of the last crunch, a CrunchReport."""
         if self._carried and self._carried[0] is not None:
             return self._carried[0]
         made = _calls.new_report("jam_crunch_report")
@@ -37,7 +37,17 @@ class Network(Base):
 
     @property
     def contacts(self) -> Contacts:
-        """Pairs, unit vectors, gaps and forces of the contacts, as copies."""
+        """Pairs, unit vectors, gaps and forces of the contacts, as copies.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> contacts = disks.contacts
+        >>> contacts.pairs.shape == (report.contacts, 2), abs(contacts.gaps).max() < 1e-10
+        (True, True)
+        """
         if self._carried and self._carried[1] is not None:
             return self._carried[1]
         return Contacts(
@@ -46,31 +56,40 @@ class Network(Base):
 
     @property
     def forces(self) -> np.ndarray:
-        """(contacts,), mean 1; times report.force_scale they are lambda r."""
+        """Contact forces, shape (contacts,), mean 1. Times report.force_scale they are lambda r of the LP."""
         return self._carried[1].forces if self._carried and self._carried[1] is not None else self.call("forces")
 
     @property
     def coordination(self) -> np.ndarray:
-        """(n,) int32: contacts of each sphere, 0 for rattlers."""
+        """Number of contacts of each sphere, shape (n,); 0 for rattlers."""
         if self._carried and self._carried[1] is not None:
             return np.bincount(self._carried[1].pairs.reshape(-1), minlength=self.n).astype(np.int32)
         return self.call("coordination")
 
     @property
     def rattlers(self) -> np.ndarray:
-        """(n,) bool."""
+        """Which spheres are rattlers: bool, shape (n,)."""
         return self.coordination == 0
 
     @property
     def bucklers(self) -> np.ndarray:
-        """(n,) bool: spheres with exactly d + 1 contacts."""
+        """Which spheres are bucklers, with exactly d + 1 contacts: bool, shape (n,)."""
         return self.coordination == self.dim + 1
 
     def hessian(self, stiffness: int | str = "harmonic", **options: Any) -> Any:
-        """Hessian of the contact network as scipy.sparse.csr_matrix (d N', d N'), unit: stiffness at the mean force.
+        """Hessian of the contact network. The unit is the stiffness at the mean force.
 
-        Row d k + c is component c of sphere hessian_map()[k]; rattlers are left out.
-        stiffness: 'harmonic', 'power' (with alpha) or 'hard'. options: alpha, prestress.
+        Parameters
+        ----------
+        stiffness : {'harmonic', 'power', 'hard'}
+            'power' takes alpha.
+        **options
+            alpha, prestress.
+
+        Returns
+        -------
+        scipy.sparse.csr_matrix, shape (d N', d N')
+            Row d k + c is component c of sphere hessian_map()[k]. Rattlers are left out.
         """
         from scipy.sparse import csr_matrix
 
@@ -92,9 +111,27 @@ class Network(Base):
         prestress: float | None = None,
         **options: Any,
     ) -> Modes:
-        """Vibrational modes of the network. k: how many. which: 'lowest', 'highest', 'near' (with frequency), 'all'.
+        """Vibrational modes of the network.
 
-        progress: as in crunch. options: frequency, tolerance, memory_limit.
+        Parameters
+        ----------
+        k : int
+            How many.
+        which : {'lowest', 'highest', 'near', 'all'}
+            'near' takes frequency. 'lowest' and 'near' leave the d translations out.
+        stiffness : {'harmonic', 'power', 'hard'}
+            As in `hessian`, with alpha and prestress.
+        **options
+            frequency, tolerance, memory_limit.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> modes = disks.modes(5)
+        >>> len(modes), (modes.values > 0).all()
+        (5, True)
         """
         handle = self.handle
         h = _calls.options("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
@@ -110,6 +147,31 @@ class Network(Base):
         with self._reporting(progress):
             status, m = raw.jam_modes(handle, h, o, values, vectors.reshape(-1), participation)
         return Modes(values[:m], vectors[:m], participation[:m], spheres, StatusCode(status))
+
+    def pair_correlation(
+        self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
+    ) -> np.ndarray:
+        """g(r) in equal bins from 0 to r_max. No contact network is needed.
+
+        Parameters
+        ----------
+        r_max : float
+            In mean diameters.
+        bins : int
+            Number of bins.
+        kind : array_like of int, shape (n,), optional
+            A label for each sphere.
+        a, b : int
+            The labels whose g_ab(r) is wanted; -1 means any.
+
+        Examples
+        --------
+        >>> import jam
+        >>> g = jam.System.random(n=64, dim=3, seed=1).pair_correlation(2.0, 40)
+        >>> g.shape, (g[:20] == 0).all()
+        ((40,), True)
+        """
+        return self.call("pair_correlation", kind, a, b, r_max, bins)
 
     def stress_states(self, *, progress: Any = None) -> StressStatesResult:
         """States of self-stress from positions alone: force (contacts,), basis (m, contacts), residual."""

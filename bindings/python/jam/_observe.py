@@ -1,4 +1,4 @@
-"""What is recorded while the spheres move: observables of the dynamics, steps of a crunch."""
+"""Records of moving spheres: observables of the dynamics, steps of a crunch."""
 from __future__ import annotations
 
 from contextlib import contextmanager
@@ -14,9 +14,18 @@ from ._methods import ObservedCorrelationResult, ObservedGapsResult, ObservedPai
 
 @dataclass(frozen=True, repr=False)
 class Step:
-    """One step of a crunch. displacements: (n, d) of all spheres, images followed, unit of box.
+    """One step of a crunch. The linear network has rows for LP steps only.
 
-    Of an LP also its linear network (else no rows): pairs (m, 2), vectors (m, d) = r_ij before the step, duals (m,) > 0.
+    Attributes
+    ----------
+    displacements : array, shape (n, d)
+        Of all spheres, unwrapped, in the unit of the box.
+    pairs : int32 array, shape (m, 2)
+        Pairs that carry force in the LP.
+    vectors : array, shape (m, d)
+        r_ij before the step.
+    duals : array, shape (m,)
+        Multipliers, all positive.
     """
 
     displacements: np.ndarray
@@ -29,14 +38,14 @@ class Step:
 
 
 class Observed:
-    """What a system has recorded since observe(); copies, made when asked for."""
+    """What a system has recorded since observe(). Every access makes copies."""
 
     def __init__(self, system: "Observing") -> None:
         self._system = system
 
     @property
     def series(self) -> np.ndarray:
-        """(samples,) with fields time, collisions (per particle), fraction, pressure, error (of it), msd (box^2)."""
+        """Structured array with fields time, collisions (per particle), fraction, pressure, error (of the pressure), msd."""
         columns = self._system.call("observed_series")
         rows = np.empty(len(columns.time), [(name, "f8") for name in columns._fields])
         for name, values in zip(columns._fields, columns):
@@ -45,12 +54,12 @@ class Observed:
 
     @property
     def spheres(self) -> ObservedSpheresResult:
-        """collisions (n,), displacement (n, d), unwrapped; zero collisions unless collisions=1 was asked for."""
+        """collisions (n,) and unwrapped displacement (n, d). Collisions are counted with collisions=1 only."""
         return self._system.call("observed_spheres")
 
     @property
     def pairs(self) -> ObservedPairsResult:
-        """pair (m, 2), collisions (m,), momentum (m,) and the time over which it is the mean force."""
+        """pair (m, 2), collisions (m,), momentum (m,), and time: momentum over time is the mean force."""
         return self._system.call("observed_pairs")
 
     @property
@@ -69,13 +78,18 @@ class Observing(Base):
 
     @contextmanager
     def observing(self, **options: Any) -> Iterator[Observed]:
-        """Records what run and compress do inside a with block; the Observed stays readable behind it. ::
+        """Records what run and compress do inside a with block. The Observed stays readable after it.
 
-            with packing.observing(sample_every=5, gap_bins=40) as seen:
-                packing.run(200)
-            seen.series["pressure"]
+        Takes the options of observe().
 
-        options: those of observe().
+        Examples
+        --------
+        >>> import jam
+        >>> fluid = jam.System.random(n=64, dim=3, seed=1)
+        >>> with fluid.observing(sample_every=5, gap_bins=20) as seen:
+        ...     report = fluid.run(20)
+        >>> seen.series.dtype.names[:3], len(seen.series) > 2
+        (('time', 'collisions', 'fraction'), True)
         """
         self.call("observe", **options)
         try:
@@ -84,7 +98,7 @@ class Observing(Base):
             self.call("observe_stop")
 
     def _stepper(self, on_step: Callable[[Step], Any], user: Callable | None) -> Callable:
-        """A progress callable that hands each finished step of a crunch to on_step; a true answer of either stops the call."""
+        """A progress callable that passes each finished step to on_step. A true answer of either stops the call."""
 
         def on_progress(p: Any) -> bool:
             stop = bool(user(p)) if user else False

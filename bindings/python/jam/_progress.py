@@ -1,4 +1,4 @@
-"""Progress of long calls: a bar by tqdm where it is installed, else one line that is rewritten; nothing into a file."""
+"""Progress of long calls: a bar by tqdm if it is installed, else one line that is rewritten. A file gets nothing."""
 from __future__ import annotations
 
 import math

@@ -1,4 +1,4 @@
-"""How python3 -m jam begins: a random start of one of the models, a file, or a checkpoint; to the bits of jam-pack."""
+"""The start of python3 -m jam: random, a file or a checkpoint. It gives the same bits as jam-pack."""
 from __future__ import annotations
 
 import argparse

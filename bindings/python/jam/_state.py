@@ -11,11 +11,11 @@ from ._handle import Base, _View
 
 
 class State(Base):
-    """State of a system, as read-only views of its memory."""
+    """State of a system. Its arrays are read-only views of the system's memory."""
 
     @property
     def info(self) -> Info:
-        """What the system is now."""
+        """Number, dimension, box, packing fraction, pressure and model, as an Info."""
         made = _calls.new_report("jam_info")
         raw.jam_info_get(self.handle, made)
         return _calls.freeze(made, "jam_info")
@@ -30,7 +30,7 @@ class State(Base):
     pressure = property(lambda self: self.info.pressure, doc="Reduced pressure last measured by MD, nan before.")
 
     def _constant(self, name: str) -> Any:
-        """What cannot change in the life of a handle: info sums over all spheres each time."""
+        """A value that never changes for a handle, kept because info sums over all spheres each time."""
         self.handle
         if self._first_info is None:
             self._first_info = self.info
@@ -44,7 +44,10 @@ class State(Base):
 
     @property
     def positions(self) -> np.ndarray:
-        """(n, d) in [0, box): a read-only view without copy that follows the system and keeps it alive."""
+        """Positions in [0, box), shape (n, d): a read-only view without copy that follows the system.
+
+        Assign a new array to move the spheres.
+        """
         return self._show(raw.jam_positions_view)
 
     @positions.setter
@@ -53,7 +56,7 @@ class State(Base):
 
     @property
     def velocities(self) -> np.ndarray:
-        """(n, d), kT/m = 1: read-only view; zero until the first MD call."""
+        """Velocities with kT/m = 1, shape (n, d): a read-only view; zero until molecular dynamics draws them."""
         return self._show(raw.jam_velocities_view)
 
     @velocities.setter
@@ -70,10 +73,10 @@ class State(Base):
 
     @property
     def diameters(self) -> np.ndarray:
-        """(n,), unit of box: read-only view."""
+        """Diameters in the unit of the box, shape (n,): a read-only view."""
         return self._show(raw.jam_diameters_view, flat=True)
 
     def scale_diameters(self, factor: float) -> None:
-        """Multiplies all diameters."""
+        """Multiplies all diameters by factor."""
         raw.jam_scale_diameters(self.handle, float(factor))
         self._carried = None

@@ -33,7 +33,26 @@ class Verbs(Observing):
         return frozen
 
     def run(self, collisions_per_particle: float | None = None, *, progress: Any = None, **options: Any) -> MdReport:
-        """Event-driven NVE dynamics. Returns an MdReport; report.status > 0 says that it stopped early."""
+        """Molecular dynamics at constant volume and energy, event by event.
+
+        Parameters
+        ----------
+        collisions_per_particle : float, optional
+            How many to make. Default 100.
+
+        Returns
+        -------
+        MdReport
+            report.status > 0 means that the run stopped early.
+
+        Examples
+        --------
+        >>> import jam
+        >>> fluid = jam.System.random(n=64, dim=3, seed=1)
+        >>> report = fluid.run(20)
+        >>> report.collisions >= 20 * 64 / 2, report.max_overlap < 1e-9
+        (True, True)
+        """
         return self._verb(
             "jam_run",
             "jam_run_options",
@@ -49,10 +68,29 @@ class Verbs(Observing):
         progress: Any = None,
         **options: Any,
     ) -> MdReport:
-        """Lubachevsky-Stillinger compression. Without arguments: the two-stage protocol that avoids crystals.
+        """Molecular dynamics while the diameters grow (Lubachevsky and Stillinger 1990).
 
-        stages: a sequence of {option: value} or (growth_rate, pressure), run one after the other, each on top of
-        **options; a stage that stops early ends the sequence. Returns the MdReport of the last stage run.
+        Without arguments it runs the two stages that avoid crystals in d = 3: growth rate 1e-2 to p = 500, then 3e-3 to
+        p = 1e7.
+
+        Parameters
+        ----------
+        stages : sequence, optional
+            Each stage is a pair (growth_rate, pressure) or a dict of options. They run one after the other, and
+            `options` hold for all of them. A stage that stops early ends the sequence.
+
+        Returns
+        -------
+        MdReport
+            Of the last stage that ran.
+
+        Examples
+        --------
+        >>> import jam
+        >>> glass = jam.System.random(n=64, dim=3, seed=1)
+        >>> report = glass.compress(stages=[(3e-2, 100), (1e-2, 1e3)])
+        >>> report.stop_reason.name, report.pressure > 900
+        ('PRESSURE', True)
         """
         if stages is None:
             return self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
@@ -69,10 +107,26 @@ class Verbs(Observing):
     def crunch(
         self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any
     ) -> CrunchReport:
-        """Iterated linear programming down to the jamming point. Returns the CrunchReport with the certificate.
+        """Moves the spheres to their jamming point and certifies the result.
 
-        on_step: a callable(Step) that is given every step with its displacements and linear network (and makes each LP be
-        solved in full, which is slower); a true answer stops the call.
+        Parameters
+        ----------
+        on_step : callable(Step), optional
+            Gets every step with its displacements and linear network. Each LP is then solved in full, which is slower.
+            A true answer stops the call.
+
+        Returns
+        -------
+        CrunchReport
+            report.jammed is the verdict, report.packing_fraction the jamming density.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> report.stop_reason.name, report.force_residual < 1e-10
+        ('CONVERGED', True)
         """
         if on_step is not None:
             user = reporter(progress)
@@ -90,7 +144,7 @@ class Verbs(Observing):
         return self._verb("jam_crunch", "jam_crunch_options", "jam_crunch_report", progress, options or None)
 
     def cancel(self) -> None:
-        """Stops the call that runs on this system in another thread; without one, the next call."""
+        """Stops the call that runs on this system in another thread. If none runs, it stops the next call."""
         raw.jam_cancel(self.handle)
 
     def log(self, callback: Callable[[int, str], Any] | None, level: int | str = "info") -> None:
@@ -102,7 +156,7 @@ class Verbs(Observing):
 
 for _verb, _struct in (("run", "run"), ("compress", "compress"), ("crunch", "crunch")):
     getattr(Verbs, _verb).__doc__ += (
-        "\n\n        progress: True for a bar, or a callable(Progress) whose true answer stops the call.\n        Options:\n    "
+        "\n\n        progress: True for a bar, or a callable(Progress). If it returns true the call stops.\n        Options:\n    "
         + _calls.describe(f"jam_{_struct}_options").replace("\n", "\n    ")
         + "\n        "
     )

@@ -124,7 +124,11 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--lp", choices=["ipm", "clp"], default="ipm")
     p.add_argument("--threads", type=int, choices=[1, 2], default=1)
     p.add_argument("--wall-time", type=_positive, metavar="SECONDS", help="limit for the whole run")
-    p.add_argument("--output", metavar="FILE", help="the packing; extended XYZ if the name ends in .xyz, else plain")
+    p.add_argument(
+        "--output",
+        metavar="FILE",
+        help="the packing: .xyz or .extxyz for extended XYZ; .dat, .txt or no ending for plain text",
+    )
     p.add_argument("--contacts", metavar="FILE.csv")
     p.add_argument(
         "--spectrum", metavar="FILE.csv", help="lowest modes of the harmonic Hessian: omega^2, omega, participation"
@@ -290,6 +294,9 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
             p.error(f"--{key} would overwrite the input")
         if o.no_crunch and key in ("contacts", "spectrum", "gaps", "structure"):
             p.error(f"--{key} needs the crunch that --no-crunch leaves out")
+    ending = os.path.splitext(o.output or "")[1]
+    if ending not in ("", ".xyz", ".extxyz", ".dat", ".txt") and not ending[1:].isdigit():
+        p.error(f"--output {o.output}: no format is known by this ending; use .xyz, .extxyz, .dat, .txt or none")
     if o.non_additivity and o.output and not o.output.endswith((".xyz", ".extxyz")):
         p.error("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it")
     if o.resume and o.input:

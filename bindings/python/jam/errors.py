@@ -1,5 +1,7 @@
-"""Exceptions: one class for each status below zero, all derived from JamError and from the fitting builtin."""
+"""Exceptions: one class for each status below zero. All derive from JamError and from the fitting builtin."""
 from __future__ import annotations
+
+import re
 
 from ._generated import StatusCode
 
@@ -44,6 +46,33 @@ class ClosedError(JamError, ValueError):
     """The system was closed."""
 
 
+# Where a Python name differs from the C function's.
+_NAMES = {
+    "create": "System.random or System.from_arrays",
+    "observe": "observing()",
+    "crunch_report_get": "report",
+    "set_positions": "positions",
+    "set_velocities": "velocities",
+}
+
+
+def _in_python(text: str) -> str:
+    """The library's text with its C functions under their Python names: `jam_crunch` is `crunch()`."""
+    from .system import System
+
+    def name(found: re.Match) -> str:
+        word = found.group(1)
+        if word in _NAMES:
+            return _NAMES[word]
+        return f"{word}()" if callable(getattr(System, word, None)) else found.group(0)
+
+    return re.sub(r"\bjam_([a-z_]+)\b", name, text)
+
+
 def make(status: int, text: str) -> JamError:
     """The exception for a status; called by the raw layer."""
-    return _BY_STATUS.get(status, JamError)(text)
+    kind = _BY_STATUS.get(status, JamError)
+    hint = ""
+    if status == StatusCode.E_OVERLAP and "shrink" not in text:
+        hint = '; overlap="shrink" in System.read and System.from_arrays scales all diameters until no pair overlaps'
+    return kind(_in_python(text) + hint)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _calls
+from . import _calls, _methods
 from ._generated import StatusCode
 
 
@@ -29,12 +29,34 @@ for _class in set(_calls.REPORTS.values()):
     _class.status = StatusCode.OK  # > 0: stopped early, and why; the state is valid
 
 
+def _short(self: Any) -> str:
+    """A named tuple of results: arrays by shape, numbers as they are."""
+    parts = (
+        f"{name}={'array' + str(value.shape) if isinstance(value, np.ndarray) else value}"
+        for name, value in zip(self._fields, self)
+    )
+    return f"{type(self).__name__}({', '.join(parts)})"
+
+
+for _class in vars(_methods).values():
+    if isinstance(_class, type) and issubclass(_class, tuple):
+        _class.__repr__ = _short
+
+
 @dataclass(frozen=True)
 class Contacts:
-    """The contact network; row k of every array is the same contact.
+    """The contact network. Row k of every array is the same contact.
 
-    pairs: (contacts, 2) int32, i < j (i = j for an image of one sphere). vectors: (contacts, d), unit vectors from j
-    to i. gaps: (contacts,), h = r/sigma_ij - 1. forces: (contacts,), mean 1.
+    Attributes
+    ----------
+    pairs : int32 array, shape (contacts, 2)
+        i < j, or i = j for a sphere and its own image.
+    vectors : array, shape (contacts, d)
+        Unit vectors from j to i.
+    gaps : array, shape (contacts,)
+        h = r/sigma_ij - 1.
+    forces : array, shape (contacts,)
+        Mean 1.
     """
 
     pairs: np.ndarray
@@ -49,20 +71,31 @@ class Contacts:
         return f"Contacts({len(self)} pairs, d = {self.vectors.shape[1]})"
 
     def table(self) -> np.ndarray:
-        """As one structured array with fields i, j, vector, gap, force."""
-        d = self.vectors.shape[1]
-        rows = np.empty(len(self), [("i", "i4"), ("j", "i4"), ("vector", "f8", (d,)), ("gap", "f8"), ("force", "f8")])
+        """One structured array with fields i, j, n1 ... nd (unit vector), gap, force; pandas.DataFrame takes it."""
+        axes = [f"n{k + 1}" for k in range(self.vectors.shape[1])]
+        columns = [("i", "i4"), ("j", "i4")] + [(name, "f8") for name in (*axes, "gap", "force")]
+        rows = np.empty(len(self), columns)
         rows["i"], rows["j"] = self.pairs[:, 0], self.pairs[:, 1]
-        rows["vector"], rows["gap"], rows["force"] = self.vectors, self.gaps, self.forces
+        for k, name in enumerate(axes):
+            rows[name] = self.vectors[:, k]
+        rows["gap"], rows["force"] = self.gaps, self.forces
         return rows
 
 
 @dataclass(frozen=True)
 class Modes:
-    """Modes of a network, ascending. values: (m,) = omega^2; nan where the solver stopped early (then status > 0).
+    """Modes of a network, in ascending order.
 
-    vectors: (m, N', d) of unit length; participation: (m,), sum |v_i|^4 / (sum |v_i|^2)^2, 1/N' to 1.
-    spheres: (N',), the index of each stable sphere.
+    Attributes
+    ----------
+    values : array, shape (m,)
+        omega squared; nan where the solver stopped early (then status > 0).
+    vectors : array, shape (m, N', d)
+        Of unit length.
+    participation : array, shape (m,)
+        The sum of the fourth powers over the squared sum of squares, between 1/N' and 1.
+    spheres : array, shape (N',)
+        The index of each stable sphere.
     """
 
     values: np.ndarray

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _calls, errors, raw
+from ._generated import JAM_MAX_DIM
 from ._network import Network
 from ._state import State
 from ._verbs import Verbs
@@ -18,10 +19,22 @@ __all__ = ["Contacts", "Modes", "System"]
 class System(State, Verbs, Network):
     """N spheres in a periodic cube.
 
-    Made by System.random, System.from_arrays or System.read; then run, compress and crunch move it, and report,
-    contacts, forces, gaps, hessian and modes tell about the jammed network. Lengths are in the unit of `box`, sigma is
-    a diameter, kT/m = 1. One call at a time: a second thread that calls a running system gets BusyError.
-    Ctrl-C stops a running call with the state valid and raises KeyboardInterrupt.
+    Make one by `System.random`, `System.from_arrays` or `System.read`. `run`, `compress` and `crunch` move the spheres.
+    `report`, `contacts`, `forces`, `gaps`, `hessian` and `modes` describe the jammed network.
+
+    Lengths are in the unit of `box`, diameters are diameters (not radii), and kT/m = 1. Only one call at a time may run
+    on a system: a second thread gets `BusyError`. Ctrl-C stops a running call with a valid state and raises
+    KeyboardInterrupt.
+
+    Examples
+    --------
+    >>> import jam
+    >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+    >>> report = disks.crunch()
+    >>> report.jammed, report.max_overlap < 1e-12
+    (1, True)
+    >>> disks.forces.mean().round(12)
+    1.0
     """
 
     # ---- making
@@ -32,44 +45,99 @@ class System(State, Verbs, Network):
         dim: int = 3,
         seed: int = 1,
         *,
-        packing_fraction: float = 0.2,
+        packing_fraction: float | None = None,
         diameters: Any = None,
         **options: Any,
     ) -> "System":
-        """Random sequential start.
+        """Random sequential start: spheres are placed one by one where they do not overlap.
 
-        n: number of spheres. dim: 2..8. seed: of every random stream. packing_fraction: of the start.
-        diameters: None (all equal) or n values of which only the ratios count.
-        options: box, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity.
+        Parameters
+        ----------
+        n : int
+            Number of spheres.
+        dim : int
+            Dimension, 2 to 8.
+        seed : int
+            Seed of every random stream of this system.
+        packing_fraction : float, optional
+            Of the start. Default: 0.2, halved for each dimension above 3.
+        diameters : array_like, optional
+            n values; only their ratios count. Default: all equal.
+        **options
+            box, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity.
+
+        Examples
+        --------
+        >>> import jam
+        >>> jam.System.random(n=100, dim=2, seed=7)
+        System(n=100, dim=2, packing_fraction=0.2, box=1, seed=7)
         """
         sizes = None if diameters is None else _calls.as_array(diameters, name="diameters").reshape(-1)
+        if packing_fraction is None:
+            packing_fraction = 0.2 * 0.5 ** max(0, dim - 3)
         return cls._create(dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction), None, sizes)
 
     @classmethod
-    def from_arrays(cls, positions: Any, diameters: Any, box: float = 1.0, **options: Any) -> "System":
-        """From positions (n, d), unit of box, wrapped into [0, box), and diameters (n,) or one number.
+    def from_arrays(
+        cls, positions: Any, diameters: Any = None, box: float = 1.0, *, radii: Any = None, **options: Any
+    ) -> "System":
+        """Spheres at given positions.
 
-        Any real dtype, order and stride; what is not C-contiguous float64 is copied once.
-        options: overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity.
+        Parameters
+        ----------
+        positions : array_like, shape (n, d)
+            In the unit of `box`; wrapped into [0, box). Any real dtype, order and stride. An array that is not
+            C-contiguous float64 is copied once.
+        diameters : array_like, shape (n,), or float
+            One for each sphere, or one for all.
+        box : float
+            Side of the periodic cube.
+        radii : array_like, shape (n,), or float, optional
+            Instead of diameters.
+        **options
+            overlap ('refuse', the default, or 'shrink': scales all diameters until no pair overlaps), seed, model,
+            mk_zeta, masses, non_additivity.
+
+        Examples
+        --------
+        >>> import jam
+        >>> jam.System.from_arrays([[1.0, 1.0], [3.0, 3.0]], radii=0.5, box=4.0).diameters
+        array([1., 1.])
         """
         x = _calls.as_array(positions, name="positions")
         if x.ndim != 2:
             raise ValueError(f"positions must have shape (n, d), not {x.shape}")
-        sizes = _calls.as_array(diameters, name="diameters")
+        if (diameters is None) == (radii is None):
+            raise TypeError("give either diameters or radii")
+        name = "diameters" if radii is None else "radii"
+        sizes = _calls.as_array(diameters if radii is None else radii, name=name)
+        if radii is not None:
+            sizes = 2.0 * sizes
+        turned = x.shape[1] > JAM_MAX_DIM and 2 <= x.shape[0] <= JAM_MAX_DIM
+        if turned or (sizes.size not in (1, len(x)) and sizes.size == x.shape[1]):
+            raise ValueError(f"positions must have shape (n, d), not {x.shape}: transposed? Pass positions.T")
         if sizes.ndim > 1 or sizes.size not in (1, len(x)):
-            raise ValueError(f"diameters must be one number or have shape ({len(x)},), not {sizes.shape}")
+            raise ValueError(f"{name} must be one number or have shape ({len(x)},), not {sizes.shape}")
         return cls._create(dict(options, n=len(x), dim=x.shape[1], box=box), x.reshape(-1), sizes.reshape(-1))
 
     @classmethod
     def read(cls, path: str | os.PathLike, **options: Any) -> "System":
-        """From a file, plain text or extended XYZ, told by its content. options: box, overlap, seed, model, mk_zeta,
-        masses, non_additivity; what the file holds wins."""
+        """Reads a file of plain text or extended XYZ; the content tells which.
+
+        Parameters
+        ----------
+        path : path-like
+            The file. Positions and diameters come back with the bits that were written.
+        **options
+            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, and box for a plain file that
+            names none. What the file holds wins.
+        """
         made = _calls.options("jam_create_options", options)
         return cls(raw.jam_read(os.fspath(path), made)[1])
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike) -> "System":
-        """From a file of checkpoint_write: dynamics go on to the same bits as if they had never stopped."""
+        """Reads a file of `checkpoint_write`. The dynamics continue to the same bits as if they had never stopped."""
         return cls(raw.jam_checkpoint_read(os.fspath(path))[1])
 
     @classmethod
@@ -79,7 +147,7 @@ class System(State, Verbs, Network):
 
     # ---- life
     def close(self) -> None:
-        """Frees the system, as soon as no array shows its memory any more. Any other use is then a ClosedError."""
+        """Frees the system once no array views its memory. Any other use then raises ClosedError."""
         self._handle = None
 
     def __enter__(self) -> "System":
@@ -90,7 +158,7 @@ class System(State, Verbs, Network):
         self.close()
 
     def copy(self) -> "System":
-        """Deep copy with its results."""
+        """Deep copy with results. It has the same seed, so set velocities to make its dynamics differ."""
         made = System(raw.jam_copy(self.handle)[1])
         made.trace, made.calls, made._carried = list(self.trace), list(self.calls), self._carried
         return made
@@ -126,7 +194,16 @@ class System(State, Verbs, Network):
 
     # ---- files
     def write(self, path: str | os.PathLike, format: int | str = "auto") -> None:
-        """Writes the packing, 17 digits: 'plain' or 'xyz' (extended XYZ); 'auto' goes by the name."""
+        """Writes positions and diameters with 17 digits.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears whole or not at all.
+        format : {'auto', 'plain', 'xyz'}
+            'auto' goes by the ending: .xyz and .extxyz are extended XYZ; .dat, .txt and no ending are plain text. Other
+            endings are refused.
+        """
         raw.jam_write(self.handle, os.fspath(path), _calls.as_enum(format, "Format"))
 
     def save(self, path: str | os.PathLike) -> None:

@@ -46,7 +46,8 @@ static const char help[] =
     "  --threads T            1 or 2 (1; the same bits each time on 1)\n"
     "  --no-crunch            stop after molecular dynamics\n"
     "Output\n"
-    "  --output FILE          the packing; extended XYZ if the name ends in .xyz, else plain\n"
+    "  --output FILE          the packing: .xyz or .extxyz for extended XYZ; .dat, .txt or no\n"
+    "                         ending for plain text\n"
     "  --contacts FILE.csv    the contact network: i,j,unit vector,gap,force (mean 1)\n"
     "  --spectrum FILE.csv    lowest modes of the harmonic Hessian: omega^2, omega, participation\n"
     "  --modes K              how many --spectrum writes (100); 0: all, which needs\n"
@@ -247,10 +248,21 @@ static int is_xyz(const char *path) {
   return dot && (!strcmp(dot, ".xyz") || !strcmp(dot, ".extxyz"));
 }
 
+/* Whether jam_write knows the format of this name: said before the work, not after it. */
+static int has_format(const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+  return is_xyz(path) || !dot || dot == name || !strcmp(dot, ".dat") || !strcmp(dot, ".txt") ||
+         strspn(dot + 1, "0123456789") == strlen(dot + 1);
+}
+
 /* What contradicts itself, and what follows from the rest. */
 static int settle(options *o) {
   int k;
   if (settle_files(o)) return -1;
+  if (o->output && !has_format(o->output)) {
+    complain("--output %s: no format is known by this ending; use .xyz, .extxyz, .dat, .txt or none", o->output);
+    return -1;
+  }
   if (o->non_additivity != 0 && o->output && !is_xyz(o->output)) {
     complain("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it");
     return -1;

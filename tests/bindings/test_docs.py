@@ -1,0 +1,84 @@
+"""Examples in the docstrings of the Python package run and give what they show; words that newcomers try are answered."""
+import doctest
+import importlib
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import jam
+
+MODULES = ("system", "_verbs", "_network", "_state", "_observe", "results")
+
+
+class Examples(unittest.TestCase):
+    def test_docstrings_run(self):
+        run = 0
+        for name in MODULES:
+            found = doctest.testmod(importlib.import_module("jam." + name))
+            self.assertEqual(found.failed, 0, name)
+            run += found.attempted
+        self.assertGreater(run, 20)
+
+
+class Stumbles(unittest.TestCase):
+    """Mistakes of newcomers get an answer that names the way out."""
+
+    def test_transposed_positions(self):
+        x = np.random.default_rng(1).random((20, 3))
+        for given, sizes in ((x.T, 0.01), (x[:5].T, np.full(5, 0.01))):
+            with self.assertRaisesRegex(ValueError, "transposed"):
+                jam.System.from_arrays(given, sizes)
+        jam.System.from_arrays(x.T.copy().T, 0.01)
+
+    def test_radii(self):
+        x = [[0.2, 0.2], [0.7, 0.7]]
+        np.testing.assert_array_equal(jam.System.from_arrays(x, radii=[0.1, 0.05]).diameters, [0.2, 0.1])
+        for sizes in ({}, {"diameters": 0.1, "radii": 0.1}):
+            with self.assertRaisesRegex(TypeError, "either diameters or radii"):
+                jam.System.from_arrays(x, **sizes)
+
+    def test_names_of_calippso(self):
+        s = jam.System.random(n=8, dim=2)
+        for theirs, ours in (("l0", "neighbour_radius"), ("max_iters", "max_lps"), ("sbound", "step_bound")):
+            with self.assertRaisesRegex(TypeError, ours):
+                s.crunch(**{theirs: 1})
+        with self.assertRaisesRegex(TypeError, "did you mean gain_tolerance"):
+            s.crunch(gain_tolerence=1e-9)
+
+    def test_messages_name_python_calls(self):
+        s = jam.System.random(n=8, dim=2)
+        with self.assertRaisesRegex(jam.errors.StateError, r"call crunch\(\) or contacts_from_geometry\(\) first"):
+            s.forces
+        with self.assertRaisesRegex(jam.errors.OverlapError, 'overlap="shrink"'):
+            jam.System.from_arrays([[0.5, 0.5], [0.55, 0.5]], 0.1)
+
+    def test_dimensions_with_defaults(self):
+        for dim in (5, 6):
+            self.assertEqual(
+                jam.System.random(n=50, dim=dim).packing_fraction, jam.System.random(50, dim).packing_fraction
+            )
+
+    def test_endings(self):
+        s = jam.System.random(n=8, dim=2)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("q.gsd", "q.xyz.gz"):
+                with self.assertRaisesRegex(ValueError, r"\.xyz or \.extxyz"):
+                    s.write(Path(folder, name))
+            self.assertEqual(list(Path(folder).iterdir()), [])
+            s.write(Path(folder, "q.gsd"), "plain")
+
+    def test_short_representations(self):
+        s = jam.System.random(n=64, dim=2, diameters=[1.0] * 32 + [1.4] * 32)
+        s.crunch()
+        for value in (s.gaps(1.0, True), s.density_of_states(moments=32, points=20), s.stress_states()):
+            self.assertRegex(repr(value), r"^\w+\(\w+=array\(\d+")
+            self.assertLess(len(repr(value)), 200)
+        self.assertEqual(s.contacts.table().dtype.names, ("i", "j", "n1", "n2", "gap", "force"))
+        self.assertIn("System", dir(jam))
+        self.assertFalse({"Any", "annotations", "dataclass", "IntEnum"} & set(dir(jam)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -42,7 +42,7 @@ def read_contacts(path, dim):
 
 
 def half_lines(x, diameter, contacts):
-    """Each contact as two half lines, one from each centre, so that none runs across the box; and their forces."""
+    """Each contact as two half lines, one from each centre, so that no line crosses the box; and their forces."""
     pair, normal, gap, force = contacts
     reach = 0.25 * ((diameter[pair[:, 0]] + diameter[pair[:, 1]]) * (1.0 + gap))[:, None] * normal
     first, second = x[pair[:, 0]], x[pair[:, 1]]
@@ -119,7 +119,7 @@ def render(points, radii, table, half, pixels=1000):
 
 
 def draw_solid(axes, box, x, diameter, table, contacts):
-    """d = 3: shaded spheres, and the forces in the same view, fainter the farther away."""
+    """d = 3: shaded spheres, and the forces in the same view, paler with distance."""
     matrix = view()
     half = 0.5 * box * np.abs(matrix[:2]).sum(1).max() + 0.5 * diameter.max()
     centre = np.full(3, 0.5 * box)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Slow growth through packing fraction 0.5 to 0.6 crystallises equal spheres in d = 3, the two-stage protocol does not.
+"""Slow growth through packing fraction 0.5 to 0.6 crystallises equal spheres in d = 3. The two-stage protocol does not.
 
 usage: crystallisation.py PICTURE.png [N [SEEDS]]       N spheres (500), packings a rate (4)
 Needs the Python package `jam`, numpy, matplotlib. Prints a table.
@@ -46,8 +46,8 @@ def main(picture, n=500, seeds=4):
         axes.text(x, 12.2, name, ha="center")
     axes.set_xlim(0.95, 2.5)
     axes.set_ylim(0, 12)
-    axes.set_xlabel("r in diameters")
-    axes.set_ylabel("g(r), each rate 2 higher")
+    axes.set_xlabel("distance r / diameter")
+    axes.set_ylabel("g(r), shifted by 2 for each rate")
     axes.legend(fontsize=8, loc="upper right")
     figure.tight_layout()
     figure.savefig(picture, dpi=110)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gaps near contact at three pressures: flat up to h ~ 1/p at the height that the pressure fixes, a power law beyond.
+"""Gaps near contact at three pressures: a plateau up to h ~ 1/p, whose height the pressure fixes, then a power law.
 
 usage: gap_plateau.py PICTURE.png [N [COLLISIONS]]       N spheres (1024), collisions per particle observed (1000)
 Needs the Python package `jam`, numpy, matplotlib. Prints a table.
@@ -44,7 +44,7 @@ def main(picture, n=1024, collisions=1000.0):
     h = np.logspace(-7, -1.3, 20)
     axes.loglog(h, 0.42 * h**-0.41269, "k--", lw=1, label="slope -0.413")
     axes.set_xlabel("gap h")
-    axes.set_ylabel("pairs over those of an ideal gas")
+    axes.set_ylabel("density of pairs over that of an ideal gas")
     axes.legend(fontsize=8)
     figure.tight_layout()
     figure.savefig(picture, dpi=110)

@@ -131,8 +131,8 @@ def draw(path, picture):
         label="published fit",
     )
     plt.xscale("log")
-    plt.xlabel("growth rate in the published unit, G / 3.46")
-    plt.ylabel("packing fraction at jamming")
+    plt.xlabel(r"growth rate $\kappa = G / 3.46$ (published unit)")
+    plt.ylabel(r"jamming density $\varphi_J$")
     plt.legend(fontsize=8)
     plt.tight_layout()
     plt.savefig(picture, dpi=110)

@@ -33,7 +33,7 @@ DOT_BINS = np.linspace(-1, 1, 121)
 
 
 def measure(path, with_modes):
-    """Everything the study needs from one packing."""
+    """The data of one packing that the study uses."""
     with jam.System.read(path) as packing:
         found = packing.contacts_from_geometry()
         if found.excess_contacts != 0 or packing.status != 0:

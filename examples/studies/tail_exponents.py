@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exponent of a density p(x) ~ x^a for x -> 0, with an error bar that holds the choice of the range and the corrections to the law.
+"""Exponent of a density p(x) ~ x^a for x -> 0. The error bar includes the choice of range and the corrections to the law.
 
 usage: tail_exponents.py [PACKINGS [REPEATS]]      validation on samples of known exponent (default 20 packings, 40 repeats)
 
@@ -138,7 +138,7 @@ class Synthetic:
 
 
 def families():
-    """Departures at x of order 1, as fast and as slow as one may fear; numbers of values as in a packing of 1024 spheres."""
+    """Synthetic laws that deviate at x of order 1, fast and slowly, with as many values as a packing of 1024 spheres."""
     extended, localised, gap = 0.42311, 0.17462, -0.41269
     for a, n in ((extended, 2500), (localised, 500)):
         kind = "extended" if a == extended else "localised"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""D(omega) of the linear contact networks of each LP of a crunch, as jamming is approached from below.
+"""D(omega) of the linear contact network of each LP of a crunch, from below jamming up to it.
 
 usage: undercompressed_spectrum.py PICTURE.png [N] [PRESSURE] [PACKINGS]
 Below jamming no two spheres touch, but the pairs with a positive multiplier in an LP carry forces lambda r that balance on every
@@ -21,7 +21,7 @@ import jam  # noqa: E402
 
 
 def stable_part(pairs, n, dim):
-    """Rows that are left when spheres with fewer than d + 1 contacts are taken out again and again."""
+    """Rows that remain when spheres with fewer than d + 1 contacts are removed recursively."""
     keep = np.ones(len(pairs), bool)
     while True:
         z = np.bincount(pairs[keep].reshape(-1), minlength=n)
@@ -32,7 +32,7 @@ def stable_part(pairs, n, dim):
 
 
 def network(packing):
-    """What is known of the linear network of the LP that has just ended, or None."""
+    """The linear network of the LP that has just ended, or None."""
     pairs = packing.crunch_step_contacts()
     if len(pairs) == 0:
         return None
@@ -63,7 +63,7 @@ def network(packing):
 
 
 def crunch(seed, n, pressure):
-    """All linear networks of one crunch by the chain of LPs, each with the gain of its LP."""
+    """All linear networks of one crunch by sequential LPs, each with the gain of its LP."""
     found = []
     with jam.System.random(n=n, dim=3, seed=seed) as packing:
         packing.compress(stages=[(1e-2, pressure)])

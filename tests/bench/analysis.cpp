@@ -92,7 +92,7 @@ void tile(const Packing &p, const ContactNetwork &net, Packing &q, ContactNetwor
     }
 }
 
-// Largest distance between the cumulative spectrum of the exact modes and of the kernel polynomial density.
+// Largest difference between the cumulative spectra of the exact modes and of the kernel polynomial method.
 double cumulative_error(const std::vector<double> &lambda, size_t translations, const DensityOfStates &dos) {
   double worst = 0.0;
   for (size_t k = 0; k < dos.omega.size(); ++k) {
@@ -112,7 +112,7 @@ double force_error(const std::vector<double> &f, const std::vector<double> &exac
   return worst;
 }
 
-// The multipliers of the last LP as they come.
+// The multipliers of the last LP, not polished.
 struct RawCrunch {
   std::vector<double> force;
   double seconds = 0.0;

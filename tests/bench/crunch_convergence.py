@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How fast each quench nears its own jamming point: distance in density against time through one crunch, for both methods.
+"""Convergence of both methods of crunch: distance of the density from its final value against time, within one run.
 
 usage: crunch_convergence.py [--seed 1] [--states DIR] [--out CONVERGENCE.json] [--picture CONVERGENCE.png]
 
@@ -60,7 +60,7 @@ def draw(rows, picture):
         axis.set(xlabel="seconds since the start", title=name)
         axis.grid(alpha=0.3, which="both")
         axis.legend(fontsize=8)
-    axes[0].set_ylabel(r"$\varphi_J$ of this quench $- \varphi$ (at least 1e-16 drawn)")
+    axes[0].set_ylabel(r"$\varphi_J - \varphi$ of this run (at least 1e-16 drawn)")
     figure.tight_layout()
     figure.savefig(picture, dpi=100)
 

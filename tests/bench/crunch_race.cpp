@@ -72,7 +72,7 @@ void row(const char *method, const Packing &p, jam_crunch_options o, int runs, d
   first = false;
 }
 
-// One LP of the chain, solved to full accuracy by both solvers: with libjam's first reach and bound, and with those of
+// One LP, solved to full accuracy by both solvers: with libjam's first reach and bound, and with those of
 // CALiPPSO's first stage (pairs nearer than 4 R, |s_ik| < (2 R - 1.5 R) / sqrt(d)).
 void first_lp(const Packing &p, int runs, const char *name, double reach, double bound) {
   const double unit = diameter_mean(p);

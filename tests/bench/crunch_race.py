@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Chart of crunch time against force residual and against |phi_J - reference|, from crunch_race's JSON.
+"""Crunch time against force residual and against |phi_J - reference|, from the JSON of crunch_race.
 
 usage: crunch_race.py RACE.json PICTURE.png
 """
@@ -15,7 +15,7 @@ data = json.load(open(sys.argv[1]))
 style = {
     ("barrier_path", 0): ("o", "C0", "barrier path, last LPs by interior point"),
     ("barrier_path", 1): ("*", "C0", "the same, polished"),
-    ("sequential_lp", 0): ("s", "C1", "chain of LPs, interior point"),
+    ("sequential_lp", 0): ("s", "C1", "sequential LPs, interior point"),
     ("sequential_lp", 1): ("P", "C1", "the same, polished"),
     ("barrier_path, last LPs by Clp", 0): ("D", "C3", "barrier path, last LPs by Clp"),
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Where crunch jams, where it stops and why: start density x method x dimension, size ratio x number of spheres, crystals.
+"""Where crunch jams, and where and why it stops: by start density, method, dimension, sizes and crystals.
 
 usage: failure_map.py [--out MAP.json] [--picture MAP.png] [--seeds 2] [--limit SECONDS] [--scale 1] [--only-draw]
 
@@ -26,7 +26,7 @@ JAMMED = {2: 0.84, 3: 0.64, 4: 0.46, 5: 0.31}
 
 
 def overlap(x, sizes, box):
-    """Largest overlap relative to the contact distance, and whether that of a sphere with its own image, by brute force."""
+    """Largest overlap over the contact distance by brute force, and whether a sphere overlaps its own image."""
     n, d = x.shape
     reach = 2 if sizes.max() > 0.5 * box else 1
     worst = 0.0
@@ -66,7 +66,7 @@ def moves(n, d, pairs, normals):
 
 
 def verdict(system, report):
-    """Kind and reason of a result, by what can be recomputed from it."""
+    """Kind and reason of a result, recomputed from positions, contacts and forces."""
     x, sizes = np.array(system.positions), np.array(system.diameters)
     n, d = x.shape
     if overlap(x, sizes, system.box) > 1e-11:

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The whole chain from nothing with jam-pack: several seeds in d = 3, 2 and 4. JSON to stdout, a line a packing to stderr.
+"""From a random start to the certificate with jam-pack: several seeds in d = 3, 2 and 4. JSON to stdout, one line a packing
+to stderr.
 
 usage: from_nothing.py JAM_PACK [SEEDS]
 """

@@ -1,4 +1,4 @@
-"""States from molecular dynamics for the crunch's benchmarks, kept in a folder and found there again."""
+"""States from molecular dynamics for the benchmarks of crunch, stored in a folder and reused."""
 import os
 import time
 

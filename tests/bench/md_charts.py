@@ -40,7 +40,7 @@ def speed(source, target):
         right.plot(phi, [r["lists"] / 1e6 for r in line], "o-", color=f"C{k}", label=f"lists, N = {n}")
         right.plot(phi, [r["cells"] / 1e6 for r in line], "s--", color=f"C{k}", label=f"cells alone, N = {n}")
         taken = [(r["packing_fraction"], r[r["choice"]] / 1e6) for r in line]
-        right.plot(*zip(*taken), "o", color="k", mfc="none", ms=11, label="taken by itself" if k else None)
+        right.plot(*zip(*taken), "o", color="k", mfc="none", ms=11, label="chosen by the engine" if k else None)
     right.set_xlabel("packing fraction")
     for axes in (left, right):
         axes.set_ylim(bottom=0)

@@ -1,4 +1,4 @@
-"""What Python costs: import, views, arrays in and out, a crunch beside jam-pack. Not in ctest: timings.
+"""Time that the Python layer adds: import, views, arrays in and out, a crunch beside jam-pack. Not in ctest: timings.
 
 usage: PYTHONPATH=build/python python3 tests/bench/python_overhead.py [--pack build/jam-pack] [--file PACKING] [--repeat 5]
 Prints JSON; all times in seconds, medians. The same work through the C ABI (ctypes, raw pointers) is the baseline for arrays.

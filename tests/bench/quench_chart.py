@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Density and time of the two quenches: the barrier path and the chain of LPs, from the same starts.
+"""Density and time of both methods of crunch, the barrier path and sequential LPs, from the same starts.
 
 usage: quench_chart.py [--n 256] [--seeds 8] [--out QUENCH.json] [--picture QUENCH.png] [--only-draw]
 
@@ -47,7 +47,11 @@ def study(args):
 
 def pairs(data, start, field):
     mine = {(r["seed"], r["method"]): r for r in data["rows"] if r["start"] == start and r["jammed"]}
-    both = [seed for seed in range(1, data["seeds"] + 1) if (seed, "barrier_path") in mine and (seed, "sequential_lp") in mine]
+    both = [
+        seed
+        for seed in range(1, data["seeds"] + 1)
+        if (seed, "barrier_path") in mine and (seed, "sequential_lp") in mine
+    ]
     return tuple(np.array([mine[seed, method][field] for seed in both]) for method in ("barrier_path", "sequential_lp"))
 
 
@@ -64,10 +68,10 @@ def draw(data, picture):
         for s in starts
     ]
     for k, start in enumerate(starts):
-        path, chain = pairs(data, start, "phi")
+        path, lps = pairs(data, start, "phi")
         axes[0].plot(np.full(len(path), k - 0.12), path, ".", color="C0", label="barrier path" if k == 0 else None)
-        axes[0].plot(np.full(len(chain), k + 0.12), chain, ".", color="C1", label="chain of LPs" if k == 0 else None)
-        difference = path - chain
+        axes[0].plot(np.full(len(lps), k + 0.12), lps, ".", color="C1", label="sequential LPs" if k == 0 else None)
+        difference = path - lps
         axes[1].errorbar(
             k, difference.mean(), difference.std(ddof=1) / np.sqrt(len(difference)), fmt="o", color="C2", capsize=3
         )
@@ -76,7 +80,7 @@ def draw(data, picture):
             axes[2].semilogy(k + shift, np.median(values), "_", ms=16, color=method)
     axes[1].axhline(0.0, color="k", lw=0.6)
     for axis, label in zip(
-        axes, (r"$\varphi_J$", r"$\varphi_J$ of the path less $\varphi_J$ of the chain", "processor seconds")
+        axes, (r"$\varphi_J$", r"$\varphi_J$ of the path less $\varphi_J$ of sequential LPs", "processor seconds")
     ):
         axis.set(ylabel=label, xticks=range(len(starts)))
         axis.set_xticklabels(labels, fontsize=8)
@@ -98,11 +102,11 @@ def main():
     data = json.load(open(args.out)) if args.only_draw else study(args)
     json.dump(data, open(args.out, "w"), indent=0)
     for start in map(str, STARTS):
-        path, chain = pairs(data, start, "phi")
-        d = path - chain
+        path, lps = pairs(data, start, "phi")
+        d = path - lps
         seconds = pairs(data, start, "seconds")
         print(
-            f"{start:>9}: phi path {path.mean():.5f} chain {chain.mean():.5f} difference {d.mean():+.1e} +- {d.std(ddof=1) / np.sqrt(len(d)):.0e}, "
+            f"{start:>9}: phi path {path.mean():.5f} LPs {lps.mean():.5f} difference {d.mean():+.1e} +- {d.std(ddof=1) / np.sqrt(len(d)):.0e}, "
             f"seconds {np.median(seconds[0]):.2f} {np.median(seconds[1]):.2f}, both jammed {len(d)} of {args.seeds}"
         )
     if args.picture:

@@ -96,7 +96,9 @@ def draw(rows, picture):
                 if error == error
                 else f"{name}: $N^{{{power:.2f}}}$",
             )
-            if PUBLISHED[field] and (method == "sequential_lp" or len(kinds) == 1):  # what was published is a chain
+            if PUBLISHED[field] and (
+                method == "sequential_lp" or len(kinds) == 1
+            ):  # the published exponent is of sequential LPs
                 axis.loglog(
                     sizes,
                     [middle[0] * (n / sizes[0]) ** PUBLISHED[field] for n in sizes],

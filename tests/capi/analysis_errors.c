@@ -27,7 +27,7 @@ static jam_system *square(void) {
   return s;
 }
 
-static void null_handles(void **state) {
+static void null_handles_are_refused(void **state) {
   double x;
   int32_t i;
   size_t m;
@@ -62,7 +62,7 @@ static void null_handles(void **state) {
   assert_int_equal(jam_compare(NULL, NULL, NULL, NULL, 0, NULL), JAM_E_NULL);
 }
 
-static void no_network(void **state) {
+static void calls_without_a_network_are_refused(void **state) {
   jam_system *s = fluid();
   jam_moduli moduli = {.struct_size = sizeof(jam_moduli)};
   double x = 0.0;
@@ -92,8 +92,8 @@ static void no_network(void **state) {
   jam_destroy(s);
 }
 
-/* A fluid has no contacts: an empty network, a status, and no crash in anything that follows. */
-static void all_rattlers(void **state) {
+/* A fluid has no contacts: the network is empty, the status says so, and later calls do not crash. */
+static void a_fluid_has_an_empty_network(void **state) {
   jam_system *s = fluid();
   jam_geometry_report r = {.struct_size = sizeof(jam_geometry_report)};
   jam_moduli moduli = {.struct_size = sizeof(jam_moduli)};
@@ -125,7 +125,7 @@ static void all_rattlers(void **state) {
   jam_destroy(s);
 }
 
-static void hyperstatic(void **state) {
+static void hyperstatic_networks_have_several_self_stresses(void **state) {
   jam_system *s = square();
   jam_geometry_report r = {.struct_size = sizeof(jam_geometry_report)};
   double f[32], basis[8 * 32], u[32], residual = 1.0;
@@ -145,7 +145,7 @@ static void hyperstatic(void **state) {
   jam_destroy(s);
 }
 
-static void arguments(void **state) {
+static void bad_arguments_are_refused(void **state) {
   jam_system *s = square(), *t = fluid();
   jam_hessian_options h;
   jam_modes_options o;
@@ -221,8 +221,8 @@ static int32_t stop(const jam_progress *p, void *user) {
   return 1;
 }
 
-/* Every long call stops at the first word of the callback, writes nothing, and works again afterwards. */
-static void all_long_calls_stop(void **state) {
+/* Every long call stops at the first callback that asks for it, writes no output, and works again afterwards. */
+static void every_long_call_can_be_cancelled(void **state) {
   jam_system *s = square(), *one = NULL;
   jam_create_options o;
   jam_moduli moduli = {.struct_size = sizeof(jam_moduli), .bulk = 7.0};
@@ -258,7 +258,7 @@ static void all_long_calls_stop(void **state) {
   jam_destroy(one);
 }
 
-static void cancelled(void **state) {
+static void cancelled_calls_write_nothing(void **state) {
   jam_system *s = square();
   jam_modes_options o;
   int32_t phase = 0;
@@ -278,9 +278,12 @@ static void cancelled(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(null_handles),       cmocka_unit_test(no_network),
-                                     cmocka_unit_test(all_rattlers),       cmocka_unit_test(hyperstatic),
-                                     cmocka_unit_test(arguments),          cmocka_unit_test(cancelled),
-                                     cmocka_unit_test(all_long_calls_stop)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(null_handles_are_refused),
+                                     cmocka_unit_test(calls_without_a_network_are_refused),
+                                     cmocka_unit_test(a_fluid_has_an_empty_network),
+                                     cmocka_unit_test(hyperstatic_networks_have_several_self_stresses),
+                                     cmocka_unit_test(bad_arguments_are_refused),
+                                     cmocka_unit_test(cancelled_calls_write_nothing),
+                                     cmocka_unit_test(every_long_call_can_be_cancelled)};
   return cmocka_run_group_tests_name("analysis_errors", tests, NULL, NULL);
 }

@@ -32,8 +32,8 @@ static void refuses_floppy_modes(jam_system *s, const char *word) {
   assert_non_null(strstr(jam_last_error(), word));
 }
 
-/* Five disks in a row through the box: as many contacts as spheres, and nothing that holds them sideways. */
-static void one_spanning_chain(void **state) {
+/* Five disks in a row through the box: as many contacts as spheres, and no stiffness sideways. */
+static void a_single_row_has_no_sideways_stiffness(void **state) {
   double x[10];
   jam_geometry_report g;
   jam_system *s;
@@ -51,8 +51,8 @@ static void one_spanning_chain(void **state) {
   jam_destroy(s);
 }
 
-/* Two strips of triangular rows that do not touch: each moves by itself, and its forces say nothing of the other's. */
-static void two_clusters(void **state) {
+/* Two strips of triangular rows that do not touch: each moves freely, and their forces are independent. */
+static void separate_clusters_have_separate_forces(void **state) {
   double x[72], f[84], l[72], residual = 1.0;
   jam_geometry_report g;
   jam_modes_options o;
@@ -77,8 +77,8 @@ static void two_clusters(void **state) {
   jam_destroy(s);
 }
 
-/* A sphere as large as its box touches its own images: that cannot open or close, so it is counted and left out. */
-static void own_image(void **state) {
+/* A sphere as large as its box touches its own images. These contacts cannot open, so they are counted and left out. */
+static void contacts_with_own_images_are_left_out(void **state) {
   const double x[3] = {0.1, 0.2, 0.3};
   jam_system *s = spheres(3, 1, 1.0, 1.0, x);
   const jam_geometry_report g = look(s, JAM_NOT_JAMMED);
@@ -91,7 +91,7 @@ static void own_image(void **state) {
 }
 
 /* Two disks in a checkerboard touch through four images: four contacts of one pair, each with its own vector. */
-static void four_images_of_a_neighbour(void **state) {
+static void several_images_are_several_contacts(void **state) {
   const double x[4] = {0.0, 0.0, 0.5, 0.5};
   jam_system *s = spheres(2, 2, 1.0, sqrt(0.5), x);
   const jam_geometry_report g = look(s, JAM_AMBIGUOUS);
@@ -120,8 +120,8 @@ static void four_images_of_a_neighbour(void **state) {
   jam_destroy(s);
 }
 
-/* Three disks jam with one state of self-stress although pairs touch through several images: everything works. */
-static void three_disks(void **state) {
+/* Three disks jam with one state of self-stress although pairs touch through several images. All calls work. */
+static void three_disks_have_one_self_stress(void **state) {
   jam_create_options o;
   jam_crunch_report r = {.struct_size = sizeof(jam_crunch_report)};
   jam_geometry_report g;
@@ -145,8 +145,9 @@ static void three_disks(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(one_spanning_chain), cmocka_unit_test(two_clusters),
-                                     cmocka_unit_test(own_image), cmocka_unit_test(four_images_of_a_neighbour),
-                                     cmocka_unit_test(three_disks)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_single_row_has_no_sideways_stiffness),
+      cmocka_unit_test(separate_clusters_have_separate_forces), cmocka_unit_test(contacts_with_own_images_are_left_out),
+      cmocka_unit_test(several_images_are_several_contacts), cmocka_unit_test(three_disks_have_one_self_stress)};
   return cmocka_run_group_tests_name("analysis_scenes", tests, NULL, NULL);
 }

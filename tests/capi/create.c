@@ -22,7 +22,7 @@ static void refused(const jam_create_options *o, const double *x, size_t nx, con
   if (!strstr(jam_last_error(), part)) fail_msg("'%s' does not hold '%s'", jam_last_error(), part);
 }
 
-static void bad_options(void **state) {
+static void bad_options_are_refused(void **state) {
   jam_create_options o = options();
   (void)state;
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "n is 0");
@@ -55,8 +55,8 @@ static void bad_options(void **state) {
   assert_int_equal(jam_create_options_init(&o, sizeof o + 1), JAM_E_STRUCT_SIZE);
 }
 
-/* An older, shorter struct leaves what it does not know at the defaults. */
-static void older_caller(void **state) {
+/* Members that an older, shorter struct lacks keep their defaults. */
+static void shorter_structs_keep_defaults(void **state) {
   jam_create_options o = options();
   jam_system *sys = NULL;
   jam_info info;
@@ -71,7 +71,7 @@ static void older_caller(void **state) {
   jam_destroy(sys);
 }
 
-static void too_dense_ends(void **state) {
+static void too_dense_starts_are_refused(void **state) {
   jam_create_options o = options();
   (void)state;
   o.n = 500, o.packing_fraction = 0.55; /* saturation of random sequential addition is 0.384 in d = 3 */
@@ -80,7 +80,7 @@ static void too_dense_ends(void **state) {
   refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "box");
 }
 
-static void bad_arrays(void **state) {
+static void bad_arrays_are_refused(void **state) {
   jam_create_options o = options();
   double x[9] = {0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 0.9, 0.9, 0.9}, s = 0.2, three[3] = {0.2, -0.1, 0.2};
   (void)state;
@@ -114,7 +114,7 @@ static void overlap_is_named_or_shrunk(void **state) {
   jam_destroy(sys);
 }
 
-static void wider_than_the_box(void **state) {
+static void spheres_wider_than_the_box_are_refused_or_shrunk(void **state) {
   jam_create_options o = options();
   const double x[3] = {0.5, 0.5, 0.5}, s = 1e9;
   const double *view;
@@ -129,7 +129,7 @@ static void wider_than_the_box(void **state) {
   jam_destroy(sys);
 }
 
-static void outside_is_wrapped(void **state) {
+static void positions_outside_are_wrapped(void **state) {
   const double x[6] = {-0.25, 1.5, -1e-20, 3.0, 2.25, 0.5}, s = 0.1;
   const double expected[6] = {0.75, 0.5, 0.0, 0.0, 0.25, 0.5};
   const double *view;
@@ -189,7 +189,7 @@ static void setters_and_copies(void **state) {
   jam_destroy(NULL);
 }
 
-static void null_handles(void **state) {
+static void null_handles_are_refused(void **state) {
   const double *v;
   size_t len;
   (void)state;
@@ -204,8 +204,8 @@ static void null_handles(void **state) {
   assert_int_equal(jam_abi_version(), JAM_ABI);
 }
 
-/* Random starts in every dimension hold no overlap: looked at pair by pair with nearest images. */
-static void starts_are_valid(void **state) {
+/* Random starts in every dimension have no overlap, checked pair by pair with nearest images. */
+static void random_starts_have_no_overlaps(void **state) {
   int d;
   (void)state;
   for (d = 2; d <= JAM_MAX_DIM; ++d) {
@@ -234,16 +234,16 @@ static void starts_are_valid(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bad_options),
-                                     cmocka_unit_test(older_caller),
-                                     cmocka_unit_test(too_dense_ends),
-                                     cmocka_unit_test(bad_arrays),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(bad_options_are_refused),
+                                     cmocka_unit_test(shorter_structs_keep_defaults),
+                                     cmocka_unit_test(too_dense_starts_are_refused),
+                                     cmocka_unit_test(bad_arrays_are_refused),
                                      cmocka_unit_test(overlap_is_named_or_shrunk),
-                                     cmocka_unit_test(wider_than_the_box),
-                                     cmocka_unit_test(outside_is_wrapped),
+                                     cmocka_unit_test(spheres_wider_than_the_box_are_refused_or_shrunk),
+                                     cmocka_unit_test(positions_outside_are_wrapped),
                                      cmocka_unit_test(same_seed_same_bits),
                                      cmocka_unit_test(setters_and_copies),
-                                     cmocka_unit_test(null_handles),
-                                     cmocka_unit_test(starts_are_valid)};
+                                     cmocka_unit_test(null_handles_are_refused),
+                                     cmocka_unit_test(random_starts_have_no_overlaps)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,14 +84,14 @@ static void memory(int64_t n, double phi, double pressure, int steps) {
   assert_true(m.taken > 0.0);
 }
 
-static void memory_within_two(void **state) {
+static void memory_estimate_is_good_to_a_factor_of_two(void **state) {
   (void)state;
   memory(1024, 0.3, 30.0, 30);
   memory(4096, 0.3, 0.0, 2);
 }
 
 /* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */
-static void orders(void **state) {
+static void estimates_scale_with_the_number_of_spheres(void **state) {
   jam_system *small = start(300, 0.3), *large = start(600, 0.3);
   jam_crunch_options o;
   jam_estimate a, b, two;
@@ -107,12 +107,12 @@ static void orders(void **state) {
   jam_destroy(small), jam_destroy(large);
 }
 
-/* Of one list the path couples only pairs that are near to contact, the chain whatever its bound lets close. */
-static void near_pairs_cost(void **state) {
+/* The path couples only pairs near contact; an LP couples all pairs that its step bound lets close. */
+static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
   jam_system *sys = start(300, 0.3);
   jam_compress_options c;
   jam_crunch_options o;
-  jam_estimate path, chain;
+  jam_estimate path, lps;
   (void)state;
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 0.1, c.pressure = 1e3;
@@ -123,10 +123,10 @@ static void near_pairs_cost(void **state) {
   o.neighbour_radius = 1.5;
   path = estimated(sys, &o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  chain = estimated(sys, &o);
+  lps = estimated(sys, &o);
   assert_true((double)path.pairs >
-              0.95 * (double)chain.pairs); /* the chain's list may be for diameters grown a little more */
-  assert_true(path.flops < 0.8 * chain.flops && path.step_seconds < chain.step_seconds);
+              0.95 * (double)lps.pairs); /* the list of the LPs may be for slightly larger diameters */
+  assert_true(path.flops < 0.8 * lps.flops && path.step_seconds < lps.step_seconds);
   jam_destroy(sys);
 }
 
@@ -135,7 +135,7 @@ static void keep_estimate(int32_t level, const char *line, void *user) {
 }
 
 /* The first line of a crunch that is logged. */
-static void is_logged(void **state) {
+static void the_estimate_is_logged_first(void **state) {
   jam_system *sys = start(60, 0.3);
   char line[400] = "", expected[40];
   jam_estimate e = estimated(sys, NULL);
@@ -147,7 +147,7 @@ static void is_logged(void **state) {
   jam_destroy(sys);
 }
 
-static void errors(void **state) {
+static void bad_calls_are_refused(void **state) {
   jam_system *sys = start(60, 0.3), *one = start(1, 0.1);
   jam_crunch_options o;
   jam_estimate e;
@@ -165,8 +165,10 @@ static void errors(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_within_two), cmocka_unit_test(orders),
-                                     cmocka_unit_test(near_pairs_cost), cmocka_unit_test(is_logged),
-                                     cmocka_unit_test(errors)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_estimate_is_good_to_a_factor_of_two),
+                                     cmocka_unit_test(estimates_scale_with_the_number_of_spheres),
+                                     cmocka_unit_test(the_path_factorises_fewer_pairs_than_the_lps),
+                                     cmocka_unit_test(the_estimate_is_logged_first),
+                                     cmocka_unit_test(bad_calls_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

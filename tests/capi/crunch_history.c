@@ -146,7 +146,7 @@ static void steps_add_up(int dim, int32_t method) {
     phi = v[k];
   }
   assert_true(fabs(phi - r.packing_fraction) < 1e-14);
-  /* LPs stride through the dilute start, then the path if that is the method, LPs again and polish. */
+  /* The phases: LPs from the dilute start, the path if that is the method, LPs again, polish. */
   for (k = 0; k < rows; ++k) paths += phase[k] == JAM_STEP_PATH;
   assert_true(phase[0] == JAM_STEP_LP && (paths > 0) == (method == JAM_CRUNCH_BARRIER_PATH) &&
               phase[rows - 1] == JAM_STEP_POLISH);
@@ -179,7 +179,7 @@ static void steps_add_up(int dim, int32_t method) {
   jam_destroy(sys);
 }
 
-static void all_methods(void **state) {
+static void history_steps_add_up_to_the_packing(void **state) {
   int dim, method;
   (void)state;
   for (dim = 2; dim <= 3; ++dim)
@@ -197,7 +197,7 @@ static int32_t asks_in_vain(const jam_progress *p, void *user) {
 
 /* Errors by name; the details are for the callback of a crunch with steps = 1 alone; what moves the spheres drops the
  * history. */
-static void errors(void **state) {
+static void history_errors_are_named(void **state) {
   jam_system *sys = start(2, 1), *copy;
   jam_crunch_options o;
   double v[MAX_STEPS], u[MAX_STEPS];
@@ -234,6 +234,7 @@ static void errors(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(all_methods), cmocka_unit_test(errors)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(history_steps_add_up_to_the_packing),
+                                     cmocka_unit_test(history_errors_are_named)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ static void cancel_in_every_phase(void **state) {
   trap("LP 3", 0, 0.0, &o, JAM_CANCELLED, JAM_STOP_CANCELLED);
 }
 
-/* The clock runs out inside the first LP: that LP is given up and nothing has moved. */
+/* The time limit comes inside the first LP: the LP is dropped and no sphere has moved. */
 static void wall_time_inside_an_lp(void **state) {
   jam_crunch_options o;
   int solver;
@@ -120,8 +120,8 @@ static int32_t count_calls(const jam_progress *p, void *user) {
   return p->phase == JAM_PHASE_POLISH;
 }
 
-/* A polish that is stopped, or for which no time is left, leaves the LP's own answer. */
-static void polish_is_stopped(void **state) {
+/* A polish that is stopped, or has no time left, leaves the answer of the last LP. */
+static void a_stopped_polish_leaves_the_lp_answer(void **state) {
   jam_system *plain = start(100);
   jam_crunch_options o;
   jam_crunch_report b;
@@ -161,6 +161,6 @@ static void polish_is_stopped(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase), cmocka_unit_test(wall_time_inside_an_lp),
-                                     cmocka_unit_test(polish_is_stopped)};
+                                     cmocka_unit_test(a_stopped_polish_leaves_the_lp_answer)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

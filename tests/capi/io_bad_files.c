@@ -2,7 +2,7 @@
 #include <sys/resource.h>
 #include "io_helpers.h"
 
-static void plain_files(void **state) {
+static void bad_plain_files_are_refused(void **state) {
   (void)state;
   expect_refused("", JAM_E_FORMAT, "is empty");
   expect_refused("\n\n", JAM_E_FORMAT, "is empty");
@@ -48,7 +48,7 @@ static void plain_files(void **state) {
 }
 
 #define LATTICE "Lattice=\"1 0 0 0 1 0 0 0 1\" "
-static void xyz_files(void **state) {
+static void bad_xyz_files_are_refused(void **state) {
   (void)state;
   expect_refused("0\n" LATTICE "\n", JAM_E_ARGUMENT, "n is 0");
   expect_refused("1\n" LATTICE "\nA 0 0 0\n", JAM_E_FORMAT, "line 2: no Properties");
@@ -130,7 +130,7 @@ static void every_truncation(const char *name, double ratio) {
   jam_destroy(back);
 }
 
-static void truncated(void **state) {
+static void cut_files_are_refused(void **state) {
   (void)state;
   every_truncation("t.dat", 1.0);
   every_truncation("t2.dat", 1.4);
@@ -138,7 +138,7 @@ static void truncated(void **state) {
 }
 
 /* A count of 2^31-1 in the header, and a line that never ends, must not take memory. */
-static void no_allocation_ahead(void **state) {
+static void header_counts_allocate_nothing(void **state) {
   struct rusage before, after;
   char *line = malloc(50u << 20);
   (void)state;
@@ -158,7 +158,7 @@ static void no_allocation_ahead(void **state) {
   free(line);
 }
 
-static void missing_and_null(void **state) {
+static void missing_files_are_refused(void **state) {
   jam_system *sys = NULL;
   jam_create_options o;
   (void)state;
@@ -224,11 +224,11 @@ static void shared_file(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(no_allocation_ahead),
-      cmocka_unit_test(plain_files),
-      cmocka_unit_test(xyz_files),
-      cmocka_unit_test(truncated),
-      cmocka_unit_test(missing_and_null),
+      cmocka_unit_test(header_counts_allocate_nothing),
+      cmocka_unit_test(bad_plain_files_are_refused),
+      cmocka_unit_test(bad_xyz_files_are_refused),
+      cmocka_unit_test(cut_files_are_refused),
+      cmocka_unit_test(missing_files_are_refused),
       cmocka_unit_test(overlap_policy),
       cmocka_unit_test(shared_file),
       cmocka_unit_test(open_boundaries_refused),

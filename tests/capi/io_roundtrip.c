@@ -27,7 +27,7 @@ static void all_round_trips(void) {
       }
 }
 
-static void same_bits(void **state) {
+static void written_files_read_back_to_the_same_bits(void **state) {
   (void)state;
   all_round_trips();
 }
@@ -47,7 +47,7 @@ static const char *set_comma_locale(void) {
   return setlocale(LC_ALL, "de_DE.UTF-8");
 }
 
-static void comma_locale(void **state) {
+static void locale_with_comma_changes_nothing(void **state) {
   size_t size;
   char *text;
   (void)state;
@@ -110,7 +110,7 @@ static double coordinate(const jam_system *sys, size_t k) {
 }
 
 /* What other people's programs write: CRLF, blanks, plus signs, blank lines, further columns, other column orders. */
-static void tolerant_reader(void **state) {
+static void foreign_layouts_are_read(void **state) {
   jam_system *sys;
   jam_info info;
   jam_create_options o;
@@ -149,10 +149,10 @@ static void tolerant_reader(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(same_bits),
-      cmocka_unit_test(comma_locale),
+      cmocka_unit_test(written_files_read_back_to_the_same_bits),
+      cmocka_unit_test(locale_with_comma_changes_nothing),
       cmocka_unit_test(layout_of_plain),
-      cmocka_unit_test(tolerant_reader),
+      cmocka_unit_test(foreign_layouts_are_read),
   };
   return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -13,7 +13,7 @@ static void assert_untouched(const char *path) {
   free(text);
 }
 
-static void bad_targets(void **state) {
+static void targets_that_cannot_be_written_are_refused(void **state) {
   jam_system *sys = some_packing(3, 50, 1.0, 1.0);
   int files = count_files();
   (void)state;
@@ -31,7 +31,7 @@ static void bad_targets(void **state) {
 }
 
 /* A full disk: the special file /dev/full, and a file-size limit in the middle of the temporary file. */
-static void disk_full(void **state) {
+static void a_full_disk_leaves_the_old_file(void **state) {
   jam_system *sys = some_packing(3, 400, 1.4, 1.0);
   struct rlimit limit, small;
   const char *path = in_scratch("precious.dat");
@@ -61,7 +61,7 @@ static void disk_full(void **state) {
   jam_destroy(sys);
 }
 
-static void special_files(void **state) {
+static void special_files_are_written_in_place(void **state) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   struct stat there;
   (void)state;
@@ -71,7 +71,7 @@ static void special_files(void **state) {
   jam_destroy(sys);
 }
 
-static void links_and_modes(void **state) {
+static void links_and_permissions_are_kept(void **state) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0), *back = NULL;
   const char *real = in_scratch("real.dat"), *link = in_scratch("link.dat"), *dangling = in_scratch("dangling.dat");
   struct stat there;
@@ -97,7 +97,7 @@ static void links_and_modes(void **state) {
   jam_destroy(sys);
 }
 
-static void read_only_file(void **state) {
+static void read_only_files_are_kept(void **state) {
   jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   const char *path = in_scratch("readonly.dat");
   (void)state;
@@ -115,8 +115,11 @@ static void read_only_file(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bad_targets),     cmocka_unit_test(disk_full),      cmocka_unit_test(special_files),
-      cmocka_unit_test(links_and_modes), cmocka_unit_test(read_only_file),
+      cmocka_unit_test(targets_that_cannot_be_written_are_refused),
+      cmocka_unit_test(a_full_disk_leaves_the_old_file),
+      cmocka_unit_test(special_files_are_written_in_place),
+      cmocka_unit_test(links_and_permissions_are_kept),
+      cmocka_unit_test(read_only_files_are_kept),
   };
   return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -84,7 +84,7 @@ static void refuses_bad_arguments(void **state) {
   jam_destroy(sys);
 }
 
-static void one_sphere_and_rest(void **state) {
+static void without_collisions_runs_end_at_once(void **state) {
   jam_system *sys = make(1, 3, 0.1);
   jam_md_report report = empty_report();
   double zero[60] = {0.0};
@@ -200,8 +200,8 @@ static void starts_at_contact(void **state) {
   jam_destroy(sys);
 }
 
-/* Compressing what is jammed already ends by pressure, precision or stall, never by a hang. */
-static void jammed_start(void **state) {
+/* Compressing a jammed packing ends by pressure, precision or stall; it never hangs. */
+static void compressing_a_jammed_packing_ends(void **state) {
   jam_system *sys = make(32, 3, 0.2);
   jam_compress_options c;
   jam_md_report report = empty_report();
@@ -223,7 +223,7 @@ static void jammed_start(void **state) {
   jam_destroy(sys);
 }
 
-static void fast_growth_ends(void **state) {
+static void fast_growth_ends_by_a_status(void **state) {
   const double rates[] = {1.0, 10.0, 100.0};
   int k;
   (void)state;
@@ -243,7 +243,7 @@ static void fast_growth_ends(void **state) {
   }
 }
 
-static void wall_limit_ends(void **state) {
+static void wall_time_ends_a_run(void **state) {
   jam_system *sys = make(200, 3, 0.3);
   jam_run_options r;
   jam_compress_options c;
@@ -332,11 +332,16 @@ static void box_only_scales(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(refuses_bad_arguments),      cmocka_unit_test(one_sphere_and_rest),
-      cmocka_unit_test(exact_packing_fraction),     cmocka_unit_test(exact_collisions),
-      cmocka_unit_test(starts_at_contact),          cmocka_unit_test(jammed_start),
-      cmocka_unit_test(fast_growth_ends),           cmocka_unit_test(wall_limit_ends),
-      cmocka_unit_test(cancels_with_a_valid_state), cmocka_unit_test(box_only_scales),
+      cmocka_unit_test(refuses_bad_arguments),
+      cmocka_unit_test(without_collisions_runs_end_at_once),
+      cmocka_unit_test(exact_packing_fraction),
+      cmocka_unit_test(exact_collisions),
+      cmocka_unit_test(starts_at_contact),
+      cmocka_unit_test(compressing_a_jammed_packing_ends),
+      cmocka_unit_test(fast_growth_ends_by_a_status),
+      cmocka_unit_test(wall_time_ends_a_run),
+      cmocka_unit_test(cancels_with_a_valid_state),
+      cmocka_unit_test(box_only_scales),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

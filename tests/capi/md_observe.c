@@ -41,7 +41,7 @@ static void copy_positions(const jam_system *sys, double *out) {
   memcpy(out, x, len * sizeof *x);
 }
 
-static void series_pairs_and_ways(void **state) {
+static void series_pairs_and_displacements_agree(void **state) {
   jam_system *sys = fluid(0.25), *bare = NULL;
   jam_observe_options o;
   jam_md_report report, second;
@@ -121,7 +121,7 @@ static void series_pairs_and_ways(void **state) {
   jam_destroy(bare);
 }
 
-static void histograms(void **state) {
+static void histograms_of_gaps_and_distances(void **state) {
   jam_system *sys = fluid(0.3);
   jam_observe_options o;
   double edge[22], density[21], error[21], r[50], g[50], contact;
@@ -179,7 +179,7 @@ static int32_t look(const jam_progress *p, void *user) {
   return s->count == 20;
 }
 
-static void snapshots(void **state) {
+static void snapshots_show_the_present_state(void **state) {
   jam_system *sys = fluid(0.45), *bare = NULL;
   jam_observe_options o;
   struct seen s;
@@ -224,7 +224,7 @@ static void snapshots(void **state) {
   jam_destroy(bare);
 }
 
-static void refuses(void **state) {
+static void bad_calls_are_refused(void **state) {
   jam_create_options c;
   jam_observe_options o;
   jam_system *sys = NULL;
@@ -264,7 +264,8 @@ static void refuses(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(series_pairs_and_ways), cmocka_unit_test(histograms),
-                                     cmocka_unit_test(snapshots), cmocka_unit_test(refuses)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(series_pairs_and_displacements_agree), cmocka_unit_test(histograms_of_gaps_and_distances),
+      cmocka_unit_test(snapshots_show_the_present_state), cmocka_unit_test(bad_calls_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -203,7 +203,7 @@ static int32_t paused(const jam_system *sys) {
   return info.paused;
 }
 
-static void what_cannot_go_on(void **state) {
+static void finished_stages_cannot_be_resumed(void **state) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 100, 0.3);
   jam_run_options r;
   jam_compress_options c;
@@ -247,7 +247,7 @@ static uint64_t mix64(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-static void damaged_stage(void **state) {
+static void damaged_checkpoints_are_refused(void **state) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 60, 0.3), *out = NULL;
   static unsigned char data[200000];
   jam_compress_options c;
@@ -295,9 +295,9 @@ static void damaged_stage(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(growth_goes_on_to_the_same_bits),
-                                     cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
-                                     cmocka_unit_test(checkpoint_from_the_callback),
-                                     cmocka_unit_test(what_cannot_go_on), cmocka_unit_test(damaged_stage)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(growth_goes_on_to_the_same_bits), cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
+      cmocka_unit_test(checkpoint_from_the_callback), cmocka_unit_test(finished_stages_cannot_be_resumed),
+      cmocka_unit_test(damaged_checkpoints_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

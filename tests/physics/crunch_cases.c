@@ -162,8 +162,8 @@ static jam_system *lattice(int dim, int cells, const double *basis, int basis_le
   return sys;
 }
 
-/* Crystals have more contacts than one state of self-stress needs: certified all the same, and the excess told. */
-static void crystals(void **state) {
+/* Crystals have more contacts than one state of self-stress needs: they are certified, and the excess is reported. */
+static void crystals_are_certified_hyperstatic(void **state) {
   const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0}, bcc[6] = {0, 0, 0, .5, .5, .5}, square[2] = {0, 0};
   int vacancy;
   (void)state;
@@ -226,7 +226,7 @@ static void degenerate_forces(void **state) {
 }
 
 /* Boxes of one or two diameters: pairs meet through several images. */
-static void few_spheres(void **state) {
+static void small_boxes_with_several_images(void **state) {
   int n, d;
   (void)state;
   for (d = 2; d <= 3; ++d)
@@ -258,15 +258,15 @@ static int32_t stop_at(const jam_progress *p, void *user) {
   return --*left <= 0;
 }
 
-/* Cancelled at any moment the state is valid, and the next call goes on from it. */
+/* A crunch cancelled at any moment leaves a valid state, and the next call continues from it. */
 static void cancel_and_resume(void **state) {
   int calls, lps;
   jam_system *whole = random_start(100, 3, 0.3, NULL, 0, 5);
-  jam_crunch_options chain;
+  jam_crunch_options lp_only;
   (void)state;
-  jam_crunch_options_init(&chain, sizeof chain);
-  chain.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  lps = (int)crunch(whole, &chain, JAM_OK).lp_solves;
+  jam_crunch_options_init(&lp_only, sizeof lp_only);
+  lp_only.method = JAM_CRUNCH_SEQUENTIAL_LP;
+  lps = (int)crunch(whole, &lp_only, JAM_OK).lp_solves;
   jam_destroy(whole);
   assert_true(lps > 3);
   for (calls = 1; calls < lps; calls += 6) {
@@ -293,8 +293,8 @@ static void cancel_and_resume(void **state) {
   }
 }
 
-/* A cancel with nothing running waits for the next verb, whatever is set in between, and is spent by it. */
-static void cancel_waits(void **state) {
+/* A cancel with no call running stops the next verb, and only that one. */
+static void a_cancel_stops_the_next_verb(void **state) {
   jam_system *sys = random_start(60, 3, 0.3, NULL, 0, 5);
   (void)state;
   assert_int_equal(jam_cancel(sys), JAM_OK);
@@ -385,11 +385,11 @@ static void box_does_not_matter(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(shared_file),
                                      cmocka_unit_test(random_starts),
-                                     cmocka_unit_test(crystals),
+                                     cmocka_unit_test(crystals_are_certified_hyperstatic),
                                      cmocka_unit_test(degenerate_forces),
-                                     cmocka_unit_test(few_spheres),
+                                     cmocka_unit_test(small_boxes_with_several_images),
                                      cmocka_unit_test(cancel_and_resume),
-                                     cmocka_unit_test(cancel_waits),
+                                     cmocka_unit_test(a_cancel_stops_the_next_verb),
                                      cmocka_unit_test(limits_and_options),
                                      cmocka_unit_test(threads_and_determinism),
                                      cmocka_unit_test(box_does_not_matter)};

@@ -79,7 +79,7 @@ static void other_dimensions(void **state) {
   }
 }
 
-static void conservation(void **state) {
+static void energy_and_momentum_are_conserved(void **state) {
   jam_system *sys = fluid(500, 3, 0.45);
   const double *v;
   size_t len, k;
@@ -97,8 +97,8 @@ static void conservation(void **state) {
   jam_destroy(sys);
 }
 
-/* Turning all velocities round leads back: the dynamics lose nothing but rounding, which grows with time. */
-static void reversible(void **state) {
+/* With all velocities reversed the spheres return to the start, up to rounding that grows with time. */
+static void reversed_velocities_lead_back(void **state) {
   jam_system *sys = fluid(200, 3, 0.3);
   const double *x, *v;
   double start[600], back[600];
@@ -152,8 +152,11 @@ static void free_volume_pressure(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equation_of_state), cmocka_unit_test(other_dimensions),     cmocka_unit_test(conservation),
-      cmocka_unit_test(reversible),        cmocka_unit_test(free_volume_pressure),
+      cmocka_unit_test(equation_of_state),
+      cmocka_unit_test(other_dimensions),
+      cmocka_unit_test(energy_and_momentum_are_conserved),
+      cmocka_unit_test(reversed_velocities_lead_back),
+      cmocka_unit_test(free_volume_pressure),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* The Mari-Kurchan model: exact equation of state, planting, and the chain down to jamming. */
+/* The Mari-Kurchan model: exact equation of state, planting, and compression to jamming. */
 #include <jam/jam.h>
 #include <math.h>
 #include <string.h>
@@ -59,7 +59,7 @@ static void equation_of_state(void **state) {
   }
 }
 
-static void chain_to_jamming(void **state) {
+static void planted_states_jam_isostatically(void **state) {
   jam_system *sys = planted(200, 3, 1.5, INFINITY, 1);
   jam_compress_options c;
   jam_md_report report;
@@ -102,7 +102,7 @@ static void no_shift_is_euclidean(void **state) {
   jam_destroy(b);
 }
 
-static void too_dense_to_plant(void **state) {
+static void too_dense_planting_is_refused(void **state) {
   jam_create_options o;
   jam_system *sys = NULL;
   (void)state;
@@ -115,7 +115,8 @@ static void too_dense_to_plant(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(equation_of_state), cmocka_unit_test(chain_to_jamming),
-                                     cmocka_unit_test(no_shift_is_euclidean), cmocka_unit_test(too_dense_to_plant)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(equation_of_state), cmocka_unit_test(planted_states_jam_isostatically),
+      cmocka_unit_test(no_shift_is_euclidean), cmocka_unit_test(too_dense_planting_is_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

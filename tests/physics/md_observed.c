@@ -156,7 +156,7 @@ static double score(const jam_system *sys) {
 /* The two-stage protocol shows no peak of g(r) at sqrt 2. A crystal that has run at 0.58, just above melting, and was
  * then compressed does; at 0.58 itself its peaks are as wide as their distance, so the score is for compressed states.
  */
-static void crystals_are_told(void **state) {
+static void crystal_score_tells_crystals_from_glasses(void **state) {
   jam_system *glass = start(500, 0.2, 1.0), *crystal = NULL;
   jam_create_options o;
   double x[3 * 500], diameter, shaken;
@@ -188,7 +188,7 @@ static void crystals_are_told(void **state) {
 }
 
 /* A fluid held at 0.56 crystallises by itself: its pressure falls from 21 to that of the crystal, below 15, and after
- * compression g(r) has the peak at sqrt 2. How long it takes is up to chance, so it may take long. */
+ * compression g(r) has the peak at sqrt 2. The time it takes is random, so the limit is generous. */
 static void fluid_crystallises(void **state) {
   jam_system *sys = start(500, 0.2, 1.0);
   jam_compress_options c;
@@ -221,6 +221,7 @@ static void fluid_crystallises(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(gap_plateau), cmocka_unit_test(forces_by_collisions),
-                                     cmocka_unit_test(crystals_are_told), cmocka_unit_test(fluid_crystallises)};
+                                     cmocka_unit_test(crystal_score_tells_crystals_from_glasses),
+                                     cmocka_unit_test(fluid_crystallises)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

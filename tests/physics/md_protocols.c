@@ -124,7 +124,7 @@ static void time_limits(void **state) {
   jam_destroy(sys);
 }
 
-/* Kinetic energy is shared alike, momentum and energy are kept, and the pressure does not know of masses. */
+/* Kinetic energy is shared alike, momentum and energy are kept, and the pressure does not depend on masses. */
 static void masses_by_volume(void **state) {
   double pressure[2], error[2];
   int32_t masses;

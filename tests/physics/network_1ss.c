@@ -1,6 +1,5 @@
-/* Packings crunched from a random start have one state of self-stress; everything the analysis says about them hangs
- * together: forces from positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow
- * from forces. */
+/* Packings crunched from a random start have one state of self-stress; all results of the analysis agree: forces from
+ * positions alone are the multipliers, floppy modes keep all other contacts closed, moduli follow from forces. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -306,7 +305,7 @@ static void spectrum_identities(const struct network *w) {
   free(l), free(v), free(y);
 }
 
-static void small_packings(void **state) {
+static void all_analyses_agree_on_small_packings(void **state) {
   int dim;
   (void)state;
   for (dim = 2; dim <= 4; ++dim) {
@@ -326,7 +325,7 @@ static void small_packings(void **state) {
 }
 
 /* The same with quenched random shifts of every pair: networks without geometry in space. */
-static void mari_kurchan(void **state) {
+static void all_analyses_agree_on_mari_kurchan_networks(void **state) {
   jam_crunch_report report;
   struct network w = open_network(crunched_model(JAM_MODEL_MK, 3, 100, 0.5, 0, &report));
   (void)state;
@@ -366,7 +365,7 @@ static void unclear_jump_of(double part) {
   jam_destroy(s);
 }
 
-static void unclear_jump(void **state) {
+static void an_unclear_gap_jump_is_ambiguous(void **state) {
   (void)state;
   unclear_jump_of(0.1);  /* the next jump is nearly as large */
   unclear_jump_of(0.02); /* one jump stands out, but by less than two decades */
@@ -416,9 +415,9 @@ static void fill_hole(double place[3][2], const double *radius, double gap, doub
   }
 }
 
-/* A rattler that all but touches its cage makes a second candidate of a contact more than isostatic: the null space
- * tells that the first one is the network, although the second jump is nearly as wide. */
-static void rattler_against_its_cage(void **state) {
+/* A rattler that nearly touches its neighbours gives a second candidate network, with one contact more than isostatic.
+ * The null space shows that the first one is the network, although the second jump is nearly as wide. */
+static void the_null_space_decides_between_two_jumps(void **state) {
   jam_crunch_report report;
   struct network w = open_network(crunched(2, 80, 0.3, 1, &report));
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
@@ -434,7 +433,8 @@ static void rattler_against_its_cage(void **state) {
   assert_true(touching_three(&w, place, who));
   for (k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
   for (k = 0; k < 80; ++k) smallest = fmin(smallest, w.diameter[k]);
-  /* The wider jump is to be that below the cage, gap / digits, and less than the square of the next, above / gap. */
+  /* The wider jump is to be that below the gaps of the rattler, gap / digits, and less than the square of the next,
+   * above / gap. */
   assert_int_equal(jam_copy(w.sys, &s), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);
   jam_destroy(s);
@@ -459,7 +459,7 @@ static void rattler_against_its_cage(void **state) {
   close_network(&w);
 }
 
-static void compares(void **state) {
+static void comparison_counts_contacts_and_displacements(void **state) {
   jam_crunch_report report;
   jam_system *a = crunched(3, 60, 0.3, 0, &report), *b = NULL;
   jam_comparison c = {.struct_size = sizeof(jam_comparison)};
@@ -482,7 +482,7 @@ static void compares(void **state) {
   jam_destroy(a), jam_destroy(b);
 }
 
-static void shared_packing(void **state) {
+static void all_analyses_agree_on_a_foreign_packing(void **state) {
   jam_system *s = NULL;
   jam_crunch_report report = {.struct_size = sizeof(jam_crunch_report)};
   struct network w;
@@ -499,8 +499,11 @@ static void shared_packing(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(small_packings), cmocka_unit_test(mari_kurchan),
-                                     cmocka_unit_test(unclear_jump),   cmocka_unit_test(rattler_against_its_cage),
-                                     cmocka_unit_test(compares),       cmocka_unit_test(shared_packing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(all_analyses_agree_on_small_packings),
+                                     cmocka_unit_test(all_analyses_agree_on_mari_kurchan_networks),
+                                     cmocka_unit_test(an_unclear_gap_jump_is_ambiguous),
+                                     cmocka_unit_test(the_null_space_decides_between_two_jumps),
+                                     cmocka_unit_test(comparison_counts_contacts_and_displacements),
+                                     cmocka_unit_test(all_analyses_agree_on_a_foreign_packing)};
   return cmocka_run_group_tests_name("network_1ss", tests, NULL, NULL);
 }

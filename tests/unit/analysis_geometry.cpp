@@ -92,7 +92,7 @@ void fluid_is_not_jammed(void **) {
   for (int32_t z : r.network.coordination) assert_int_equal(z, 0);
 }
 
-void flat_layer_does_not_span(void **) {
+void a_flat_layer_is_not_jammed(void **) {
   // A square layer in d = 3: four contacts a sphere, as many as d + 1, but all in a plane.
   Packing p;
   p.dim = 3;
@@ -105,7 +105,7 @@ void flat_layer_does_not_span(void **) {
   assert_int_equal(r.report.contacts, 0);
 }
 
-void spanning_chain(void **) {
+void a_single_row_is_not_jammed(void **) {
   Packing p;
   p.dim = 2;
   p.box = 5.0;
@@ -117,7 +117,7 @@ void spanning_chain(void **) {
   assert_int_equal(r.report.contacts, 0);
 }
 
-void two_clusters(void **) {
+void separate_clusters_have_separate_stresses(void **) {
   // Two strips of three triangular rows: only the horizontal lines can carry repulsive forces.
   Packing p;
   p.dim = 2;
@@ -140,7 +140,7 @@ void two_clusters(void **) {
   }
 }
 
-void no_clear_jump(void **) {
+void without_a_clear_jump_the_answer_is_ambiguous(void **) {
   // A crystal whose spheres are shaken by 1e-3: its gaps have no decade without a pair.
   Packing p = fcc_cube(3);
   Rng rng(1, Stream::analysis_start);
@@ -160,7 +160,7 @@ void no_clear_jump(void **) {
   }
 }
 
-void no_force_of_one_sign(void **) {
+void networks_without_repulsive_balance_are_not_jammed(void **) {
   // Four disks with six bars, sides and diagonals: the self-stress of one such square pulls where it does not push. Two
   // of them have two states, and no combination repels everywhere.
   Case c;
@@ -183,7 +183,7 @@ void no_force_of_one_sign(void **) {
   assert_false(least_force(g, f));
 }
 
-void cancelled_anywhere(void **) {
+void cancelling_anywhere_leaves_no_network(void **) {
   // A cancel that comes late: each of the long parts asks by itself.
   const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
@@ -208,7 +208,7 @@ void cancelled_anywhere(void **) {
   assert_int_equal(stopped, 4);
 }
 
-void pulling_is_no_force(void **) {
+void spheres_held_from_one_side_carry_no_force(void **) {
   // A sphere held by three contacts on one side only: S^T f = 0 has solutions on the rest alone.
   Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   c.packing.diameter.push_back(1.0);
@@ -228,12 +228,12 @@ int main() {
                                      cmocka_unit_test(one_cell_with_many_images),
                                      cmocka_unit_test(own_image),
                                      cmocka_unit_test(fluid_is_not_jammed),
-                                     cmocka_unit_test(flat_layer_does_not_span),
-                                     cmocka_unit_test(spanning_chain),
-                                     cmocka_unit_test(two_clusters),
-                                     cmocka_unit_test(no_clear_jump),
-                                     cmocka_unit_test(no_force_of_one_sign),
-                                     cmocka_unit_test(cancelled_anywhere),
-                                     cmocka_unit_test(pulling_is_no_force)};
+                                     cmocka_unit_test(a_flat_layer_is_not_jammed),
+                                     cmocka_unit_test(a_single_row_is_not_jammed),
+                                     cmocka_unit_test(separate_clusters_have_separate_stresses),
+                                     cmocka_unit_test(without_a_clear_jump_the_answer_is_ambiguous),
+                                     cmocka_unit_test(networks_without_repulsive_balance_are_not_jammed),
+                                     cmocka_unit_test(cancelling_anywhere_leaves_no_network),
+                                     cmocka_unit_test(spheres_held_from_one_side_carry_no_force)};
   return cmocka_run_group_tests_name("analysis_geometry", tests, nullptr, nullptr);
 }

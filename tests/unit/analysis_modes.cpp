@@ -62,7 +62,7 @@ double mode_error(const Solved &s) {
   return w;
 }
 
-void triangular_full(void **) {
+void triangular_lattice_has_the_bloch_spectrum(void **) {
   const Solved s = solve(lattice(triangular_basis(), triangular_bonds(), 8), JAM_MODES_ALL, 1);
   assert_int_equal(s.status, JAM_OK);
   assert_true(worst(s.modes.lambda, bloch_spectrum(triangular_basis(), triangular_bonds(), 8)) < 1e-10);
@@ -79,7 +79,7 @@ void more_than_one_panel(void **) {
   assert_true(mode_error(s) < 1e-10);
 }
 
-void fcc_full(void **) {
+void fcc_has_the_bloch_spectrum(void **) {
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 4), JAM_MODES_ALL, 1);
   assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4)) < 1e-10);
   int zeros = 0;
@@ -87,12 +87,12 @@ void fcc_full(void **) {
   assert_int_equal(zeros, 3);
 }
 
-void prestressed_full(void **) {
+void prestressed_fcc_has_the_bloch_spectrum(void **) {
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 4), JAM_MODES_ALL, 1, 0.0, 0.03);
   assert_true(worst(s.modes.lambda, bloch_spectrum(fcc_basis(), fcc_bonds(), 4, 0.03)) < 1e-10);
 }
 
-void unstable_lowest(void **) {
+void unstable_modes_come_first(void **) {
   // Enough pre-stress makes the crystal buckle: negative eigenvalues, found by a shift that is large enough.
   const double t = 0.3;
   const Solved s = solve(lattice(fcc_basis(), fcc_bonds(), 6), JAM_MODES_LOWEST, 12, 0.0, t);
@@ -155,8 +155,8 @@ void few_of(const Vectors &basis, const std::vector<std::vector<int>> &bonds, in
   std::sort(found.begin(), found.end());
   assert_true(worst(found, all) < 1e-10);
 }
-void triangular_few(void **) { few_of(triangular_basis(), triangular_bonds(), 16, 20); }
-void fcc_few(void **) { few_of(fcc_basis(), fcc_bonds(), 6, 15); }
+void few_modes_of_the_triangular_lattice(void **) { few_of(triangular_basis(), triangular_bonds(), 16, 20); }
+void few_modes_of_fcc(void **) { few_of(fcc_basis(), fcc_bonds(), 6, 15); }
 
 // Energy whose Hessian is meant: every contact has its own rest length, so that its overlap is e f^(1/(alpha-1)).
 double energy(const Case &c, const std::vector<double> &x, const std::vector<double> &rest, double alpha, double e) {
@@ -256,7 +256,7 @@ void two_images_and_self_contact(void **) {
               1e-14);  // both springs act on the relative coordinate: 2 k / (m/2)
 }
 
-void refuses(void **) {
+void bad_options_are_refused(void **) {
   const Case c = lattice(triangular_basis(), triangular_bonds(), 4);
   jam_modes_options o = default_modes_options();
   o.which = JAM_MODES_ALL;
@@ -272,7 +272,7 @@ void refuses(void **) {
 }
 
 int32_t stop_at_once(const jam_progress *, void *) { return 1; }
-void cancels(void **) {
+void modes_can_be_cancelled(void **) {
   const Case c = lattice(triangular_basis(), triangular_bonds(), 16);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   for (int32_t which : {JAM_MODES_LOWEST, JAM_MODES_ALL}) {
@@ -291,20 +291,20 @@ void cancels(void **) {
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(triangular_full),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(triangular_lattice_has_the_bloch_spectrum),
                                      cmocka_unit_test(more_than_one_panel),
-                                     cmocka_unit_test(fcc_full),
-                                     cmocka_unit_test(prestressed_full),
+                                     cmocka_unit_test(fcc_has_the_bloch_spectrum),
+                                     cmocka_unit_test(prestressed_fcc_has_the_bloch_spectrum),
                                      cmocka_unit_test(square_has_floppy_lines),
-                                     cmocka_unit_test(unstable_lowest),
+                                     cmocka_unit_test(unstable_modes_come_first),
                                      cmocka_unit_test(hard_sphere_weights),
-                                     cmocka_unit_test(triangular_few),
-                                     cmocka_unit_test(fcc_few),
+                                     cmocka_unit_test(few_modes_of_the_triangular_lattice),
+                                     cmocka_unit_test(few_modes_of_fcc),
                                      cmocka_unit_test(finite_differences),
                                      cmocka_unit_test(curvature_is_quadratic_form),
                                      cmocka_unit_test(spectra_of_both_products),
                                      cmocka_unit_test(two_images_and_self_contact),
-                                     cmocka_unit_test(refuses),
-                                     cmocka_unit_test(cancels)};
+                                     cmocka_unit_test(bad_options_are_refused),
+                                     cmocka_unit_test(modes_can_be_cancelled)};
   return cmocka_run_group_tests_name("analysis_modes", tests, nullptr, nullptr);
 }

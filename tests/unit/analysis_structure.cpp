@@ -65,7 +65,7 @@ void local_fraction_of_fcc(void **) {
 #endif
 }
 
-void sum_rule(void **) {
+void contact_sums_match_their_pairs(void **) {
   // S_i = (|C_i|^2 - z_i) / 2 and, with forces, the same with sum f^2: against the pairs one by one.
   Case c = lattice(triangular_basis(), triangular_bonds(), 5);
   Rng rng(4, Stream::analysis_start);
@@ -157,7 +157,7 @@ void values_by_class(void **) {
   assert_true(histogram({}, 0.0, 1.0, 2) == (std::vector<double>{0.0, 0.0}));
 }
 
-void correlation_adds_up(void **) {
+void partial_correlations_add_up(void **) {
   const Packing p = fluid(3, 500, 0.2);
   std::vector<int32_t> kind(500);
   for (int i = 0; i < 500; ++i) kind[i] = i < 200;
@@ -201,10 +201,11 @@ void structure_factor_direct(void **) {
 }  // namespace
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(fcc_structure),          cmocka_unit_test(triangular_bond_order),
-                                     cmocka_unit_test(local_fraction_of_fcc),  cmocka_unit_test(sum_rule),
-                                     cmocka_unit_test(gaps_by_brute_force),    cmocka_unit_test(classes),
-                                     cmocka_unit_test(values_by_class),        cmocka_unit_test(correlation_adds_up),
-                                     cmocka_unit_test(structure_factor_direct)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fcc_structure),          cmocka_unit_test(triangular_bond_order),
+      cmocka_unit_test(local_fraction_of_fcc),  cmocka_unit_test(contact_sums_match_their_pairs),
+      cmocka_unit_test(gaps_by_brute_force),    cmocka_unit_test(classes),
+      cmocka_unit_test(values_by_class),        cmocka_unit_test(partial_correlations_add_up),
+      cmocka_unit_test(structure_factor_direct)};
   return cmocka_run_group_tests_name("analysis_structure", tests, nullptr, nullptr);
 }

@@ -1,5 +1,5 @@
-// Collectively and strictly jammed or not: lattices with known answers, with holes, and what only looks jammed; each
-// verdict also from Clp and a dense rank.
+// Tests of collective and strict jamming on lattices with known answers, with and without vacancies. Clp and a dense
+// rank confirm each verdict.
 #include <cmath>
 #include <cstdio>
 #include <functional>

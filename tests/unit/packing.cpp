@@ -10,7 +10,7 @@ namespace {
 
 // Of n equal spheres the mean diameter is the diameter, and the packing fraction is n times that of one. Diameters
 // without a short binary form, in numbers where sums in double lose three digits.
-void sums_of_many(void **) {
+void sums_over_many_spheres_keep_their_digits(void **) {
   for (const int dim : {2, 3, 5})
     for (const size_t n : {1000u, 65536u, 300007u})
       for (const double sigma : {0.01 / 3.0, 0.0265854627236561}) {
@@ -28,6 +28,6 @@ void sums_of_many(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(sums_of_many)};
+  const CMUnitTest tests[] = {cmocka_unit_test(sums_over_many_spheres_keep_their_digits)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -73,7 +73,7 @@ void wrapping_keeps_vectors(void **) {
   }
 }
 
-// Values follow their pairs, images one by one; pairs that are new get nothing.
+// Values stay with their pairs, image by image; new pairs get 0.
 void values_carried_over(void **) {
   PairList from, to;
   from.i = {0, 0, 1, 2}, from.j = {1, 1, 2, 5};
@@ -83,7 +83,7 @@ void values_carried_over(void **) {
   assert_true(carry_over(PairList(), {}, to) == std::vector<double>(6, 0.0));
 }
 
-void closest(void **) {
+void closest_pair_by_brute_force(void **) {
   Packing p;
   p.dim = 2;
   p.position = {0.1, 0.1, 0.95, 0.1, 0.5, 0.6};
@@ -97,6 +97,6 @@ void closest(void **) {
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(cells_equal_brute_force), cmocka_unit_test(own_images),
                               cmocka_unit_test(wrapping_keeps_vectors), cmocka_unit_test(values_carried_over),
-                              cmocka_unit_test(closest)};
+                              cmocka_unit_test(closest_pair_by_brute_force)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -295,7 +295,7 @@ JAM_API jam_status jam_cancel(jam_system *sys);
 
 /* File formats. @since 0.1 */
 typedef enum jam_format {
-  JAM_FORMAT_AUTO = 0,  /* by name: .xyz and .extxyz are XYZ, all else PLAIN */
+  JAM_FORMAT_AUTO = 0,  /* by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused */
   JAM_FORMAT_PLAIN = 1, /* line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1,
                          * the box as `box <L>`. Then a line a sphere: its position, and its diameter after
                          * `diameters`, with 17 digits. */

@@ -8,7 +8,8 @@ namespace {
 template <class F>
 jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
   return guard_const(sys, [&]() -> jam_status {
-    if (!sys->has_report) fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+    if (!sys->has_report)
+      fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
     return f(sys->contacts);
   });
 }

@@ -90,7 +90,7 @@ class LogLevel(IntEnum):
 
 class Format(IntEnum):
     """File formats. @since 0.1"""
-    AUTO = 0  # by name: .xyz and .extxyz are XYZ, all else PLAIN
+    AUTO = 0  # by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused
     PLAIN = 1  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 

@@ -77,7 +77,7 @@ const JAM_LOG_INFO = Int32(2)  # a line a stage or LP
 const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
 # jam_format: File formats. @since 0.1
-const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz and .extxyz are XYZ, all else PLAIN
+const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused
 const JAM_FORMAT_PLAIN = Int32(1)  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 

@@ -1,6 +1,7 @@
 #!/bin/sh
-# From a bare Debian 12 to a picture of a jammed packing: installs what is missing, builds, packs 1024 spheres from nothing,
-# crunches them to the jamming point, prints the report and draws packing.png (or the file named as first argument).
+# From a bare Debian 12 to a picture of a jammed packing: installs what is missing, builds, packs 1024 spheres from
+# nothing, crunches them to the jamming point, prints the report and draws packing.png (or the file named as first
+# argument).
 set -eu
 start=$PWD
 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,12 +1,23 @@
-# Installs library, header, jam.pc and the CMake package; included at the end of the top CMakeLists.txt.
+# Installs library, header, pkg-config files and the CMake package; included at the end of the top CMakeLists.txt.
+# Components: runtime (the shared library), dev (what compiles against it), python, tools (jam-pack), doc.
 include(CMakePackageConfigHelpers)
 set(JAM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/jam)
 
-install(TARGETS jam EXPORT jamTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES include/jam/jam.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/jam)
+install(TARGETS jam EXPORT jamTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+        NAMELINK_COMPONENT dev)
+if(JAM_BUILD_STATIC)
+  install(TARGETS jam_static EXPORT jamTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  list(JOIN JAM_STATIC_LIBRARIES " " private_libraries)
+endif()
+install(FILES include/jam/jam.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/jam COMPONENT dev)
 
-# jam.pc is written at install time, since `cmake --install --prefix` may name another prefix than the configured one.
-# It holds full directories: GNUInstallDirs allows absolute ones, which a prefix glued in front would break.
+# The .pc files are written at install time, since `cmake --install --prefix` may name another prefix than the
+# configured
+# one. They hold full directories: GNUInstallDirs allows absolute ones, which a prefix glued in front would break.
+set(pc_files jam)
+if(JAM_BUILD_FORTRAN)
+  list(APPEND pc_files jam-fortran)
+endif()
 install(CODE "
   set(CMAKE_INSTALL_FULL_LIBDIR \"${CMAKE_INSTALL_LIBDIR}\")
   set(CMAKE_INSTALL_FULL_INCLUDEDIR \"${CMAKE_INSTALL_INCLUDEDIR}\")
@@ -15,14 +26,22 @@ install(CODE "
   endforeach()
   set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
   set(PROJECT_VERSION \"${PROJECT_VERSION}\")
-  configure_file(\"${PROJECT_SOURCE_DIR}/pkgconfig/jam.pc.in\" \"${PROJECT_BINARY_DIR}/jam.pc\" @ONLY)
-")
-install(FILES ${PROJECT_BINARY_DIR}/jam.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  set(JAM_LIBS_PRIVATE \"${private_libraries}\")
+  foreach(name ${pc_files})
+    configure_file(\"${PROJECT_SOURCE_DIR}/pkgconfig/\${name}.pc.in\" \"${PROJECT_BINARY_DIR}/\${name}.pc\" @ONLY)
+  endforeach()
+" COMPONENT dev)
+foreach(name ${pc_files})
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endforeach()
 
 configure_package_config_file(pkgconfig/jamConfig.cmake.in jamConfig.cmake INSTALL_DESTINATION ${JAM_CMAKE_DIR})
 # Before 1.0 a minor release may change the API.
 write_basic_package_version_file(jamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/jamConfig.cmake ${PROJECT_BINARY_DIR}/jamConfigVersion.cmake DESTINATION ${JAM_CMAKE_DIR})
-install(EXPORT jamTargets NAMESPACE jam:: DESTINATION ${JAM_CMAKE_DIR})
+install(FILES ${PROJECT_BINARY_DIR}/jamConfig.cmake ${PROJECT_BINARY_DIR}/jamConfigVersion.cmake
+        DESTINATION ${JAM_CMAKE_DIR} COMPONENT dev)
+install(EXPORT jamTargets NAMESPACE jam:: DESTINATION ${JAM_CMAKE_DIR} COMPONENT dev)
 
-include(pkgconfig/package.cmake)
+if(PROJECT_IS_TOP_LEVEL)
+  include(pkgconfig/package.cmake)
+endif()

@@ -1,7 +1,7 @@
 #!/bin/sh
-# julia.sh BUILD: runs the Julia layer's tests and all examples with a real Julia. Takes a Julia on PATH, or else fetches
-# Debian 11's package (1.5.3) with what it needs into BUILD/julia: nothing is installed, and apt's own lists stay as they
-# are. Exit status 77 (skipped) where no Julia can be had.
+# julia.sh BUILD: runs the Julia layer's tests and all examples with a real Julia. Takes a Julia on PATH, or else
+# fetches Debian 11's package (1.5.3) with what it needs into BUILD/julia: nothing is installed, and apt's own lists
+# stay as they are. Exit status 77 (skipped) where no Julia can be had.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
@@ -27,9 +27,12 @@ fetch() {
   private install -y --no-install-recommends --print-uris julia >"$home/apt/uris" 2>>"$home/apt/log" ||
     skip "no Julia on PATH, and $uri has no bullseye/julia"
   # The C and C++ run-time libraries are the host's: libjam was linked against them, and they are newer.
+  host='libc6|libc-bin|libgcc-s1|libstdc\+\+6|libgomp1|libgfortran5|libquadmath0|gcc-.*-base|libcrypt1'
+  host="$host|dpkg|tar|debconf|perl-base|install-info"
   packages=$(sed -n "s/^'[^']*\/\([^_/']*\)_.*/\1/p" "$home/apt/uris" | sed 's/%2b/+/g' |
-    grep -vE '^(libc6|libc-bin|libgcc-s1|libstdc\+\+6|libgomp1|libgfortran5|libquadmath0|gcc-.*-base|libcrypt1|dpkg|tar|debconf|perl-base|install-info)$')
-  (cd "$home/deb" && private download $packages) >>"$home/apt/log" 2>&1 || skip "the packages of Julia cannot be fetched"
+    grep -vE "^($host)\$")
+  (cd "$home/deb" && private download $packages) >>"$home/apt/log" 2>&1 ||
+    skip "the packages of Julia cannot be fetched"
   for deb in "$home"/deb/*.deb; do dpkg -x "$deb" "$home/tree"; done
   rm -rf "$home/deb"
   touch "$home/complete"
@@ -41,7 +44,8 @@ else
   [ -f "$home/complete" ] || fetch
   lib=$home/tree/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-multiarch)
   julia=$home/tree/usr/bin/julia
-  JULIA_LIBRARIES=$lib/julia:$lib:$(find "$home/tree" -name 'lib*.so*' -path '*openblas*' -printf '%h\n' | sort -u | tr '\n' ':')
+  blas=$(find "$home/tree" -name 'lib*.so*' -path '*openblas*' -printf '%h\n' | sort -u | tr '\n' ':')
+  JULIA_LIBRARIES=$lib/julia:$lib:$blas
   export JULIA_BINDIR="$home/tree/usr/bin"
 fi
 run() { LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" "$@"; }

@@ -1,15 +1,18 @@
 #!/bin/sh
-# Sets up a bare Debian 12 and runs all tests: a release build with everything, then clang on the library and its C tests with
-# warnings as errors, then the address and undefined-behaviour sanitizers over the tests of the library and of the bindings.
-# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-clang and ./build-asan. Uses ccache where it is installed.
+# Sets up a bare Debian 12 and runs all tests: a release build with everything, then clang on the library and its C
+# tests, both with warnings as errors, then the address and undefined-behaviour sanitizers over the tests of the library
+# and of the bindings.
+# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-clang and ./build-asan. Uses ccache where it is
+# installed. `sh tests/run.sh release` does the first part alone.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 . tests/debian.sh
-need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev libcmocka-dev \
-  libmetis-dev libopenblas-dev voro++-dev swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib abigail-tools clang doxygen \
+need_packages build-essential cmake ninja-build pkg-config clang clang-format \
+  libeigen3-dev coinor-libclp-dev libspectra-dev libmetis-dev libopenblas-dev voro++-dev libcmocka-dev abigail-tools \
+  swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib \
   python3-h5py python3-pandas python3-tqdm python3-mpi4py openmpi-bin python3-distributed python3-dask \
-  python3-sphinx python3-breathe python3-myst-parser furo locales
+  doxygen python3-sphinx python3-breathe python3-myst-parser furo locales
 
 jobs=$(nproc)
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
@@ -20,26 +23,29 @@ export OPENBLAS_NUM_THREADS=1
 
 echo "== release build"
 # shellcheck disable=SC2086
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release $bindings >/dev/null
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
 cmake --build build -j "$jobs"
 status=0
 ctest --test-dir build -j "$jobs" --output-on-failure --no-tests=error || status=1
+[ "${1:-}" != release ] || exit $status
 
 echo "== clang"
 # -O1 and the tests of the interface alone: what clang adds are its warnings and another code generator.
 cmake -S . -B build-clang -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
-  -DCMAKE_C_FLAGS="-O1 -Werror" -DCMAKE_CXX_FLAGS="-O1 -Werror" -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+  -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BUILD_EXAMPLES=OFF >/dev/null
 cmake --build build-clang -j "$jobs"
 ctest --test-dir build-clang -j "$jobs" -L capi -LE long --output-on-failure --no-tests=error || status=1
 
 echo "== address and undefined-behaviour sanitizers"
-# -O1: half the compile time, and assertions are on. Molecular dynamics looks at all pairs for overlaps and at the order of events.
+# -O1: half the compile time, and assertions are on. Molecular dynamics looks at all pairs for overlaps and at the order
+# of events.
 # shellcheck disable=SC2086
-cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON \
-  -DJAM_BUILD_EXAMPLES=OFF $bindings >/dev/null
+cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
+  -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON -DJAM_BUILD_EXAMPLES=OFF $bindings >/dev/null
 cmake --build build-asan -j "$jobs"
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 export ASAN_OPTIONS=detect_stack_use_after_return=1
 # Tests labelled `long` time physics that the release build has already seen.
-ctest --test-dir build-asan -j "$jobs" -L 'unit|capi|physics|bindings' -LE long --timeout 900 --output-on-failure --no-tests=error || status=1
+ctest --test-dir build-asan -j "$jobs" -L 'unit|capi|physics|bindings' -LE long --timeout 900 \
+  --output-on-failure --no-tests=error || status=1
 exit $status

@@ -32,7 +32,8 @@ program forces
     net(:, j) = net(:, j) - force(k)*normal(:, k)
   end do
   k = maxloc(force, 1)
-  print '(i0, a, f7.3, 2(a, i0), a, es8.1)', contacts, ' forces, the strongest ', force(k), ' between ', pair(1, k), ' and ', &
+  print '(i0, a, f7.3, 2(a, i0), a, es8.1)', contacts, ' forces, the strongest ', force(k), ' between ', &
+    pair(1, k), ' and ', &
     pair(2, k), ', worst imbalance ', maxval(abs(net))
   call jam_destroy(sys)
   if (maxval(abs(net)) > 1e-8_c_double) error stop 'no balance'

@@ -9,7 +9,8 @@ contains
     type(c_ptr), value :: user
     integer(c_int32_t) :: stop_now
     reports = reports + 1
-    print '(a, i4, a, f10.6, a, es9.1)', '  step', progress%steps, ', phi', progress%packing_fraction, ', gain', progress%gain
+    print '(a, i4, a, f10.6, a, es9.1)', '  step', progress%steps, ', phi', progress%packing_fraction, &
+      ', gain', progress%gain
     stop_now = merge(1, 0, reports >= most .or. c_associated(user))
   end function watch
 end module watching

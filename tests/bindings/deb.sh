@@ -1,21 +1,33 @@
 #!/bin/sh
-# Builds the Debian package and uses what is in it from C, Fortran and Python, unpacked beside; and checks what it asks for.
-# With ROOT=FOLDER, a bare Debian 12 made by debootstrap, it is installed there by apt-get and used inside.
-# usage: deb.sh SOURCE_FOLDER
+# Builds the Debian packages and uses what is in them from C, Fortran and Python, unpacked beside; and checks what
+# they ask for. With ROOT=FOLDER, a bare Debian 12 made by debootstrap, it is installed there by apt-get and used
+# inside. usage: deb.sh SOURCE_FOLDER
 set -eu
 source=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake -S "$source" -B "$work/b" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DJAM_BUILD_TESTS=OFF \
-  -DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON ${CCACHE:+-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache} >"$work/log"
+  -DJAM_BUILD_PYTHON=ON -DJAM_BUILD_FORTRAN=ON -DJAM_BUILD_STATIC=ON \
+  ${CCACHE:+-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache} >"$work/log"
 cmake --build "$work/b" >>"$work/log"
 (cd "$work/b" && cpack -G DEB >>"$work/log" 2>&1)
-deb=$(echo "$work"/b/*.deb)
-needs=$(dpkg-deb -f "$deb" Depends)
-for package in libc6 libstdc++6 libopenblas0 coinor-libclp1 libmetis5 python3-numpy; do
-  case $needs in *"$package"*) ;; *) echo "the package does not depend on $package: $needs"; exit 1 ;; esac
+for package in libjam0 libjam-dev python3-jam jam-tools jam-doc; do
+  ls "$work"/b/"$package"_*.deb >/dev/null || { echo "there is no package $package"; exit 1; }
 done
-dpkg-deb -x "$deb" "$work/x"
+needs=$(dpkg-deb -f "$work"/b/libjam0_*.deb Depends)
+for package in libc6 libstdc++6 libopenblas0 coinor-libclp1; do
+  case $needs in *"$package"*) ;; *) echo "libjam0 does not depend on $package: $needs"; exit 1 ;; esac
+done
+for package in libjam-dev python3-jam jam-tools; do
+  dpkg-deb -f "$work/b/$package"_*.deb Depends | grep -q 'libjam0 (' ||
+    { echo "$package does not depend on libjam0"; exit 1; }
+done
+if command -v lintian >/dev/null; then
+  lintian --allow-root --fail-on error,warning "$work"/b/*.deb
+else
+  echo "lintian is not installed: the packages are not checked by it"
+fi
+for deb in "$work"/b/*.deb; do dpkg-deb -x "$deb" "$work/x"; done
 usr=$work/x/usr lib=$(dirname "$(find "$work/x/usr" -name libjam.so)")
 size=$(stat -Lc %s "$lib/libjam.so.0")
 [ "$size" -lt 5000000 ] || { echo "libjam.so has $size bytes"; exit 1; }
@@ -23,14 +35,19 @@ grep -q '^prefix=/usr$' "$lib/pkgconfig/jam.pc"
 "$usr/bin/jam-pack" --n 100 --dim 2 --diameters-ratio 1.4 --quiet --report - >"$work/report.json"
 grep -q '"jammed": true' "$work/report.json"
 cd "$work"
-cc -std=c99 -I"$usr/include" "$source/examples/c/first.c" -o c_first -L"$lib" -Wl,-rpath,"$lib" -ljam -lm && ./c_first >/dev/null
-gfortran -I"$lib/fortran/jam" "$source/examples/fortran/first.f90" -o f_first -L"$lib" -Wl,-rpath,"$lib" -ljam_fortran -ljam && ./f_first >/dev/null
+cc -std=c99 -I"$usr/include" "$source/examples/c/first.c" -o c_first -L"$lib" -Wl,-rpath,"$lib" -ljam -lm
+./c_first >/dev/null
+gfortran -I"$lib/fortran/jam" "$source/examples/fortran/first.f90" -o f_first -L"$lib" -Wl,-rpath,"$lib" \
+  -ljam_fortran -ljam
+./f_first >/dev/null
 PYTHONPATH="$usr/lib/python3/dist-packages" /usr/bin/python3 "$source/examples/python/first.py" p.png >/dev/null
 [ -s p.png ]
 if [ -n "${ROOT:-}" ]; then
-  cp "$deb" "$ROOT/tmp/libjam.deb"
+  cp "$work"/b/*.deb "$ROOT/tmp"
   cp "$source/examples/python/first.py" "$ROOT/tmp"
-  chroot "$ROOT" sh -c 'apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive apt-get install -q -y /tmp/libjam.deb >/dev/null 2>&1 &&
-    cd /tmp && jam-pack --n 100 --dim 2 --diameters-ratio 1.4 --quiet --report - | grep jammed && python3 first.py p.png | tail -1 && ls -l p.png'
+  chroot "$ROOT" sh -c 'apt-get update -q >/dev/null &&
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y /tmp/*jam*.deb >/dev/null 2>&1 &&
+    cd /tmp && jam-pack --n 100 --dim 2 --diameters-ratio 1.4 --quiet --report - | grep jammed &&
+    python3 first.py p.png | tail -1 && ls -l p.png'
 fi
 echo "libjam.so $size bytes; the package serves C, Fortran and Python"

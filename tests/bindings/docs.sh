@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes the site (a warning is an error) and looks for what a reader needs in it.  usage: docs.sh CMAKE BUILD_FOLDER ROOT
+# Makes the site (a warning is an error) and looks for what a reader needs in it.  usage: docs.sh CMAKE BUILD_FOLDER
+# ROOT
 set -eu
 "$1" --build "$2" --target docs
 html=$2/docs/html

@@ -43,7 +43,8 @@ program fortran_layer
   create%dim = d
   create%n = n
   create%seed = 3
-  status = jam_create(create, positions_len=0_c_size_t, diameters=sizes, diameters_len=size(sizes, kind=c_size_t), out=sys)
+  status = jam_create(create, positions_len=0_c_size_t, diameters=sizes, &
+                      diameters_len=size(sizes, kind=c_size_t), out=sys)
   call expect(status == JAM_OK, 'create')
   status = jam_info_get(sys, info)
   call expect(info%n == n .and. info%dim == d, 'info')

@@ -15,10 +15,13 @@ cc -std=c99 "$source/examples/c/first.c" -o c_first $flags $link -lm && ./c_firs
 # shellcheck disable=SC2086
 c++ -std=c++17 "$source/examples/cpp/first.cpp" -o cpp_first $flags $link -pthread && ./cpp_first >cpp.out
 # shellcheck disable=SC2086
-gfortran -I"$work/p/$lib_dir/fortran/jam" "$source/examples/fortran/first.f90" -o f_first $link -ljam_fortran -ljam && ./f_first >f.out
+gfortran "$source/examples/fortran/first.f90" -o f_first $(pkg-config --cflags --libs jam-fortran) $link
+./f_first >f.out
 # the installed source serves a compiler whose .mod files differ
 # shellcheck disable=SC2086
-gfortran -J"$work" "$work/p/share/jam/fortran/jam.f90" "$source/examples/fortran/first.f90" -o f_source $link -ljam && ./f_source >f2.out
+gfortran -J"$work" "$work/p/share/jam/fortran/jam.f90" "$source/examples/fortran/first.f90" -o f_source $link \
+  -ljam
+./f_source >f2.out
 cmp f.out f2.out
 PYTHONPATH="$work/p/$python_dir" /usr/bin/python3 -c "
 import jam, os
@@ -39,5 +42,6 @@ target_link_libraries(cpp jam::jam Threads::Threads)
 add_executable(fortran $source/examples/fortran/first.f90)
 target_link_libraries(fortran jam::fortran)
 EOF
-cmake -S . -B b -DCMAKE_PREFIX_PATH="$work/p" >log && cmake --build b >>log && ./b/cpp >/dev/null && ./b/fortran >/dev/null
+cmake -S . -B b -DCMAKE_PREFIX_PATH="$work/p" >log && cmake --build b >>log
+./b/cpp >/dev/null && ./b/fortran >/dev/null
 echo "C, C++, Fortran (module and source), Python and CMake consumers run"

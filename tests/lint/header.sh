@@ -1,10 +1,12 @@
 #!/bin/sh
-# header.sh INCLUDE_DIR: jam.h is pedantic C99, later C and C++, twice in one file and alone, under every compiler there is.
+# header.sh INCLUDE_DIR: jam.h is pedantic C99, later C and C++, twice in one file and alone, under every compiler
+# there is.
 set -eu
 include=$1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-printf '#include <jam/jam.h>\n#include <jam/jam.h>\nint main(void) { return jam_abi_version() == JAM_ABI; }\n' >"$scratch/a.c"
+printf '#include <jam/jam.h>\n#include <jam/jam.h>\nint main(void) { return jam_abi_version() == JAM_ABI; }\n' \
+  >"$scratch/a.c"
 cp "$scratch/a.c" "$scratch/a.cpp"
 strict="-pedantic-errors -Wall -Wextra -Werror -fsyntax-only"
 for cc in gcc clang; do

@@ -17,8 +17,19 @@ install)
 pkgconfig)
   export PKG_CONFIG_PATH="$libdir/pkgconfig"
   pkg-config --exists jam || die "pkg-config does not find jam"
-  ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror "$here/consumer/consumer.c" -o "$scratch/consumer_pc" $(pkg-config --cflags --libs jam)
+  ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror "$here/consumer/consumer.c" -o "$scratch/consumer_pc" \
+    $(pkg-config --cflags --libs jam)
   LD_LIBRARY_PATH=$libdir "$scratch/consumer_pc"
+  ;;
+static)
+  # A folder with libjam.a alone comes first, so -ljam means the static library; what it needs itself is told by jam.pc.
+  export PKG_CONFIG_PATH="$libdir/pkgconfig"
+  rm -rf "$scratch/static" && mkdir "$scratch/static" && cp "$libdir/libjam.a" "$scratch/static"
+  # shellcheck disable=SC2046
+  ${CC:-cc} -std=c99 "$here/consumer/consumer.c" -o "$scratch/consumer_static" -L"$scratch/static" \
+    $(pkg-config --cflags --libs --static jam)
+  if ldd "$scratch/consumer_static" | grep -q libjam; then die "the program needs the shared library"; fi
+  "$scratch/consumer_static"
   ;;
 cmake)
   rm -rf "$scratch/consumer_cmake"
@@ -45,6 +56,11 @@ symbols)
     cat "$scratch/differ"
     die "declared but not exported (left), or exported but not declared (right)"
   fi
+  node=JAM_$(sed -n 's/^#define JAM_ABI //p' "$prefix/include/jam/jam.h")
+  nm -D --defined-only "$libdir/libjam.so" | grep -q "jam_create@@$node\$" ||
+    die "the symbols have no version node of the ABI number"
+  readelf -d "$libdir/libjam.so" | grep -q BIND_NOW || die "relocations stay writable (no -z now)"
+  readelf -lW "$libdir/libjam.so" | grep -q GNU_RELRO || die "no RELRO segment"
   objdump -p "$libdir/libjam.so" | grep -q 'SONAME *libjam\.so\.[0-9]*$' || die "no SONAME with a number"
   # The program must run from the installed tree without help from the environment.
   env -u LD_LIBRARY_PATH "$prefix/bin/jam-pack" --version

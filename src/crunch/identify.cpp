@@ -126,7 +126,11 @@ Phase judge(CrunchState &s) {
       static_cast<long long>(verdict.result.contacts_needed), static_cast<long long>(verdict.result.self_stresses),
       static_cast<long long>(verdict.result.flexes), verdict.result.margin,
       static_cast<long long>(verdict.undecided_contacts), verdict.result.force_residual);
-  if (verdict.result.jammed == Verdict::yes) {
+  double open = 0.0;
+  for (size_t k = 0; k < verdict.contacts.size(); ++k)
+    if (verdict.result.carrying[k]) open = std::max(open, std::fabs(verdict.contacts.gap[k]));
+  // A contact that stays open is none: only closed ones make a packing jammed.
+  if (verdict.result.jammed == Verdict::yes && open < contact_gap_limit) {
     // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
     // balances forces that polish refused.
     if (s.o.polish && (!s.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0)) {
@@ -139,7 +143,7 @@ Phase judge(CrunchState &s) {
   }
   if (leave_saddle(s, verdict)) return Phase::approach;
   if (++s.stalled < s.tuning.max_stalled_lps) return one_more_lp(s);
-  if (verdict.result.jammed == Verdict::undecided)
+  if (verdict.result.jammed != Verdict::no)
     s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   else if (verdict.result.stressed == Verdict::yes)
     s.stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);

@@ -225,7 +225,8 @@ out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
 JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
 Threads: any. @since 0.1"
-%feature("docstring") jam_copy "Deep copy of src with its results, without its callbacks. Threads: const on src.
+%feature("docstring") jam_copy "Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
+they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
 Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_destroy "Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1"
 %feature("docstring") jam_info_get "Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
@@ -260,7 +261,8 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
+drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
+report may be NULL. A run or stage that ends with
 JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
 With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
 run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
@@ -269,7 +271,8 @@ JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Err
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
 that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
-1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
+1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL. Growth heats; a thermostat
+holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
 JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
 ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).

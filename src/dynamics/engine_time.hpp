@@ -192,13 +192,19 @@ void Engine<D, Shift>::refresh(double velocity_factor, bool lists) {
   sort_calendar();
 }
 
+// Sum of m v^2 about the centre of mass. One sphere has no motion but this one, so it counts.
 template <int D, bool Shift>
 void Engine<D, Shift>::take_kinetic() {
-  double sum = 0.0;
+  double sum = 0.0, momentum[D] = {};
   for (int32_t i = 0; i < n_; ++i) {
     const double mass = mass_.empty() ? 1.0 : mass_[i];
-    for (int c = 0; c < D; ++c) sum += mass * (body_[i].v[c] * unit) * (body_[i].v[c] * unit);
+    for (int c = 0; c < D; ++c) {
+      sum += mass * (body_[i].v[c] * unit) * (body_[i].v[c] * unit);
+      momentum[c] += mass * (body_[i].v[c] * unit);
+    }
   }
+  if (n_ > 1)
+    for (double m : momentum) sum -= m * m / n_;  // masses have mean 1
   twice_kinetic_ = sum;
 }
 

@@ -8,6 +8,7 @@
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
+#include "dynamics/pressure.hpp"
 
 namespace jam {
 
@@ -144,9 +145,10 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   s.packing_fraction = packing_fraction(now);
   double virial = 0.0, kinetic_integral = 0.0, spread = 0.0;
   for (int k = 0; k < blocks; ++k) virial += block_virial_[k], kinetic_integral += block_kinetic_integral_[k];
-  s.pressure = kinetic_integral > 0.0 ? 1.0 + virial / kinetic_integral : std::numeric_limits<double>::quiet_NaN();
+  s.pressure = kinetic_integral > 0.0 ? reduced_pressure(virial, kinetic_integral, n_)
+                                      : std::numeric_limits<double>::quiet_NaN();
   for (int k = 0; k < blocks; ++k) {
-    const double p = 1.0 + block_virial_[k] / block_kinetic_integral_[k];
+    const double p = reduced_pressure(block_virial_[k], block_kinetic_integral_[k], n_);
     spread += (p - s.pressure) * (p - s.pressure);
   }
   s.error = std::sqrt(spread / (blocks * (blocks - 1)));

@@ -5,16 +5,22 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "dynamics/pressure.hpp"
 
 namespace jam {
 
 double twice_kinetic(const Packing &p) {
-  const std::vector<double> mass = sphere_masses(p);
+  std::vector<double> mass = sphere_masses(p);
+  if (mass.empty()) mass.assign(p.n(), 1.0);
   const size_t d = static_cast<size_t>(p.dim);
-  double sum = 0.0;
-  for (size_t k = 0; k < p.velocity.size(); ++k)
-    sum += (mass.empty() ? 1.0 : mass[k / d]) * p.velocity[k] * p.velocity[k];
-  return sum;
+  double sum = 0.0, drift = 0.0;
+  for (size_t k = 0; k < p.velocity.size(); ++k) sum += mass[k / d] * p.velocity[k] * p.velocity[k];
+  for (size_t c = 0; c < d && p.n() > 1; ++c) {
+    double momentum = 0.0;
+    for (size_t i = 0; i < p.n(); ++i) momentum += mass[i] * p.velocity[i * d + c];
+    drift += momentum * momentum / static_cast<double>(p.n());  // masses have mean 1
+  }
+  return sum - drift;
 }
 
 namespace {
@@ -60,8 +66,11 @@ int32_t reason_of(Halt halt) {
 }  // namespace
 
 Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage), n_(static_cast<double>(p_.n())) {
-  if (!p_.has_velocity || (growing() && twice_kinetic(p_) == 0.0)) draw_velocities(p_);
-  if (growing()) scale_velocities(p_);
+  const bool drawn = !p_.has_velocity || (growing() && !(twice_kinetic(p_) > 0.0));
+  if (drawn) draw_velocities(p_);
+  // Velocities that a compression has scaled at its end stay as they are.
+  const bool scaled = std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12;
+  if (growing() && (drawn || !scaled)) scale_velocities(p_);
   growth_ = stage_.growth;
   if (stage_.relative) growth_ *= diameter_mean(p_) / p_.box * std::pow(n_, 1.0 / p_.dim);
   take_limits(stage.limits());
@@ -128,9 +137,9 @@ void Stage::begin_part() {
 
 void Stage::end_part() {
   const double v = part_virial_ + engine_->sums.virial, a = part_kinetic_integral_ + engine_->sums.kinetic_integral;
-  steady_ = steady_ && a > 0.0 && 1.0 + v / a > 0.25 * stage_.pressure;
+  steady_ = steady_ && a > 0.0 && reduced_pressure(v, a, n_) > 0.25 * stage_.pressure;
   if (a > 0.0) {
-    windows_.push_back(1.0 + v / a);
+    windows_.push_back(reduced_pressure(v, a, n_));
     if (growing() && windows_.size() > 16) windows_.erase(windows_.begin());
   }
   window_virial_ += v;
@@ -164,14 +173,14 @@ int32_t Stage::go_on(const Listeners &listeners, double wall_end) {
     if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
       const double v = window_virial_ + part_virial_ + engine_->sums.virial,
                    a = window_kinetic_integral_ + part_kinetic_integral_ + engine_->sums.kinetic_integral;
-      if (a > 0.0) pressure_ = 1.0 + v / a;
+      if (a > 0.0) pressure_ = reduced_pressure(v, a, n_);
     }
     if (reason != JAM_STOP_NONE) return reason;
     end_part();
     const bool whole = part_ == (growing() ? 4 : 1);
     bool stop = false;
     if (whole) {
-      if (window_kinetic_integral_ > 0.0) pressure_ = 1.0 + window_virial_ / window_kinetic_integral_;
+      if (window_kinetic_integral_ > 0.0) pressure_ = reduced_pressure(window_virial_, window_kinetic_integral_, n_);
       stop = listeners.monitor->report(progress());
       const int32_t end = judge();
       if (end != JAM_STOP_NONE) return end;
@@ -264,7 +273,8 @@ jam_status Stage::run(const Limits &limits, const Listeners &listeners) {
   if (!there) reason = time() >= stage_.time ? JAM_STOP_TIME : go_on(listeners, wall_end);
   detach(listeners.observer);
   p_ = current();
-  if (!growing() && kinetic_integral() > 0.0) p_.pressure = 1.0 + virial() / kinetic_integral();
+  if (growing() && twice_kinetic(p_) > 0.0) scale_velocities(p_);  // a run that follows starts at kT/m = 1
+  if (!growing() && kinetic_integral() > 0.0) p_.pressure = reduced_pressure(virial(), kinetic_integral(), n_);
   report.collisions += collisions() - call_collisions_;
   report.events += events() - begin_events;
   report.time += time() - begin_time;

@@ -7,6 +7,7 @@
 
 namespace jam {
 
+// Sum of m v^2 about the centre of mass.
 double twice_kinetic(const Packing &p);
 
 class Stage final : public Dynamics {

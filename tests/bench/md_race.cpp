@@ -54,6 +54,15 @@ struct Library {
   }
 };
 
+// Sets defaults in the longest form of the struct that the library knows.
+template <class Options, class Init>
+void set_defaults(Init init, Options &o) {
+  for (size_t size = sizeof o; size >= 8; size -= 8)
+    if (init(&o, size) == JAM_OK) return;
+  std::fprintf(stderr, "a library does not know the options of jam.h\n");
+  std::exit(1);
+}
+
 struct Scene {
   const char *name;
   int32_t dim;
@@ -78,8 +87,8 @@ const Scene scenes[] = {
     {"dilute_16384", 3, 16384, 0.05, 0.1, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"mixture_4096", 3, 4096, 0.25, 0.5, 1.4, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"mixture10_2000", 3, 2000, 0.2, 0.5, 10.0, JAM_MODEL_EUCLID, 0.0, 0.0},
-    {"mk_1024", 3, 1024, 0.1, 0.5, 1.0, JAM_MODEL_MK, 0.0, 0.0},
-    {"mk_4096", 3, 4096, 0.1, 0.5, 1.0, JAM_MODEL_MK, 0.0, 0.0},
+    {"mk_1024", 3, 1024, 0.1, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},
+    {"mk_4096", 3, 4096, 0.1, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},
     {"small_box_24", 3, 24, 0.2, 0.4, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"grown_1024", 3, 1024, 0.2, 0.2, 1.0, JAM_MODEL_EUCLID, 1e-2, 500.0},
     {"grown_16384", 3, 16384, 0.2, 0.2, 1.0, JAM_MODEL_EUCLID, 1e-2, 500.0},
@@ -89,7 +98,7 @@ const Scene scenes[] = {
 
 jam_system *make(const Library &jam, const Scene &s) {
   jam_create_options o;
-  jam.create_options_init(&o, sizeof o);
+  set_defaults(jam.create_options_init, o);
   o.n = s.n;
   o.dim = s.dim;
   o.packing_fraction = s.start;
@@ -101,7 +110,7 @@ jam_system *make(const Library &jam, const Scene &s) {
   jam_status status = jam.create(&o, nullptr, 0, diameters.data(), diameters.size(), &sys);
   if (status == JAM_OK && s.fraction > s.start) {
     jam_compress_options c;
-    jam.compress_options_init(&c, sizeof c);
+    set_defaults(jam.compress_options_init, c);
     c.growth_rate = 0.1;
     c.pressure = 1e12;
     c.packing_fraction = s.fraction;
@@ -125,13 +134,13 @@ Round go(const Library &jam, jam_system *sys, const Scene &s, double collisions)
   const double begin = cpu();
   if (s.growth > 0.0) {
     jam_compress_options c;
-    jam.compress_options_init(&c, sizeof c);
+    set_defaults(jam.compress_options_init, c);
     c.growth_rate = s.growth;
     c.pressure = s.pressure;
     jam.compress(sys, &c, &report);
   } else {
     jam_run_options r;
-    jam.run_options_init(&r, sizeof r);
+    set_defaults(jam.run_options_init, r);
     r.collisions_per_particle = collisions;
     jam.run(sys, &r, &report);
   }

@@ -56,6 +56,42 @@ static void equation_of_state(void **state) {
   }
 }
 
+/* Two spheres, excluded volume v of the box: p = 1 + (v / (1 - v)) / 2 exactly (d = 3: v = 4 phi; d = 2: v = 2 phi).
+ * The momentum is zero, so kT has d (N - 1) degrees of freedom; d N would give 1.667 instead of 1.333. A drift of both
+ * spheres changes nothing. */
+static void two_spheres_have_the_exact_pressure(void **state) {
+  int32_t d, drift, c;
+  (void)state;
+  for (d = 2; d <= 3; ++d)
+    for (drift = 0; drift < 2; ++drift) {
+      const double fraction = 0.1, v = ldexp(fraction, d - 1), exact = 1 + 0.5 * v / (1 - v);
+      jam_system *sys = fluid(2, d, fraction);
+      jam_md_report report;
+      double velocities[6];
+      for (c = 0; c < 2 * d; ++c) velocities[c] = (c < d ? 1.0 : -0.7) * (1.0 + 0.37 * c * c) + 3.0;
+      if (drift) assert_int_equal(jam_set_velocities(sys, velocities, (size_t)(2 * d)), JAM_OK);
+      report = run(sys, 200000);
+      print_message("two spheres, d %d%s: p %.4f(%.4f), exact %.4f\n", d, drift ? ", drifting" : "", report.pressure,
+                    report.pressure_error, exact);
+      assert_true(report.pressure_error < 0.01);
+      assert_true(fabs(report.pressure - exact) < 4 * report.pressure_error + 1e-3);
+      jam_destroy(sys);
+    }
+}
+
+/* A compression ends with <v^2> = d, so that times and growth rates of what follows are in units of kT/m = 1. */
+static void compression_ends_at_unit_temperature(void **state) {
+  jam_system *sys = fluid(300, 3, 0.5);
+  const double *v;
+  size_t length, k;
+  double sum = 0;
+  (void)state;
+  assert_int_equal(jam_velocities_view(sys, &v, &length), JAM_OK);
+  for (k = 0; k < length; ++k) sum += v[k] * v[k];
+  assert_true(fabs(sum / (double)length - 1) < 1e-12);
+  jam_destroy(sys);
+}
+
 /* d = 2: Henderson, Mol. Phys. 30, 971 (1975): (1 + phi^2/8) / (1 - phi)^2, good to a few per mille here. d = 4, 5: the
  * virial series to third order, B3/B2^2 = 0.506340 and 0.414063 (Luban and Baram 1982), at a low packing fraction. */
 static void other_dimensions(void **state) {
@@ -153,6 +189,8 @@ static void free_volume_pressure(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equation_of_state),
+      cmocka_unit_test(two_spheres_have_the_exact_pressure),
+      cmocka_unit_test(compression_ends_at_unit_temperature),
       cmocka_unit_test(other_dimensions),
       cmocka_unit_test(energy_and_momentum_are_conserved),
       cmocka_unit_test(reversed_velocities_lead_back),

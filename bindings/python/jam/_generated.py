@@ -299,7 +299,7 @@ class MdReport:
     collisions: in this call
     events: collisions, list updates, stale events
     collisions_per_second: of wall time
-    pressure: reduced, mean over the call (jam_run) or last window (jam_compress); the growth part is left out
+    pressure: reduced, P V / (N kT), without the part of the growth. jam_run: mean over the call; jam_compress: last window. kT = sum m v^2 / (d (N - 1))
     pressure_error: standard error of that mean from its windows; NaN with too few
     packing_fraction: at the end
     time: simulated, unit box / sqrt(kT/m)

@@ -285,7 +285,7 @@ mutable struct jam_md_report
     collisions::Int64  # in this call
     events::Int64  # collisions, list updates, stale events
     collisions_per_second::Cdouble  # of wall time
-    pressure::Cdouble  # reduced, mean over the call (jam_run) or last window (jam_compress); the growth part is left out
+    pressure::Cdouble  # reduced, P V / (N kT), without the part of the growth. jam_run: mean over the call; jam_compress: last window. kT = sum m v^2 / (d (N - 1))
     pressure_error::Cdouble  # standard error of that mean from its windows; NaN with too few
     packing_fraction::Cdouble  # at the end
     time::Cdouble  # simulated, unit box / sqrt(kT/m)
@@ -570,7 +570,8 @@ function jam_create(o, positions, positions_len, diameters, diameters_len, out)
 end
 
 """
-Deep copy of src with its results, without its callbacks. Threads: const on src.
+Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
+they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
 Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
 """
 function jam_copy(src, out)
@@ -701,7 +702,8 @@ end
 
 """
 Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-drawn at first use: Maxwell-Boltzmann, zero total momentum. report may be NULL. A run or stage that ends with
+drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
+report may be NULL. A run or stage that ends with
 JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
 With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
 run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
@@ -716,7 +718,8 @@ end
 """
 Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
 that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
-1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL.
+1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL. Growth heats; a thermostat
+holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly.
 Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
 JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
 ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).

@@ -1,14 +1,13 @@
-// The engine on cells alone, for dilute systems, where lists are short-lived: a sphere meets those of the cells around
-// its own, and leaving its cell is an event. All the rest is shared with the lists.
+// The engine without lists, for dilute systems, where lists are short-lived. A sphere meets those of the cells around
+// its own, and leaving its cell is an event.
 #pragma once
 #include "dynamics/engine.hpp"
 
 namespace jam {
 
-// Cells are faster than lists where few spheres share the smallest cell that holds; the limits are where both were
-// equally fast, N = 1k and 16k (from d = 5 on the cells around one are too many). Five a side at least: spheres in
-// cells that touch are then less than half a box apart, and no difference wraps to another image (of four a side they
-// can be at the far edges).
+// Cells alone are faster than lists where few spheres share the smallest possible cell. `crowded` is where both were
+// equally fast at N = 1024 and 16384; from d = 5 on the cells around one are too many. With five cells a side at least,
+// spheres in adjacent cells are less than half a box apart, and no difference wraps to another image.
 template <int D, bool Shift>
 bool Engine<D, Shift>::choose_cells_alone(double sigma) {
   constexpr double crowded[] = {0.0, 0.0, 0.6, 0.52, 0.48}, fastest = 0.12;  // spheres per cell
@@ -19,7 +18,7 @@ bool Engine<D, Shift>::choose_cells_alone(double sigma) {
   const double side = std::max(5.0, std::min(most, std::floor(std::pow(n_ / fastest, 1.0 / D))));
   cells_ = static_cast<int64_t>(side);
   cell_range_ = 1;
-  margin_ = std::min(0.2, (1.0 - 1e-9) / (sigma * side) - 1.0);  // what is left of the cell is for growth
+  margin_ = std::min(0.2, (1.0 - 1e-9) / (sigma * side) - 1.0);  // the rest of the cell is space for growth
   if (rate_ > 0.0) lists_end_ = margin_ * 0.999 / rate_;
   return true;
 }
@@ -91,7 +90,7 @@ void Engine<D, Shift>::cross(int32_t i) {
   int axis = 0;
   crossing_time(i, &axis);
   unlink(i, cell_of(home_of(i)));
-  // By the direction of flight, not by the place, which rounding may leave on this side.
+  // The direction of flight decides: by rounding the position may still be inside the old cell.
   int32_t &place = cell_[i][axis];
   place += body_[i].v[axis] > 0.0 ? 1 : -1;
   if (place < 0) place += static_cast<int32_t>(cells_);

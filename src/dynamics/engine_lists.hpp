@@ -40,7 +40,7 @@ void Engine<D, Shift>::build_lists() {
     wants_images_ = true;
     return;
   }
-  // Growth uses up the margin; about twenty collisions a sphere is a good life for a list.
+  // Growth uses up the margin; a list should hold for about twenty collisions a sphere.
   margin_ = 1e-9;
   if (rate_ > 0.0) {
     const double wanted = collision_time_ > 0.0 ? 20.0 * rate_ * collision_time_ : 0.3 * shell_;
@@ -63,7 +63,7 @@ void Engine<D, Shift>::build_lists() {
       centre_[i][c] = b.x[c];
     }
     const double radius = static_cast<double>(b.radius);
-    // Small spheres among large ones are as quick: their shells are wider than their share.
+    // Small spheres among large ones are as quick, so their shells are wider in proportion.
     safe_[i] = 2.0 * shell_ * std::sqrt(radius * std::min(mean, largest));
     safe_[i] = std::min(safe_[i], 2.0 * shell_ * largest);
     rho_[i] = (radius * reach_factor_ * (1.0 + margin_) + safe_[i]) * (1.0 + 1e-12);
@@ -83,10 +83,10 @@ void Engine<D, Shift>::build_lists() {
   check_pairs();
 }
 
-// A wide shell costs long lists, a narrow one remakes them often. In units of one neighbour looked at (13 ns) a
-// collision costs 2 (14 + L), each of the x exits that come with it 30 + 4 L + K, K for the search; with x ~ s^-1.6 and
-// L, and K through cells, as (1 + 2 s)^D this leads to within 6 % of the best rate at a row of fixed shells, packing
-// fractions 0.27 to 0.6. True when changed.
+// Chooses the shell s: wide shells cost long lists, narrow ones remake lists often. The unit of cost is one neighbour
+// looked at. A collision costs 2 (14 + L); each of the x exits that come with it costs 30 + 4 L + K, K for the search.
+// With x ~ s^-1.6, and L and K through cells ~ (1 + 2 s)^D, the rate was within 6 % of the best of fixed shells at
+// packing fractions 0.27 to 0.6. Returns true when the shell has changed.
 template <int D, bool Shift>
 bool Engine<D, Shift>::tune_shell() {
   const int64_t made = sums.collisions - collisions_before_, left = exits_ - exits_before_;
@@ -105,7 +105,7 @@ bool Engine<D, Shift>::tune_shell() {
     return 2.0 * (14.0 + more * length) +
            x * std::pow(now / shell, 1.6) * (30.0 + 4.0 * more * length + (Shift ? 1.0 : more) * search_cost_);
   };
-  // Not for a gain that making all lists anew eats up.
+  // A gain below 3 % does not pay for making all lists again.
   double best = 0.97 * cost(shell_);
   const double before = shell_;
   for (double shell = std::max(smallest_shell, before / 1.5); shell <= std::min(widest_shell_, before * 1.5);

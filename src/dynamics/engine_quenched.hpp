@@ -1,7 +1,7 @@
 // The engine in the Mari-Kurchan model: partners lie anywhere in the box, so cells do not help. Each sphere has an
-// outer list of all that its neighbour list can need while both stay within outer_safe_ of the places where the outer
-// lists were made. Only making those looks at all spheres; no shift is stored, but which attempt each pair of a list
-// has.
+// outer list of all spheres that its neighbour list can need while both stay within outer_safe_ of the places where the
+// outer lists were made. Only making an outer list looks at all spheres. It stores the attempt of each pair's shift,
+// not the shift.
 #pragma once
 #include <algorithm>
 
@@ -66,8 +66,7 @@ template <int D, bool Shift>
 void Engine<D, Shift>::build_outer() {
   double largest = 0.0;
   for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
-  // Wide enough that a caged sphere never leaves it; the allowance for growth and for wider shells is a few per cent of
-  // sigma.
+  // So wide that a caged sphere never leaves it. The 1.1 below allows for growth and wider shells.
   outer_safe_ = 0.5 * largest;
   outer_.resize(body_.size());
   outer_centre_.resize(body_.size());

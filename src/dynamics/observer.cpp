@@ -92,7 +92,7 @@ void check_observe_options(const jam_observe_options &o) {
 // ---- the observer
 
 namespace {
-// Collisions of the whole system for so many of each sphere; beyond reach when infinite.
+// Collisions of the whole system that give each sphere so many; the largest integer when infinite.
 int64_t in_all(double per_particle, double n) {
   const double all = std::ceil(0.5 * per_particle * n);
   return all < 9e18 ? std::max<int64_t>(1, static_cast<int64_t>(all)) : std::numeric_limits<int64_t>::max();
@@ -161,9 +161,8 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   if (correlation_.bins() > 0) sample_correlation(now);
 }
 
-// Pairs per gap, over those that the same number of points anywhere would have: g at contact of equal spheres. In a
-// mixture the ideal gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh; the mean of sigma_ij^d follows from powers
-// of sigma.
+// Number of pairs in each bin of the gap h over that of an ideal gas; for equal spheres this is g at contact. The ideal
+// gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh. The mean of sigma_ij^d follows from powers of sigma.
 void Observer::sample_gaps(const Packing &p) {
   std::vector<double> density(gaps_.bins(), 0.0);
   const PairList pairs = find_pairs(p, 0.0, 1.0 + options_.gap_max);

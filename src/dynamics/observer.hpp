@@ -1,5 +1,5 @@
-// What jam_observe asks to be recorded. The engine tells collisions and ways, the stage tells when to take a sample;
-// nothing here changes the dynamics. Lengths in units of the box until they are handed out.
+// What jam_observe records. The engine reports collisions and displacements; the stage decides when to take a sample.
+// Nothing here changes the dynamics. Lengths are in units of the box; the C calls convert them.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Sample {
   double time, collisions, packing_fraction, pressure, error, displacement2;
 };
 
-// Sums over collisions of one pair, found by its key; open addressing, the table doubles when it is half full.
+// Sums over the collisions of each pair: a hash table with open addressing, which doubles when it is half full.
 class PairSums {
  public:
   struct Slot {
@@ -52,7 +52,7 @@ class Observer {
  public:
   Observer(const Packing &p, const jam_observe_options &o);
 
-  // Of the engine; numbers are the user's.
+  // Called by the engine, with the user's numbers of spheres.
   void collision(int32_t i, int32_t j, double momentum) {
     if (!options_.collisions) return;
     ++collisions_[i];
@@ -61,18 +61,18 @@ class Observer {
   }
   double *travel(int32_t i) { return &travel_[static_cast<size_t>(i) * dim_]; }
 
-  // Of the stage. Collisions are counted over all calls since jam_observe.
+  // Called by the stage. Collisions are counted over all calls since jam_observe.
   int64_t seen = 0;   // collisions, now
   double time = 0.0;  // simulated, now
   int64_t next_stop() const { return std::min(next_block_, next_snapshot_); }
   bool block_due() const { return seen >= next_block_; }
   bool snapshot_due() const { return seen >= next_snapshot_; }
-  // A block of an eighth of a sample has ended; true when that makes a sample, which take_sample must follow.
+  // Ends a block, an eighth of a sample. True when the sample is complete; then call take_sample.
   bool end_block(double virial, double kinetic_integral);
   void take_sample(const Packing &now, const std::vector<double> &displacement);
   bool has_snapshots() const { return options_.snapshot_every > 0.0; }
   int64_t end_snapshot();  // the number of this snapshot, from 1
-  // Virial and kinetic_integral of a block that a call has cut off; the next call goes on with it.
+  // Sums of a block that the end of a call has cut; the next call continues the block.
   double left_virial = 0.0, left_kinetic_integral = 0.0;
 
   const std::vector<Sample> &samples() const { return samples_; }

@@ -120,7 +120,7 @@ EngineOptions Stage::options() const {
 
 // ---- windows
 
-// A window is so long that its noise is small and so short that p changes little in it: d ln p = G / 1.63 a collision.
+// A window is long enough for small noise and short enough that p changes little: d ln p = G / 1.63 a collision.
 void Stage::plan_window() {
   const double most =
       growing() ? std::min(2.0, std::max(0.25, 0.03 / growth_)) * n_ : std::min(goal_ / 20.0, 20.0 * n_);
@@ -129,7 +129,7 @@ void Stage::plan_window() {
 
 void Stage::begin_part() {
   part_goal_ = collisions() + std::max<int64_t>(1, window_ / (growing() ? 4 : 1));
-  // Sums start from zero, or at p = 1e14 what a part adds would be lost in what the stage has gathered.
+  // Sums start from zero: at p = 1e14 the sum over the stage would lose what a part adds.
   old_virial_ += engine_->sums.virial;
   old_kinetic_integral_ += engine_->sums.kinetic_integral;
   engine_->sums.virial = engine_->sums.kinetic_integral = part_virial_ = part_kinetic_integral_ = 0.0;
@@ -147,7 +147,7 @@ void Stage::end_part() {
   ++part_;
 }
 
-// Runs to the end of the part, of the stage, or of patience; JAM_STOP_NONE at the end of the part.
+// Runs to the end of the part or of the stage, or to a limit. JAM_STOP_NONE: the part has ended.
 int32_t Stage::advance_part(const Listeners &listeners, double wall_end) {
   const double most = std::min(goal_, 9e18);
   while (collisions() < part_goal_) {
@@ -195,18 +195,18 @@ int32_t Stage::go_on(const Listeners &listeners, double wall_end) {
   }
 }
 
-// At the end of a window: is this the end of the stage? Limits are for advance_part, which leaves a stage that can go
-// on.
+// At the end of a window: the reason why the stage ends here, or JAM_STOP_NONE. Limits are checked in advance_part,
+// which leaves a stage that can go on.
 int32_t Stage::judge() {
   if (window_kinetic_integral_ <= 0.0 && window_virial_ > 0.0) return ++frozen_ > 20 ? JAM_STOP_STALLED : JAM_STOP_NONE;
   if (growing() && steady_ && pressure_ >= stage_.pressure) return JAM_STOP_PRESSURE;
-  // Gaps are about sigma / p; below some tens of units of the integers they are noise.
+  // Gaps are about sigma / p. Below 40 units of the integer coordinates they are noise.
   if (growing() && pressure_ > 1.0 && engine_->mean_diameter() / pressure_ < 40.0 * 0x1p-61) return JAM_STOP_PRECISION;
   return JAM_STOP_NONE;
 }
 
-// BarrierSchedule takes away the speed with which spheres make room for each other. When they grow faster than they fly
-// it must wait until they have grown by a per cent or collided many times, or time would stop.
+// Scales velocities to kT/m = 1 when growth has heated the spheres by 5 %. When they grow faster than they fly, it
+// waits until they have grown by a per cent or collided many times: cooling at every window would let no time pass.
 void Stage::thermostat() {
   if (!growing() || std::fabs(engine_->twice_kinetic() / (n_ * p_.dim) - 1.0) < 0.05) return;
   if (growth_ > 0.5 && (time() - cooled_) * growth_ < 0.01 * engine_->mean_diameter() &&
@@ -227,7 +227,7 @@ void Stage::slow_down() {
       std::min(1.0, std::max(0.0, std::log(pressure_ / first_pressure_) / std::log(stage_.pressure / first_pressure_)));
   double wanted = stage_.growth * std::pow(stage_.growth_end / stage_.growth, part);
   if (stage_.relative) wanted *= engine_->mean_diameter() * std::pow(n_, 1.0 / p_.dim);
-  if (std::fabs(wanted / engine_->growth() - 1.0) < 0.02) return;  // not for every window's noise
+  if (std::fabs(wanted / engine_->growth() - 1.0) < 0.02) return;  // a change by noise alone
   growth_ = wanted;
   engine_->set_growth(wanted);
   plan_window();

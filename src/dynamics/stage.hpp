@@ -1,5 +1,5 @@
-// One stage as it runs: windows of pressure, thermostat, limits, report. It can stop between any two events and go on,
-// in this process or another, to the same bits: whatever decides something is a member and in archive().
+// One stage of molecular dynamics: windows of pressure, thermostat, limits, report. It can stop between any two events
+// and go on to the same bits, in this process or another. So every value that a decision uses is in archive().
 #pragma once
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
@@ -61,13 +61,13 @@ class Stage final : public Dynamics {
   double goal_ = 0.0, kinetic_ = 0.0, pressure_ = std::numeric_limits<double>::quiet_NaN();
   int64_t window_ = 1;
 
-  // the window at hand: parts of it, each with its own pressure
+  // the current window: its parts, each with its own pressure
   int64_t part_ = 0, part_goal_ = 0;
   double part_virial_ = 0.0, part_kinetic_integral_ = 0.0, window_virial_ = 0.0, window_kinetic_integral_ = 0.0;
-  int64_t steady_ = 1;           // no part of the window is far below the target: a stop is not made of noise
+  int64_t steady_ = 1;           // no part of the window is far below the target pressure
   std::vector<double> windows_;  // pressures of parts
 
-  // before this part, and (part_...) of this part before the engine was changed for one with images
+  // sums before this part; part_... above: of this part before an engine with images took over
   double old_virial_ = 0.0, old_kinetic_integral_ = 0.0, old_time_ = 0.0, worst_ = 0.0;
   int64_t old_collisions_ = 0, old_events_ = 0;
 

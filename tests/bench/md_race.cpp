@@ -93,7 +93,7 @@ const Scene scenes[] = {
     {"grown_1024", 3, 1024, 0.2, 0.2, 1.0, JAM_MODEL_EUCLID, 1e-2, 500.0},
     {"grown_16384", 3, 16384, 0.2, 0.2, 1.0, JAM_MODEL_EUCLID, 1e-2, 500.0},
     {"grown_d2_1024", 2, 1024, 0.3, 0.3, 1.4, JAM_MODEL_EUCLID, 1e-2, 500.0},
-    {"grown_1024_1e7", 3, 1024, 0.5, 0.5, 1.0, JAM_MODEL_EUCLID, 3e-3, 1e7},
+    {"grown_1024_1e7", 3, 1024, 0.25, 0.5, 1.0, JAM_MODEL_EUCLID, 3e-3, 1e7},
 };
 
 jam_system *make(const Library &jam, const Scene &s) {

@@ -25,7 +25,7 @@ import numpy as np
 from . import store
 from .ensemble_folder import ROW, Folder, Found
 from .ensemble_pool import LocalPool, WorkerDied
-from .ensemble_protocol import ProtocolError, begin, complete, identity, make, packing_name, to_json
+from .ensemble_protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
 
 from .store import StoreError
 from .system import System
@@ -45,6 +45,7 @@ __all__ = [
     "begin",
     "complete",
     "make",
+    "minimal",
     "to_json",
 ]
 

@@ -263,7 +263,10 @@ def crossover(x: np.ndarray, a: float, b: float, q: float, exponent: float) -> n
 def fit_crossover(
     x: np.ndarray, c: np.ndarray, error: np.ndarray, exponent: float, start: Sequence[float] = (0.2, 0.2, -1.2)
 ) -> tuple[np.ndarray, float]:
-    """Least squares of ln c = ln F: (a, b, q), and the mean square residual in units of the errors."""
+    """Least squares of ln c = ln F: (a, b, q), and the mean square residual in units of the errors.
+
+    ln a and ln b are kept within 8 of 0, q in -10 ... -0.1: data without a bend do not determine them.
+    """
     from scipy.optimize import least_squares
 
     use = (c > 0) & (error > 0)
@@ -273,7 +276,7 @@ def fit_crossover(
         return weight * (np.log(crossover(x[use], np.exp(p[0]), np.exp(p[1]), p[2], exponent)) - lc)
 
     found = least_squares(
-        residual, [np.log(start[0]), np.log(start[1]), start[2]], bounds=([-20, -20, -20], [20, 20, -0.05])
+        residual, [np.log(start[0]), np.log(start[1]), start[2]], bounds=([-8, -8, -10], [8, 8, -0.1])
     )
     return np.array([np.exp(found.x[0]), np.exp(found.x[1]), found.x[2]]), float(np.mean(found.fun**2))
 

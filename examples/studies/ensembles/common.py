@@ -1,0 +1,76 @@
+"""What the studies on ensembles share: arguments, ensembles, and the table of published value, ours, error and sigma."""
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+
+import jam
+
+HERE = Path(__file__).resolve().parent
+THETA_E, GAMMA, THETA_L = 0.42311, 0.41269, 0.17462  # mean field; theta_l is empirical
+SOURCE = "R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021"
+
+
+def arguments(text: str) -> argparse.ArgumentParser:
+    """--large, --folder, --workers, --only-read, --out."""
+    p = argparse.ArgumentParser(description=text)
+    p.add_argument("--large", action="store_true", help="the real thing: hours; a run that was killed goes on")
+    p.add_argument("--folder", default="packings", help="where the packings are kept (packings)")
+    p.add_argument("--workers", type=int, help="processes (all cores)")
+    p.add_argument("--only-read", action="store_true", help="make no packing: what is there is analysed")
+    p.add_argument("--out", type=Path, default=HERE, help="folder with results/ and pictures/ (that of the script)")
+    return p
+
+
+def ensemble(o: argparse.Namespace, protocol: dict, seeds: int) -> jam.ensemble.Ensemble:
+    """The ensemble of a protocol, made where it is not there yet."""
+    made = jam.ensemble.Ensemble(o.folder, protocol)
+    if not o.only_read:
+        print(f"{made.id}: {made.run(range(1, seeds + 1), workers=o.workers)}", flush=True)
+    return made
+
+
+class Results:
+    """Rows (figure, quantity, published, ours, error, sigma between) of one study, and what made them."""
+
+    def __init__(self, o: argparse.Namespace, name: str) -> None:
+        self.out, self.name, self.rows = o.out, name, []
+        self.sets: list[dict] = []
+
+    def used(self, e: jam.ensemble.Ensemble, packings: int) -> None:
+        self.sets.append(
+            {"protocol": jam.ensemble.minimal(e.protocol), "packings": packings, "version": jam.__version__}
+        )
+
+    def add(self, figure: str, quantity: str, published: float | str, ours: float, error: float = np.nan) -> None:
+        known = isinstance(published, (int, float)) and np.isfinite(error) and error > 0
+        row = {
+            "figure": figure,
+            "quantity": quantity,
+            "published": published,
+            "ours": float(ours),
+            "error": float(error),
+        }
+        row["sigma"] = round(abs(float(ours) - float(published)) / float(error), 1) if known else None
+        if not np.isfinite(error):
+            row["error"] = None
+        self.rows.append(row)
+        print(f"{figure:8} {quantity:58} {published!s:>12} {ours:12.5g} {error:10.2g}  {row['sigma']}", flush=True)
+
+    def write(self, figure=None) -> None:
+        """results/<name>.json and pictures/<name>.png."""
+        (self.out / "results").mkdir(parents=True, exist_ok=True)
+        (self.out / "pictures").mkdir(parents=True, exist_ok=True)
+        made = {"source": SOURCE, "sets": self.sets, "rows": self.rows}
+        (self.out / "results" / f"{self.name}.json").write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
+        if figure is not None:
+            figure.tight_layout()
+            figure.savefig(self.out / "pictures" / f"{self.name}.png", dpi=80)
+
+
+def mean_error(values: np.ndarray) -> tuple[float, float]:
+    """Mean and its standard error."""
+    return float(np.mean(values)), float(np.std(values, ddof=1) / np.sqrt(len(values)))

@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+"""Forces, gaps and coordination at jamming against N: sections 6.5 (spheres) and 6.6 (Mari-Kurchan) of the studies.
+
+usage: finite_size.py [--model euclid|mk] [--large] [--folder DIR] [--only-read]
+
+Small: N = 200 and 400, a minute or two. Large: N = 256 to 2048 with 5e4 particles a size and more.
+Forces have mean 1 in each packing before they are told apart: localised forces touch a sphere with d + 1 contacts,
+extended ones do not. Packings of spheres with a crystal score of 1.5 and more are left out.
+"""
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
+
+from jam import scaling
+
+sys.path.insert(0, str(HERE.parent))
+from tail_exponents import FLOOR, GAP_FLOOR, GAP_POWERS, POWERS, fit  # noqa: E402
+
+FLOPPY = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}, "floppy_modes": {}}
+MAX_ORDER = 1.5
+
+
+def protocol(model, n):
+    if model == "mk":
+        stages = [{"growth_rate": 5e-3, "pressure": 1e6}]
+        return dict(n=n, dim=3, packing_fraction=2.5, model="mk", stages=stages)
+    return dict(n=n, dim=3, analysis=FLOPPY) if n <= 1024 else dict(n=n, dim=3)
+
+
+class Size:
+    """What is looked at of all packings of one size: one array a packing."""
+
+    def __init__(self, e, model):
+        self.extended, self.localised, self.forces, self.gaps, self.z, rows = [], [], [], [], [], []
+        for entry in e:
+            if (
+                not entry.row["jammed"]
+                or entry.row["excess_contacts"]
+                or (model == "euclid" and entry.row["crystal_score"] > MAX_ORDER)
+            ):
+                continue
+            f, pairs, z, gaps = entry.read("forces", "pairs", "coordination", "gaps")
+            local = (z[pairs] == 4).any(axis=1)
+            self.extended.append(np.sort(f[~local]))
+            self.localised.append(np.sort(f[local]))
+            self.forces.append(np.sort(f))
+            self.gaps.append(np.sort(gaps[gaps > 0]))
+            self.z.append(z[z > 0])
+            rows.append(entry.row)
+        self.rows = np.array(rows)
+        self.per_sphere = {k: np.mean([len(s) for s in getattr(self, k)]) for k in ("extended", "gaps")} if rows else {}
+
+
+def counts(samples, x, n):
+    """(mean number of values below x) / N and its error: the cumulative distribution times values per sphere."""
+    rows = np.array([np.searchsorted(s, x, "right") / n for s in samples])
+    return rows.mean(axis=0), rows.std(axis=0, ddof=1) / np.sqrt(len(rows))
+
+
+def collapse_tail(sizes, name, exponent, low, high, points=30):
+    grid = lambda n: np.geomspace(low, high, points) * n ** (-1 / (1 + exponent))  # noqa: E731
+    samples = {n: getattr(s, name) for n, s in sizes.items()}
+    found = scaling.collapse(samples, grid, [exponent], resamples=20)
+    curves = [(n, scaling.cdf_grid(s, grid(n))) for n, s in samples.items()]
+    at = [scaling.quality(curves, *scaling.tail_scaling([exponent + d])) for d in (0.0, -0.03, 0.03)]
+    return found, at
+
+
+def figures(axes, sizes, model):
+    for n, s in sizes.items():
+        z = np.concatenate(s.z)
+        axes[0, 0].plot(*np.unique(z, return_counts=True)[:1], np.unique(z, return_counts=True)[1] / len(z), "o-", ms=3)
+        x = np.geomspace(1e-5, 20, 120)
+        for row, name, a in ((0, "extended", THETA_E), (1, "gaps", -GAMMA)):
+            x = np.geomspace(1e-5, 20, 120) if row == 0 else np.geomspace(1e-9, 1, 120)
+            c = scaling.cdf_grid(getattr(s, name), x).c
+            axes[row, 1].loglog(x[c > 0], c[c > 0], label=f"N = {n}")
+            axes[row, 2].loglog((x * n ** (1 / (1 + a)))[c > 0], (n * c)[c > 0])
+        x = np.geomspace(1e-4, 20, 100)
+        c = scaling.cdf_grid(s.localised, x).c
+        axes[1, 0].loglog(x[c > 0], c[c > 0])
+    guide = np.geomspace(1e-2, 1e2, 2)
+    axes[0, 2].loglog(guide, 6 * guide ** (1 + THETA_E), "k--", lw=1, label="slope 1.42311")
+    axes[1, 2].loglog(guide, 6 * guide ** (1 - GAMMA), "k--", lw=1, label="slope 0.58731")
+    slope = 1 + (THETA_L if model == "euclid" else 0.0)
+    axes[1, 0].loglog([1e-3, 1e-1], [3e-4, 3e-4 * 100**slope], "k--", lw=1, label=f"slope {slope:g}")
+    titles = (
+        ("contacts z", "extended forces f", "f N^(1/(1+theta_e))"),
+        ("localised forces f", "gaps h", "h N^(1/(1-gamma))"),
+    )
+    for row in (0, 1):
+        for k in (0, 1, 2):
+            axes[row, k].set(
+                xlabel=titles[row][k], ylabel="N cdf" if k == 2 else "cdf" if (row, k) != (0, 0) else "pdf"
+            )
+            if axes[row, k].get_legend_handles_labels()[0]:
+                axes[row, k].legend(fontsize=7)
+    axes[0, 0].set_yscale("log")
+
+
+def table(r, sizes, model, top):
+    figure = "6.6" if model == "mk" else "6.5"
+    largest, s = max(sizes.items())
+    rows = s.rows
+    z = np.concatenate(s.z)
+    ideal = np.mean(6.0 - 4.0 / rows["stable"])
+    r.add(figure + ".1", f"mean z at N = {largest}: 2d + 2(1-d)/N'", round(float(ideal), 6), z.mean())
+    values, count = np.unique(z, return_counts=True)
+    r.add(figure + ".1", "most likely z", "4 or 5" if model == "mk" else 6, values[count.argmax()])
+    r.add(
+        figure + ".1",
+        "share of z >= 12" if model == "mk" else "share of z >= 10",
+        "0.01" if model == "mk" else "few",
+        np.mean(z >= (12 if model == "mk" else 10)),
+    )
+    phi, error = mean_error(rows["packing_fraction"])
+    r.add(figure + ".1", f"phi_J at N = {largest}", ">= 3.1" if model == "mk" else "0.64", phi, error)
+    share, error = mean_error(rows["rattlers"] / largest)
+    r.add(figure + ".1", "share of rattlers", "0.15 to 0.20" if model == "mk" else "0.015 to 0.03", share, error)
+    spheres = model == "euclid"
+    for name, a, floor, label in (
+        ("extended", THETA_E, FLOOR, ".2" if spheres else ".3"),
+        ("gaps", -GAMMA, GAP_FLOOR, ".5" if spheres else ".4"),
+        ("localised", THETA_L if spheres else 0.0, FLOOR, ".7" if spheres else ".6"),
+        ("forces", 0.25 if spheres else 0.1, FLOOR, ".7" if spheres else ".6"),
+    ):
+        try:
+            found = fit(getattr(s, name), largest, GAP_POWERS if name == "gaps" else POWERS, floor)
+        except ValueError as error:
+            print(f"{name}: {error}")
+            continue
+        label = figure + label
+        text = f"exponent of {name}, N = {largest}, averaged over ranges"
+        r.add(label, text, a, found["exponent"], found["error"])
+        if name == "gaps":
+            cut = scaling.fit_power(s.gaps, found["high"], found["low"])
+            r.add(label, f"gaps, one law on {found['low']:.1e} ... {found['high']:.2g}", a, cut.value, cut.error)
+            whole = scaling.fit_power(s.gaps, found["high"])
+            r.add(label, f"gaps, one law below {found['high']:.2g}, no truncation", a, whole.value, whole.error)
+    for name, a, low, high, label in (("extended", THETA_E, 0.3, 10, ".2"), ("gaps", -GAMMA, 0.1, top, ".5")):
+        if len(sizes) < 2:
+            continue
+        found, at = collapse_tail(sizes, name, a, low, high)
+        r.add(
+            figure + label,
+            f"exponent of {name} by collapse (S = {found.quality:.2f})",
+            a,
+            found.value[0],
+            found.error[0],
+        )
+        r.add(figure + label, f"S of the collapse of {name} with the published exponent", "about 1", at[0])
+        r.add(
+            figure + label,
+            f"S with the exponent of {name} off by 0.03 (the lower of two)",
+            "visibly worse",
+            min(at[1:]),
+        )
+    for name, a, label in (("extended", THETA_E, ".2"), ("gaps", -GAMMA, ".5")):  # the estimator that fails
+        scaled = {n: mean_error([x[0] * n ** (1 / (1 + a)) for x in getattr(size, name)]) for n, size in sizes.items()}
+        first, last = scaled[min(scaled)], scaled[max(scaled)]
+        r.add(
+            "6.4",
+            f"N^(1/(1+a)) <x_min> of {name}: largest N over smallest",
+            "not 1",
+            last[0] / first[0],
+            last[0] / first[0] * np.hypot(last[1] / last[0], first[1] / first[0]),
+        )
+    gap_crossover(r, figure + ".4", s, largest)
+
+
+def gap_crossover(r, figure, s, n):
+    """N c(h) against h N^(1/(1-gamma)), c per packing: [(a h)^q + (b h^(1-gamma))^q]^(1/q); errors over packings."""
+    x = np.geomspace(0.03, 300, 40)
+    normal = np.mean([len(g) for g in s.gaps]) / n
+
+    def fit(samples):
+        c, error = counts(samples, x * n ** (-1 / (1 - GAMMA)), n)
+        return scaling.fit_crossover(x, n * c / normal, n * np.maximum(error, 1e-3 * c + 1e-12) / normal, -GAMMA)[0]
+
+    found = scaling.bootstrap(s.gaps, fit, 40)
+    published = (0.179008, 0.223543, -1.25569)
+    low, high = np.percentile(found.resampled, (16, 84), axis=0)  # a resample with a straight line has no crossover
+    for name, p, v, e in zip("abq", published, found.value, 0.5 * (high - low)):
+        r.add(figure, f"crossover of gaps at N = {n}: {name} (published: Mari-Kurchan, N = 4096)", p, v, e)
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--model", choices=["euclid", "mk"], default="euclid")
+    p.add_argument("--sizes", type=int, nargs="+", help="N (small: 200 400; large: 256 512 1024 2048)")
+    p.add_argument("--particles", type=float, default=5e4, help="with --large: particles a size (5e4)")
+    o = p.parse_args()
+    wanted = o.sizes or ((256, 512, 1024, 2048) if o.large else (200, 400))
+    r = Results(o, "finite_size_" + o.model)
+    sizes = {}
+    for n in wanted:
+        e = ensemble(o, protocol(o.model, n), round(o.particles / n) if o.large else 3200 // n)
+        size = Size(e, o.model)
+        if len(size.rows) >= 4:
+            sizes[n] = size
+            r.used(e, len(size.rows))
+    if not sizes:
+        sys.exit("fewer than 4 packings of every size")
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.5))
+    figures(axes, sizes, o.model)
+    table(r, sizes, o.model, 2e2)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

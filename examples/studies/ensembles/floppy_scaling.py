@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Floppy modes against N: section 9 of the studies, from the spheres of finite_size.py.
+
+usage: floppy_scaling.py [--large] [--folder DIR] [--only-read]
+
+Opening a contact by s gives one mode dr: b is its median displacement over |dr|, m the median displacement over s,
+W = f / m, s_plus the opening at which the next contact forms (s_dagger of the thesis), stability s_star / s_plus.
+The thesis defines s* as the opening where p dV returns to zero, twice ours: its Sigma is twice our stability.
+Expected: b of extended modes ~ N^(-1/2), f_min ~ N^(-1/(1+theta)), s_plus ~ N^(-1/(1-gamma)) / m, pdf(W) ~ W^theta_e.
+"""
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import GAMMA, HERE, THETA_E, Results, arguments, ensemble, mean_error
+from finite_size import MAX_ORDER, protocol
+
+sys.path.insert(0, str(HERE.parent))
+from tail_exponents import FLOOR, POWERS, fit  # noqa: E402
+
+
+def slope(sizes, values):
+    """Exponent of N and its error from (mean, error) of each size, by weighted least squares of logarithms."""
+    x = np.log(np.array(sorted(sizes), float))
+    y, e = np.array([(np.log(values[n][0]), values[n][1] / values[n][0]) for n in sorted(sizes)]).T
+    w = 1 / e**2
+    centre = (w @ x) / w.sum()
+    spread = w @ (x - centre) ** 2
+    return (w @ ((x - centre) * y)) / spread, spread**-0.5
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--particles", type=float, default=5e4, help="with --large: particles a size (5e4)")
+    o = p.parse_args()
+    r = Results(o, "floppy_scaling")
+    found, weights = {}, {}
+    figure, axes = plt.subplots(1, 3, figsize=(13, 4))
+    for n in (256, 512, 1024) if o.large else (200, 400):
+        e = ensemble(o, protocol("euclid", n), round(o.particles / n) if o.large else 3200 // n)
+        rows, w, all_b = [], [], []
+        for entry in e:
+            if not entry.row["jammed"] or entry.row["excess_contacts"] or entry.row["crystal_score"] > MAX_ORDER:
+                continue
+            modes, f, pairs, z = entry.read("floppy_modes", "forces", "pairs", "coordination")
+            local = (z[pairs] == 4).any(axis=1)
+            b, s, stability = modes["median"], modes["s_plus"], modes["stability"]
+            m = f / modes["weight"]  # median displacement over the opening
+            use = ~local & (s > 0) & np.isfinite(s)
+            rows.append(
+                (
+                    np.median(b[use]),
+                    np.median(m[use]),
+                    np.median((s * m)[use]),
+                    f[~local].min(),
+                    np.mean(2 * stability > 1),
+                )
+            )
+            scaled = modes["weight"][~local]
+            w.append(scaled / scaled.mean())
+            all_b.append(b * np.sqrt(n))
+        if len(rows) < 4:
+            continue
+        found[n], weights[n] = np.array(rows), w
+        r.used(e, len(rows))
+        pool = np.sort(np.concatenate(all_b))
+        axes[0].loglog(pool, np.arange(1, len(pool) + 1) / len(pool), label=f"N = {n}")
+        pool = np.sort(np.concatenate(w))
+        axes[1].loglog(pool, np.arange(1, len(pool) + 1) / len(pool))
+    if len(found) < 2:
+        sys.exit("two sizes with 4 packings each are needed")
+    expected = {
+        "b of extended modes": -0.5,
+        "displacement over opening": 0.0,
+        "s_plus times it": -1 / (1 - GAMMA),
+        "f_min": -1 / (1 + THETA_E),
+    }
+    for k, (name, law) in enumerate(expected.items()):
+        values = {n: mean_error(a[:, k]) for n, a in found.items()}
+        power, error = slope(found, values)
+        published = round(law, 4)
+        r.add("9", f"power of N of {name} ({'median' if k < 3 else 'mean over packings'})", published, power, error)
+        n, y = np.array(sorted(values)), np.array([values[m][0] for m in sorted(values)])
+        axes[2].loglog(n, y / y[0], "o-", label=f"{name}: {power:.2f}({error:.2f}), law {published:.2f}")
+    largest = max(found)
+    share, error = mean_error(found[largest][:, 4])
+    r.add("9", f"share of contacts with Sigma = 2 stability > 1, N = {largest}", "stable: all", share, error)
+    try:
+        law = fit(weights[largest], largest, POWERS, FLOOR)
+        r.add("9", f"exponent of W of extended modes, N = {largest}", THETA_E, law["exponent"], law["error"])
+    except ValueError as problem:
+        print(problem)
+    for axis, x, y in zip(axes, ("b sqrt(N)", "W / mean", "N"), ("cdf", "cdf", "relative to the smallest N")):
+        axis.set(xlabel=x, ylabel=y)
+    axes[0].legend(fontsize=8)
+    axes[2].legend(fontsize=8)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

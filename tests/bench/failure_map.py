@@ -58,7 +58,10 @@ def moves(n, d, pairs, normals):
     ).tocsr()
     rng = np.random.default_rng(1)
     for direction in (np.asarray(s.sum(axis=0)).ravel(), rng.standard_normal(s.shape[1])):
-        found = linprog(-direction, A_ub=-s, b_ub=np.zeros(len(pairs)), bounds=(-1, 1), method="highs")
+        program = dict(A_ub=-s, b_ub=np.zeros(len(pairs)), bounds=(-1, 1))
+        found = linprog(-direction, method="highs-ds", **program)
+        if found.x is None:  # the simplex gave up
+            found = linprog(-direction, method="highs-ipm", **program)
         v = found.x.reshape(-1, d)
         if abs(v - v.mean(axis=0)).max() > 1e-6:
             return True

@@ -68,6 +68,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_PHASE_CRUNCH = 3
   integer(c_int32_t), parameter :: JAM_PHASE_POLISH = 4
   integer(c_int32_t), parameter :: JAM_PHASE_ANALYSE = 5
+  integer(c_int32_t), parameter :: JAM_PHASE_MONTE_CARLO = 8
+  integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
 
   ! jam_log_level: Log levels. @since 0.1
   integer(c_int32_t), parameter :: JAM_LOG_NONE = 0
@@ -99,6 +101,29 @@ module jam
   integer(c_int32_t), parameter :: JAM_EOS_VIRIAL = 3
   integer(c_int32_t), parameter :: JAM_EOS_MK = 4
   integer(c_int32_t), parameter :: JAM_EOS_FREE_VOLUME = 5
+
+  ! jam_energy_unit: Unit of the overlap x of a soft pair. @since 0.1
+  integer(c_int32_t), parameter :: JAM_ENERGY_LENGTH = 0
+  integer(c_int32_t), parameter :: JAM_ENERGY_RELATIVE = 1
+
+  ! jam_clock: What instants are counted in. Monte Carlo always counts sweeps. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CLOCK_COLLISIONS = 0
+  integer(c_int32_t), parameter :: JAM_CLOCK_TIME = 1
+
+  ! jam_isoconf_column: Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1
+  integer(c_int32_t), parameter :: JAM_ISOCONF_TIME = 0
+  integer(c_int32_t), parameter :: JAM_ISOCONF_TIME2 = 1
+  integer(c_int32_t), parameter :: JAM_ISOCONF_MSD = 2
+  integer(c_int32_t), parameter :: JAM_ISOCONF_MSD2 = 3
+  integer(c_int32_t), parameter :: JAM_ISOCONF_SCATTERING = 4
+  integer(c_int32_t), parameter :: JAM_ISOCONF_SCATTERING2 = 5
+  integer(c_int32_t), parameter :: JAM_ISOCONF_OVERLAP = 6
+  integer(c_int32_t), parameter :: JAM_ISOCONF_OVERLAP2 = 7
+  integer(c_int32_t), parameter :: JAM_ISOCONF_ENERGY = 8
+  integer(c_int32_t), parameter :: JAM_ISOCONF_ENERGY2 = 9
+  integer(c_int32_t), parameter :: JAM_ISOCONF_VELOCITY = 10
+  integer(c_int32_t), parameter :: JAM_ISOCONF_COLLISIONS = 11
+  integer(c_int32_t), parameter :: JAM_ISOCONF_PRESSURE = 12
 
   ! jam_lp_solver: How the LPs are solved. @since 0.1
   integer(c_int32_t), parameter :: JAM_LP_IPM = 0
@@ -386,6 +411,126 @@ module jam
     real(c_double) :: r_squared = 0
   end type jam_glass
 
+  ! Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1
+  type, bind(c) :: jam_monte_carlo_options
+    ! sizeof(jam_monte_carlo_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! 1: continue the run that stopped early; default 0
+    integer(c_int32_t) :: resume = 0
+    ! jam_energy_unit, default LENGTH
+    integer(c_int32_t) :: energy_unit = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+    real(c_double) :: alpha = 0
+    ! > 0, default 1
+    real(c_double) :: energy_scale = 0
+    ! of soft spheres, k_B T > 0, default 1
+    real(c_double) :: temperature = 0
+    ! half side of the cube of trial displacements, mean diameters; 0, the default: tuned
+    real(c_double) :: step = 0
+    ! that a tuned step aims at, in (0, 1), default 0.45
+    real(c_double) :: acceptance = 0
+    ! share of trials that exchange two diameters, in [0, 1), default 0
+    real(c_double) :: swap_share = 0
+    ! since the run began, >= 1, default 1000
+    integer(c_int64_t) :: sweeps = 0
+    ! number of the random stream beside the seed, >= 0, default 0
+    integer(c_int64_t) :: run = 0
+    ! number of the first sweep, by which the stream goes; -1, the default: after those made before
+    integer(c_int64_t) :: first_sweep = 0
+    ! seconds of this call, > 0, default infinity
+    real(c_double) :: wall_time = 0
+  end type jam_monte_carlo_options
+
+  ! What Monte Carlo did. @since 0.1
+  type, bind(c) :: jam_monte_carlo_report
+    ! set by the caller: sizeof(jam_monte_carlo_report)
+    integer(c_int32_t) :: struct_size = 104
+    ! jam_stop_reason; COLLISIONS: all sweeps were made
+    integer(c_int32_t) :: stop_reason = 0
+    ! since the run began
+    integer(c_int64_t) :: sweeps = 0
+    ! number of the sweep that would come next
+    integer(c_int64_t) :: next_sweep = 0
+    ! of moves
+    real(c_double) :: acceptance = 0
+    ! of swaps, NaN without any
+    real(c_double) :: swap_acceptance = 0
+    ! used, mean diameters
+    real(c_double) :: step = 0
+    ! mean energy a sphere
+    real(c_double) :: energy = 0
+    ! standard error of it from 20 parts of the run, NaN with too few sweeps
+    real(c_double) :: energy_error = 0
+    ! reduced p: soft, from the virial; hard, from the density of pairs at contact
+    real(c_double) :: pressure = 0
+    ! likewise
+    real(c_double) :: pressure_error = 0
+    ! mean-square displacement since the run began, box^2
+    real(c_double) :: msd = 0
+    ! of this call, wall time
+    real(c_double) :: trials_per_second = 0
+    ! of this call, wall time
+    real(c_double) :: seconds = 0
+  end type jam_monte_carlo_report
+
+  ! Options of jam_isoconfigurational. @since 0.1
+  type, bind(c) :: jam_isoconf_options
+    ! sizeof(jam_isoconf_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! 1 or 2, default 1; the bits are the same
+    integer(c_int32_t) :: threads = 0
+    ! jam_clock, default COLLISIONS
+    integer(c_int32_t) :: clock = 0
+    ! 1: continue the runs that this handle holds; default 0
+    integer(c_int32_t) :: resume = 0
+    ! number of the first run, >= 0, default 0
+    integer(c_int64_t) :: first_run = 0
+    ! from that number on, >= 1, default 100
+    integer(c_int64_t) :: runs = 0
+    ! sums are kept of each block of so many run numbers, >= 1, default 20
+    integer(c_int64_t) :: block = 0
+    ! packing fraction of the runs over that of the packing, in (0, 1], default 1
+    real(c_double) :: density_ratio = 0
+    ! of the velocities, > 0, default 1
+    real(c_double) :: temperature = 0
+    ! q of F_s, over mean diameters, > 0, default 7
+    real(c_double) :: wave_number = 0
+    ! spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
+    real(c_double) :: overlap_length = 0
+    ! bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run
+    real(c_double) :: memory_limit = 0
+    ! seconds of this call, > 0, default infinity
+    real(c_double) :: wall_time = 0
+  end type jam_isoconf_options
+
+  ! What the runs gave so far. @since 0.1
+  type, bind(c) :: jam_isoconf_report
+    ! set by the caller: sizeof(jam_isoconf_report)
+    integer(c_int32_t) :: struct_size = 80
+    ! jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
+    integer(c_int32_t) :: stop_reason = 0
+    ! number of the first run
+    integer(c_int64_t) :: first_run = 0
+    ! that are in the sums
+    integer(c_int64_t) :: runs = 0
+    ! that these runs fill or touch
+    integer(c_int64_t) :: blocks = 0
+    ! of each run
+    integer(c_int64_t) :: instants = 0
+    ! largest |K_end/K_start - 1| of a run
+    real(c_double) :: energy_drift = 0
+    ! largest -h of a run
+    real(c_double) :: max_overlap = 0
+    ! Monte Carlo: half side of the trial cube, mean diameters
+    real(c_double) :: step = 0
+    ! Monte Carlo: mean over runs
+    real(c_double) :: acceptance = 0
+    ! wall time over all calls
+    real(c_double) :: seconds = 0
+  end type jam_isoconf_report
+
   ! Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
   ! CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
   ! sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
@@ -649,8 +794,9 @@ module jam
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
     module procedure default_create_options, default_run_options, default_compress_options, &
-      default_observe_options, default_crunch_options, default_hessian_options, &
-      default_modes_options, default_geometry_options, default_dos_options
+      default_observe_options, default_monte_carlo_options, default_isoconf_options, &
+      default_crunch_options, default_hessian_options, default_modes_options, &
+      default_geometry_options, default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -1104,6 +1250,122 @@ module jam
       type(jam_glass), intent(inout), optional :: fit
       integer(c_int32_t) :: status
     end function jam_glass_fit
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_monte_carlo_options_init(o, size) &
+        bind(c, name="jam_monte_carlo_options_init") result(status)
+      import
+      type(jam_monte_carlo_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_monte_carlo_options_init
+
+    ! Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
+    ! preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
+    ! report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
+    ! jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
+    ! (also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
+    ! JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_monte_carlo(sys, o, report) &
+        bind(c, name="jam_monte_carlo") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_monte_carlo_options), intent(in), optional :: o
+      type(jam_monte_carlo_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_monte_carlo
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_isoconf_options_init(o, size) &
+        bind(c, name="jam_isoconf_options_init") result(status)
+      import
+      type(jam_isoconf_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_isoconf_options_init
+
+    ! Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
+    ! is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
+    ! molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
+    ! instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
+    ! may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
+    ! order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+    ! jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
+    ! JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
+    ! resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report) &
+        bind(c, name="jam_isoconfigurational") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_isoconf_options), intent(in), optional :: o
+      type(jam_monte_carlo_options), intent(in), optional :: m
+      real(c_double), intent(in), optional :: instant(*)
+      integer(c_size_t), value :: instant_len
+      integer(c_int32_t), intent(in), optional :: kept(*)
+      integer(c_size_t), value :: kept_len
+      type(jam_isoconf_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_isoconfigurational
+
+    ! The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
+    ! runs). @since 0.1
+    function jam_isoconf_report_get(sys, report) &
+        bind(c, name="jam_isoconf_report_get") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_isoconf_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_isoconf_report_get
+
+    ! Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
+    ! of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
+    ! Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+    ! @since 0.1
+    function jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, &
+      distance2_len, distance4, distance4_len, runs, needed) &
+        bind(c, name="jam_isoconf_sums") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: block
+      real(c_double), intent(inout), optional :: displacement(*)
+      integer(c_size_t), value :: displacement_len
+      real(c_double), intent(inout), optional :: square(*)
+      integer(c_size_t), value :: square_len
+      real(c_double), intent(inout), optional :: distance2(*)
+      integer(c_size_t), value :: distance2_len
+      real(c_double), intent(inout), optional :: distance4(*)
+      integer(c_size_t), value :: distance4_len
+      integer(c_int64_t), intent(out), optional :: runs
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_isoconf_sums
+
+    ! One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
+    ! jam_isoconf_sums. @since 0.1
+    function jam_isoconf_series(sys, block, column, out, out_len, needed) &
+        bind(c, name="jam_isoconf_series") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: block
+      integer(c_int32_t), value :: column
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_isoconf_series
+
+    ! Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
+    ! @since 0.1
+    function jam_isoconf_kept(sys, instant, out, out_len, needed) &
+        bind(c, name="jam_isoconf_kept") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: instant
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_isoconf_kept
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_crunch_options_init(o, size) &
@@ -1794,6 +2056,58 @@ module jam
       type(jam_glass), intent(inout), optional :: fit
       integer(c_int32_t) :: status
     end function c_jam_glass_fit
+    function c_jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report) &
+        bind(c, name="jam_isoconfigurational") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_isoconf_options), intent(in), optional :: o
+      type(jam_monte_carlo_options), intent(in), optional :: m
+      type(c_ptr), value :: instant
+      integer(c_size_t), value :: instant_len
+      type(c_ptr), value :: kept
+      integer(c_size_t), value :: kept_len
+      type(jam_isoconf_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function c_jam_isoconfigurational
+    function c_jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, &
+      distance2_len, distance4, distance4_len, runs, needed) &
+        bind(c, name="jam_isoconf_sums") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: block
+      type(c_ptr), value :: displacement
+      integer(c_size_t), value :: displacement_len
+      type(c_ptr), value :: square
+      integer(c_size_t), value :: square_len
+      type(c_ptr), value :: distance2
+      integer(c_size_t), value :: distance2_len
+      type(c_ptr), value :: distance4
+      integer(c_size_t), value :: distance4_len
+      integer(c_int64_t), intent(out), optional :: runs
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_isoconf_sums
+    function c_jam_isoconf_series(sys, block, column, out, out_len, needed) &
+        bind(c, name="jam_isoconf_series") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int64_t), value :: block
+      integer(c_int32_t), value :: column
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_isoconf_series
+    function c_jam_isoconf_kept(sys, instant, out, out_len, needed) &
+        bind(c, name="jam_isoconf_kept") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: instant
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_isoconf_kept
     function c_jam_crunch_history(sys, column, out, out_len, needed) &
         bind(c, name="jam_crunch_history") result(status)
       import
@@ -2195,6 +2509,26 @@ module jam
     module procedure f_jam_glass_fit
   end interface jam_glass_fit
 
+  interface jam_isoconfigurational
+    procedure jam_isoconfigurational
+    module procedure f_jam_isoconfigurational
+  end interface jam_isoconfigurational
+
+  interface jam_isoconf_sums
+    procedure jam_isoconf_sums
+    module procedure f_jam_isoconf_sums
+  end interface jam_isoconf_sums
+
+  interface jam_isoconf_series
+    procedure jam_isoconf_series
+    module procedure f_jam_isoconf_series
+  end interface jam_isoconf_series
+
+  interface jam_isoconf_kept
+    procedure jam_isoconf_kept
+    module procedure f_jam_isoconf_kept
+  end interface jam_isoconf_kept
+
   interface jam_crunch_history
     procedure jam_crunch_history
     module procedure f_jam_crunch_history
@@ -2363,6 +2697,10 @@ module jam
   private :: c_jam_observed_gaps, f_jam_observed_gaps
   private :: c_jam_observed_correlation, f_jam_observed_correlation
   private :: c_jam_glass_fit, f_jam_glass_fit
+  private :: c_jam_isoconfigurational, f_jam_isoconfigurational
+  private :: c_jam_isoconf_sums, f_jam_isoconf_sums
+  private :: c_jam_isoconf_series, f_jam_isoconf_series
+  private :: c_jam_isoconf_kept, f_jam_isoconf_kept
   private :: c_jam_crunch_history, f_jam_crunch_history
   private :: c_jam_crunch_step_displacements, f_jam_crunch_step_displacements
   private :: c_jam_crunch_step_contacts, f_jam_crunch_step_contacts
@@ -2676,6 +3014,111 @@ contains
     end if
     status = c_jam_glass_fit(at_fraction, count_fraction, at_pressure, count_pressure, fit)
   end function f_jam_glass_fit
+
+  function f_jam_isoconfigurational(sys, o, m, instant, kept, report) result(status)
+    type(c_ptr), intent(in) :: sys
+    type(jam_isoconf_options), intent(in), optional :: o
+    type(jam_monte_carlo_options), intent(in), optional :: m
+    real(c_double), intent(in), target, contiguous, optional :: instant(..)
+    integer(c_int32_t), intent(in), target, contiguous, optional :: kept(..)
+    type(jam_isoconf_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_instant
+    integer(c_size_t) :: count_instant
+    type(c_ptr) :: at_kept
+    integer(c_size_t) :: count_kept
+    at_instant = c_null_ptr
+    count_instant = 0
+    if (present(instant)) then
+      at_instant = c_loc(instant)
+      count_instant = size(instant, kind=c_size_t)
+    end if
+    at_kept = c_null_ptr
+    count_kept = 0
+    if (present(kept)) then
+      at_kept = c_loc(kept)
+      count_kept = size(kept, kind=c_size_t)
+    end if
+    status = c_jam_isoconfigurational(sys, o, m, at_instant, count_instant, at_kept, count_kept, report)
+  end function f_jam_isoconfigurational
+
+  function f_jam_isoconf_sums(sys, block, displacement, square, distance2, distance4, runs) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in) :: block
+    real(c_double), intent(inout), target, contiguous, optional :: displacement(..)
+    real(c_double), intent(inout), target, contiguous, optional :: square(..)
+    real(c_double), intent(inout), target, contiguous, optional :: distance2(..)
+    real(c_double), intent(inout), target, contiguous, optional :: distance4(..)
+    integer(c_int64_t), intent(out), optional :: runs
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_displacement
+    integer(c_size_t) :: count_displacement
+    type(c_ptr) :: at_square
+    integer(c_size_t) :: count_square
+    type(c_ptr) :: at_distance2
+    integer(c_size_t) :: count_distance2
+    type(c_ptr) :: at_distance4
+    integer(c_size_t) :: count_distance4
+    at_displacement = c_null_ptr
+    count_displacement = 0
+    if (present(displacement)) then
+      at_displacement = c_loc(displacement)
+      count_displacement = size(displacement, kind=c_size_t)
+    end if
+    at_square = c_null_ptr
+    count_square = 0
+    if (present(square)) then
+      at_square = c_loc(square)
+      count_square = size(square, kind=c_size_t)
+    end if
+    at_distance2 = c_null_ptr
+    count_distance2 = 0
+    if (present(distance2)) then
+      at_distance2 = c_loc(distance2)
+      count_distance2 = size(distance2, kind=c_size_t)
+    end if
+    at_distance4 = c_null_ptr
+    count_distance4 = 0
+    if (present(distance4)) then
+      at_distance4 = c_loc(distance4)
+      count_distance4 = size(distance4, kind=c_size_t)
+    end if
+    status = c_jam_isoconf_sums(sys, block, at_displacement, count_displacement, at_square, count_square, &
+      at_distance2, count_distance2, at_distance4, count_distance4, runs)
+  end function f_jam_isoconf_sums
+
+  function f_jam_isoconf_series(sys, block, column, out) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int64_t), intent(in) :: block
+    integer(c_int32_t), intent(in) :: column
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    status = c_jam_isoconf_series(sys, block, column, at_out, count_out)
+  end function f_jam_isoconf_series
+
+  function f_jam_isoconf_kept(sys, instant, out) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: instant
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    status = c_jam_isoconf_kept(sys, instant, at_out, count_out)
+  end function f_jam_isoconf_kept
 
   function f_jam_crunch_history(sys, column, out) result(status)
     type(c_ptr), intent(in) :: sys
@@ -3306,6 +3749,18 @@ contains
     integer(c_int32_t) :: status
     status = jam_observe_options_init(o, c_sizeof(o))
   end subroutine default_observe_options
+
+  subroutine default_monte_carlo_options(o)
+    type(jam_monte_carlo_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_monte_carlo_options_init(o, c_sizeof(o))
+  end subroutine default_monte_carlo_options
+
+  subroutine default_isoconf_options(o)
+    type(jam_isoconf_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_isoconf_options_init(o, c_sizeof(o))
+  end subroutine default_isoconf_options
 
   subroutine default_crunch_options(o)
     type(jam_crunch_options), intent(out) :: o

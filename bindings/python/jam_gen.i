@@ -19,6 +19,12 @@
 %apply double *RESULT {double *pressure};
 %apply (const double *IN, size_t IN_LEN) {(const double *fraction, size_t fraction_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *pressure, size_t pressure_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *instant, size_t instant_len)};
+%apply (const int32_t *IN, size_t IN_LEN) {(const int32_t *kept, size_t kept_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *square, size_t square_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *distance2, size_t distance2_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *distance4, size_t distance4_len)};
+%apply int64_t *RESULT {int64_t *runs};
 %apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
@@ -113,6 +119,42 @@
   ~jam_glass() { free($self); }
 }
 %feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1"
+%extend jam_monte_carlo_options {
+  jam_monte_carlo_options() {
+    jam_monte_carlo_options *made = (jam_monte_carlo_options *)calloc(1, sizeof *made);
+    if (made) { jam_monte_carlo_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_monte_carlo_options() { free($self); }
+}
+%feature("docstring") jam_monte_carlo_options "Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1"
+%extend jam_monte_carlo_report {
+  jam_monte_carlo_report() {
+    jam_monte_carlo_report *made = (jam_monte_carlo_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_monte_carlo_report() { free($self); }
+}
+%feature("docstring") jam_monte_carlo_report "What Monte Carlo did. @since 0.1"
+%extend jam_isoconf_options {
+  jam_isoconf_options() {
+    jam_isoconf_options *made = (jam_isoconf_options *)calloc(1, sizeof *made);
+    if (made) { jam_isoconf_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_isoconf_options() { free($self); }
+}
+%feature("docstring") jam_isoconf_options "Options of jam_isoconfigurational. @since 0.1"
+%extend jam_isoconf_report {
+  jam_isoconf_report() {
+    jam_isoconf_report *made = (jam_isoconf_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_isoconf_report() { free($self); }
+}
+%feature("docstring") jam_isoconf_report "What the runs gave so far. @since 0.1"
 %extend jam_crunch_options {
   jam_crunch_options() {
     jam_crunch_options *made = (jam_crunch_options *)calloc(1, sizeof *made);
@@ -307,6 +349,33 @@ Errors: as jam_observed_series. @since 0.1"
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"
 %feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"
+%feature("docstring") jam_monte_carlo_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_monte_carlo "Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
+preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
+report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
+jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
+(also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
+JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_isoconf_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_isoconfigurational "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
+is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
+molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
+instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
+may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
+order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
+JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
+resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_isoconf_report_get "The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
+runs). @since 0.1"
+%feature("docstring") jam_isoconf_sums "Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
+of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
+Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+@since 0.1"
+%feature("docstring") jam_isoconf_series "One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
+jam_isoconf_sums. @since 0.1"
+%feature("docstring") jam_isoconf_kept "Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
+@since 0.1"
 %feature("docstring") jam_crunch_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
 106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid

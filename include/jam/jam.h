@@ -244,11 +244,13 @@ JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
 
 /* Which part reports progress. @since 0.1 */
 typedef enum jam_phase {
-  JAM_PHASE_RUN = 1,      /* NVE molecular dynamics */
-  JAM_PHASE_COMPRESS = 2, /* molecular dynamics with growth */
-  JAM_PHASE_CRUNCH = 3,   /* one LP or re-linearised Newton step done */
-  JAM_PHASE_POLISH = 4,   /* refinement of the final network */
-  JAM_PHASE_ANALYSE = 5   /* long analysis calls */
+  JAM_PHASE_RUN = 1,               /* NVE molecular dynamics */
+  JAM_PHASE_COMPRESS = 2,          /* molecular dynamics with growth */
+  JAM_PHASE_CRUNCH = 3,            /* one LP or re-linearised Newton step done */
+  JAM_PHASE_POLISH = 4,            /* refinement of the final network */
+  JAM_PHASE_ANALYSE = 5,           /* long analysis calls */
+  JAM_PHASE_MONTE_CARLO = 8,       /* Metropolis sweeps */
+  JAM_PHASE_ISOCONFIGURATIONAL = 9 /* runs from one configuration; steps counts those that are done */
 } jam_phase;
 
 /* Given to the progress callback; valid during the call only. @since 0.1 */
@@ -491,6 +493,149 @@ typedef struct jam_glass {
  * JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1 */
 JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure,
                                  size_t pressure_len, jam_glass *fit);
+
+/* ------------------------------------------------------------------ Monte Carlo, runs from one configuration */
+
+/* Unit of the overlap x of a soft pair. @since 0.1 */
+typedef enum jam_energy_unit {
+  JAM_ENERGY_LENGTH = 0,  /* x = sigma_ij - r, unit of the box */
+  JAM_ENERGY_RELATIVE = 1 /* x = 1 - r / sigma_ij */
+} jam_energy_unit;
+
+/* Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1 */
+typedef struct jam_monte_carlo_options {
+  uint32_t struct_size; /* sizeof(jam_monte_carlo_options) */
+  int32_t resume;       /* 1: continue the run that stopped early; default 0 */
+  int32_t energy_unit;  /* jam_energy_unit, default LENGTH */
+  int32_t reserved;     /* 0 */
+  double alpha;         /* 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha */
+  double energy_scale;  /* > 0, default 1 */
+  double temperature;   /* of soft spheres, k_B T > 0, default 1 */
+  double step;          /* half side of the cube of trial displacements, mean diameters; 0, the default: tuned */
+  double acceptance;    /* that a tuned step aims at, in (0, 1), default 0.45 */
+  double swap_share;    /* share of trials that exchange two diameters, in [0, 1), default 0 */
+  int64_t sweeps;       /* since the run began, >= 1, default 1000 */
+  int64_t run;          /* number of the random stream beside the seed, >= 0, default 0 */
+  int64_t
+      first_sweep;  /* number of the first sweep, by which the stream goes; -1, the default: after those made before */
+  double wall_time; /* seconds of this call, > 0, default infinity */
+} jam_monte_carlo_options;
+
+/* What Monte Carlo did. @since 0.1 */
+typedef struct jam_monte_carlo_report {
+  uint32_t struct_size;     /* set by the caller: sizeof(jam_monte_carlo_report) */
+  int32_t stop_reason;      /* jam_stop_reason; COLLISIONS: all sweeps were made */
+  int64_t sweeps;           /* since the run began */
+  int64_t next_sweep;       /* number of the sweep that would come next */
+  double acceptance;        /* of moves */
+  double swap_acceptance;   /* of swaps, NaN without any */
+  double step;              /* used, mean diameters */
+  double energy;            /* mean energy a sphere */
+  double energy_error;      /* standard error of it from 20 parts of the run, NaN with too few sweeps */
+  double pressure;          /* reduced p: soft, from the virial; hard, from the density of pairs at contact */
+  double pressure_error;    /* likewise */
+  double msd;               /* mean-square displacement since the run began, box^2 */
+  double trials_per_second; /* of this call, wall time */
+  double seconds;           /* of this call, wall time */
+} jam_monte_carlo_report;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size);
+/* Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
+ * preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
+ * report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
+ * jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
+ * (also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
+ * JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report);
+
+/* What instants are counted in. Monte Carlo always counts sweeps. @since 0.1 */
+typedef enum jam_clock {
+  JAM_CLOCK_COLLISIONS = 0, /* collisions per particle; each collision counts for both of its spheres */
+  JAM_CLOCK_TIME = 1        /* simulated time, box / sqrt(kT/m) at T = 1 */
+} jam_clock;
+
+/* Options of jam_isoconfigurational. @since 0.1 */
+typedef struct jam_isoconf_options {
+  uint32_t struct_size;  /* sizeof(jam_isoconf_options) */
+  int32_t threads;       /* 1 or 2, default 1; the bits are the same */
+  int32_t clock;         /* jam_clock, default COLLISIONS */
+  int32_t resume;        /* 1: continue the runs that this handle holds; default 0 */
+  int64_t first_run;     /* number of the first run, >= 0, default 0 */
+  int64_t runs;          /* from that number on, >= 1, default 100 */
+  int64_t block;         /* sums are kept of each block of so many run numbers, >= 1, default 20 */
+  double density_ratio;  /* packing fraction of the runs over that of the packing, in (0, 1], default 1 */
+  double temperature;    /* of the velocities, > 0, default 1 */
+  double wave_number;    /* q of F_s, over mean diameters, > 0, default 7 */
+  double overlap_length; /* spheres that moved less count in the overlap, mean diameters, > 0, default 0.3 */
+  double memory_limit;   /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run */
+  double wall_time;      /* seconds of this call, > 0, default infinity */
+} jam_isoconf_options;
+
+/* What the runs gave so far. @since 0.1 */
+typedef struct jam_isoconf_report {
+  uint32_t struct_size; /* set by the caller: sizeof(jam_isoconf_report) */
+  int32_t stop_reason;  /* jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move */
+  int64_t first_run;    /* number of the first run */
+  int64_t runs;         /* that are in the sums */
+  int64_t blocks;       /* that these runs fill or touch */
+  int64_t instants;     /* of each run */
+  double energy_drift;  /* largest |K_end/K_start - 1| of a run */
+  double max_overlap;   /* largest -h of a run */
+  double step;          /* Monte Carlo: half side of the trial cube, mean diameters */
+  double acceptance;    /* Monte Carlo: mean over runs */
+  double seconds;       /* wall time over all calls */
+} jam_isoconf_report;
+
+/* Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1 */
+typedef enum jam_isoconf_column {
+  JAM_ISOCONF_TIME = 0,        /* simulated time, or sweeps */
+  JAM_ISOCONF_TIME2 = 1,       /* its square */
+  JAM_ISOCONF_MSD = 2,         /* mean of |dr|^2 over spheres, box^2 */
+  JAM_ISOCONF_MSD2 = 3,        /* its square */
+  JAM_ISOCONF_SCATTERING = 4,  /* mean of cos(q dr_c) over spheres and axes */
+  JAM_ISOCONF_SCATTERING2 = 5, /* its square */
+  JAM_ISOCONF_OVERLAP = 6,     /* share of spheres that moved less than overlap_length */
+  JAM_ISOCONF_OVERLAP2 = 7,    /* its square */
+  JAM_ISOCONF_ENERGY = 8,      /* Monte Carlo: energy a sphere */
+  JAM_ISOCONF_ENERGY2 = 9,     /* its square */
+  JAM_ISOCONF_VELOCITY = 10,   /* sum m v(t).v(0) over sum m v(0).v(0) */
+  JAM_ISOCONF_COLLISIONS = 11, /* collisions per particle */
+  JAM_ISOCONF_PRESSURE = 12    /* reduced pressure: since the start of the run; soft spheres: at the instant */
+} jam_isoconf_column;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
+/* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
+ * is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
+ * molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
+ * instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
+ * may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
+ * order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+ * jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
+ * JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
+ * resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
+                                          const jam_monte_carlo_options *m, const double *instant, size_t instant_len,
+                                          const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
+/* The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
+ * runs). @since 0.1 */
+JAM_API jam_status jam_isoconf_report_get(const jam_system *sys, jam_isoconf_report *report);
+/* Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
+ * of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
+ * Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+ * @since 0.1 */
+JAM_API jam_status jam_isoconf_sums(const jam_system *sys, int64_t block, double *displacement, size_t displacement_len,
+                                    double *square, size_t square_len, double *distance2, size_t distance2_len,
+                                    double *distance4, size_t distance4_len, int64_t *runs, size_t *needed);
+/* One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
+ * jam_isoconf_sums. @since 0.1 */
+JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t column, double *out, size_t out_len,
+                                      size_t *needed);
+/* Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
+ * @since 0.1 */
+JAM_API jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, double *out, size_t out_len,
+                                    size_t *needed);
 
 /* ------------------------------------------------------------------ crunch to the jamming point */
 

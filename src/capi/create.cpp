@@ -77,6 +77,8 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->history = src->history;
     sys->has_history = src->has_history;
     sys->note_diameters();
+    sys->sweeps = src->sweeps;
+    if (src->runs) sys->runs = std::make_unique<Isoconfigurational>(*src->runs);
     if (src->paused) sys->paused = read_dynamics(sys->packing, write_dynamics(*src->paused));
     *out = sys.release();
     return JAM_OK;

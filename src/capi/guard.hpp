@@ -79,6 +79,18 @@ jam_status guard_verb(jam_system *sys, F &&f) noexcept {
   });
 }
 
+// Shows a simulation to callbacks (jam_checkpoint_write) while it runs.
+class Running {
+ public:
+  Running(jam_system *sys, const Dynamics *dynamics) : sys_(sys) { sys->live = dynamics; }
+  ~Running() { sys_->live = nullptr; }
+  Running(const Running &) = delete;
+  Running &operator=(const Running &) = delete;
+
+ private:
+  jam_system *sys_;
+};
+
 inline void need(const void *pointer, const char *name) {
   if (!pointer) fail(JAM_E_NULL, "%s is NULL", name);
 }

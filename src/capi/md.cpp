@@ -112,10 +112,11 @@ jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_r
 jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
+    const Dynamics *kept = sys->paused ? sys->paused.get() : sys->runs.get();
     if (sys->live)
       write_checkpoint(sys->live->current(), write_dynamics(*sys->live), path);
     else
-      write_checkpoint(sys->packing, sys->paused ? write_dynamics(*sys->paused) : std::string(), path);
+      write_checkpoint(sys->packing, kept ? write_dynamics(*kept) : std::string(), path);
     return JAM_OK;
   });
 }
@@ -130,6 +131,8 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     settle_overlaps(sys->packing, JAM_OVERLAP_REFUSE);
     sys->note_diameters();
     if (!stage.empty()) sys->paused = read_dynamics(sys->packing, std::move(stage));
+    if (sys->paused && sys->paused->phase() == JAM_PHASE_ISOCONFIGURATIONAL)  // results, and perhaps more to make
+      sys->runs.reset(static_cast<Isoconfigurational *>(sys->paused.release()));
     *out = sys.release();
     return JAM_OK;
   });

@@ -6,6 +6,7 @@
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
 #include "dynamics/dynamics.hpp"
+#include "dynamics/isoconfigurational.hpp"
 #include "dynamics/observer.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
@@ -22,6 +23,8 @@ struct jam_system {
   std::atomic<bool> busy{false};
   std::unique_ptr<jam::Dynamics> paused;               // was stopped early and can be resumed
   const jam::Dynamics *live = nullptr;                 // runs now, while callbacks are called
+  std::unique_ptr<jam::Isoconfigurational> runs;       // the last ones from one configuration, complete or not
+  int64_t sweeps = 0;                                  // of Monte Carlo made so far: where its streams go on
   std::unique_ptr<jam::Observer> observer;             // what was observed
   bool observing = false;                              // and still is
   double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: note_diameters()

@@ -12,6 +12,8 @@ enum class Stream : uint64_t {
   velocities = 2,
   mk_shift = 3,
   analysis_start = 4,
+  run_velocities = 21,  // isoconfigurational runs
+  monte_carlo = 22,
 };
 
 // Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.

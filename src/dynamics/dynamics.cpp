@@ -1,6 +1,8 @@
 #include "dynamics/dynamics.hpp"
 
 #include "core/error.hpp"
+#include "dynamics/isoconfigurational.hpp"
+#include "dynamics/monte_carlo.hpp"
 #include "dynamics/stage.hpp"
 
 namespace jam {
@@ -22,6 +24,12 @@ std::unique_ptr<Dynamics> read_dynamics(const Packing &p, std::string bytes) {
     case JAM_PHASE_RUN:
     case JAM_PHASE_COMPRESS:
       dynamics = std::make_unique<Stage>(p, from);
+      break;
+    case JAM_PHASE_MONTE_CARLO:
+      dynamics = std::make_unique<MonteCarloStage>(p, from);
+      break;
+    case JAM_PHASE_ISOCONFIGURATIONAL:
+      dynamics = std::make_unique<Isoconfigurational>(p, from);
       break;
     default:
       Archive::check(false);

@@ -27,7 +27,7 @@ if raw.jam_abi_version() != JAM_ABI:
         f"jam was built for ABI {JAM_ABI} of libjam, the library that was found has {raw.jam_abi_version()}"
     )
 
-_LAZY = ("plot", "files", "cli", "ensemble", "scaling", "store")
+_LAZY = ("plot", "files", "cli", "ensemble", "near_jamming", "scaling", "statistics", "store")
 
 
 def __getattr__(name: str) -> Any:

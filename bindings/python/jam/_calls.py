@@ -137,6 +137,7 @@ SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
     "gaps": {"pair": lambda m, d: (m, 2)},
     "sphere_structure": {"c": lambda m, d: (m, d)},
     "observed_spheres": {"displacement": lambda m, d: (m, d)},
+    "isoconf_sums": {"displacement": lambda m, d: (m, d), "square": lambda m, d: (m, d)},
     "observed_pairs": {"pair": lambda m, d: (m, 2)},
     "observed_gaps": {"edge": lambda m, d: (m + 1 if m else 0,)},
 }

@@ -78,6 +78,8 @@ class Phase(IntEnum):
     CRUNCH = 3  # one LP or re-linearised Newton step done
     POLISH = 4  # refinement of the final network
     ANALYSE = 5  # long analysis calls
+    MONTE_CARLO = 8  # Metropolis sweeps
+    ISOCONFIGURATIONAL = 9  # runs from one configuration; steps counts those that are done
 
 
 class LogLevel(IntEnum):
@@ -119,6 +121,35 @@ class EosForm(IntEnum):
     VIRIAL = 3  # series to the seventh coefficient
     MK = 4  # 1 + 2^d phi / 2, exact for zeta infinite
     FREE_VOLUME = 5  # glass: d / (1 - phi / jammed_fraction)
+
+
+class EnergyUnit(IntEnum):
+    """Unit of the overlap x of a soft pair. @since 0.1"""
+    LENGTH = 0  # x = sigma_ij - r, unit of the box
+    RELATIVE = 1  # x = 1 - r / sigma_ij
+
+
+class Clock(IntEnum):
+    """What instants are counted in. Monte Carlo always counts sweeps. @since 0.1"""
+    COLLISIONS = 0  # collisions per particle; each collision counts for both of its spheres
+    TIME = 1  # simulated time, box / sqrt(kT/m) at T = 1
+
+
+class IsoconfColumn(IntEnum):
+    """Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1"""
+    TIME = 0  # simulated time, or sweeps
+    TIME2 = 1  # its square
+    MSD = 2  # mean of |dr|^2 over spheres, box^2
+    MSD2 = 3  # its square
+    SCATTERING = 4  # mean of cos(q dr_c) over spheres and axes
+    SCATTERING2 = 5  # its square
+    OVERLAP = 6  # share of spheres that moved less than overlap_length
+    OVERLAP2 = 7  # its square
+    ENERGY = 8  # Monte Carlo: energy a sphere
+    ENERGY2 = 9  # its square
+    VELOCITY = 10  # sum m v(t).v(0) over sum m v(0).v(0)
+    COLLISIONS = 11  # collisions per particle
+    PRESSURE = 12  # reduced pressure: since the start of the run; soft spheres: at the instant
 
 
 class LpSolver(IntEnum):
@@ -338,6 +369,64 @@ class Glass:
 
 
 @dataclass(frozen=True, repr=False)
+class MonteCarloReport:
+    """What Monte Carlo did. @since 0.1
+
+    stop_reason: jam_stop_reason; COLLISIONS: all sweeps were made
+    sweeps: since the run began
+    next_sweep: number of the sweep that would come next
+    acceptance: of moves
+    swap_acceptance: of swaps, NaN without any
+    step: used, mean diameters
+    energy: mean energy a sphere
+    energy_error: standard error of it from 20 parts of the run, NaN with too few sweeps
+    pressure: reduced p: soft, from the virial; hard, from the density of pairs at contact
+    pressure_error: likewise
+    msd: mean-square displacement since the run began, box^2
+    trials_per_second: of this call, wall time
+    seconds: of this call, wall time"""
+    stop_reason: StopReason
+    sweeps: int
+    next_sweep: int
+    acceptance: float
+    swap_acceptance: float
+    step: float
+    energy: float
+    energy_error: float
+    pressure: float
+    pressure_error: float
+    msd: float
+    trials_per_second: float
+    seconds: float
+
+
+@dataclass(frozen=True, repr=False)
+class IsoconfReport:
+    """What the runs gave so far. @since 0.1
+
+    stop_reason: jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
+    first_run: number of the first run
+    runs: that are in the sums
+    blocks: that these runs fill or touch
+    instants: of each run
+    energy_drift: largest |K_end/K_start - 1| of a run
+    max_overlap: largest -h of a run
+    step: Monte Carlo: half side of the trial cube, mean diameters
+    acceptance: Monte Carlo: mean over runs
+    seconds: wall time over all calls"""
+    stop_reason: StopReason
+    first_run: int
+    runs: int
+    blocks: int
+    instants: int
+    energy_drift: float
+    max_overlap: float
+    step: float
+    acceptance: float
+    seconds: float
+
+
+@dataclass(frozen=True, repr=False)
 class CrunchReport:
     """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
 
@@ -541,6 +630,34 @@ OPTIONS = {
         "snapshot_every": ("float", 'collisions per particle before the first snapshot; 0, the default: none'),
         "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
     },
+    "jam_monte_carlo_options": {
+        "resume": ("int", '1: continue the run that stopped early; default 0'),
+        "energy_unit": ("EnergyUnit", 'jam_energy_unit, default LENGTH'),
+        "alpha": ("float", '0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha'),
+        "energy_scale": ("float", '> 0, default 1'),
+        "temperature": ("float", 'of soft spheres, k_B T > 0, default 1'),
+        "step": ("float", 'half side of the cube of trial displacements, mean diameters; 0, the default: tuned'),
+        "acceptance": ("float", 'that a tuned step aims at, in (0, 1), default 0.45'),
+        "swap_share": ("float", 'share of trials that exchange two diameters, in [0, 1), default 0'),
+        "sweeps": ("int", 'since the run began, >= 1, default 1000'),
+        "run": ("int", 'number of the random stream beside the seed, >= 0, default 0'),
+        "first_sweep": ("int", 'number of the first sweep, by which the stream goes; -1, the default: after those made before'),
+        "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
+    },
+    "jam_isoconf_options": {
+        "threads": ("int", '1 or 2, default 1; the bits are the same'),
+        "clock": ("Clock", 'jam_clock, default COLLISIONS'),
+        "resume": ("int", '1: continue the runs that this handle holds; default 0'),
+        "first_run": ("int", 'number of the first run, >= 0, default 0'),
+        "runs": ("int", 'from that number on, >= 1, default 100'),
+        "block": ("int", 'sums are kept of each block of so many run numbers, >= 1, default 20'),
+        "density_ratio": ("float", 'packing fraction of the runs over that of the packing, in (0, 1], default 1'),
+        "temperature": ("float", 'of the velocities, > 0, default 1'),
+        "wave_number": ("float", 'q of F_s, over mean diameters, > 0, default 7'),
+        "overlap_length": ("float", 'spheres that moved less count in the overlap, mean diameters, > 0, default 0.3'),
+        "memory_limit": ("float", 'bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run'),
+        "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
+    },
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM (optimizer)'),
         "method": ("CrunchMethod", 'jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
@@ -586,6 +703,8 @@ REPORTS = {
     "jam_progress": Progress,
     "jam_md_report": MdReport,
     "jam_glass": Glass,
+    "jam_monte_carlo_report": MonteCarloReport,
+    "jam_isoconf_report": IsoconfReport,
     "jam_crunch_report": CrunchReport,
     "jam_estimate": Estimate,
     "jam_geometry_report": GeometryReport,
@@ -632,6 +751,12 @@ CALLS = {
     "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
+    "jam_monte_carlo": (True, (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report"))),
+    "jam_isoconfigurational": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
+    "jam_isoconf_report_get": (True, (("report", "struct_out", "jam_isoconf_report"),)),
+    "jam_isoconf_sums": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("runs", "scalar_out", "int64_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("column", "scalar", "IsoconfColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_kept": (True, (("instant", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
     "jam_crunch_estimate": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
     "jam_crunch_report_get": (True, (("report", "struct_out", "jam_crunch_report"),)),

@@ -118,4 +118,4 @@ _MENDED_BY = (
     "This system came from a file or a pickle, which hold results and not the network in memory: "
     "call contacts_from_geometry() first, or crunch()"
 )
-_MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry"}
+_MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry", "monte_carlo"}

@@ -74,6 +74,51 @@ class Methods:
         Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_correlation')
 
+    def monte_carlo(self, *, resume: int | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:
+        """Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
+        preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
+        report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
+        jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
+        (also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
+        JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+
+        Options:
+        resume: 1: continue the run that stopped early; default 0
+        energy_unit: jam_energy_unit, default LENGTH
+        alpha: 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+        energy_scale: > 0, default 1
+        temperature: of soft spheres, k_B T > 0, default 1
+        step: half side of the cube of trial displacements, mean diameters; 0, the default: tuned
+        acceptance: that a tuned step aims at, in (0, 1), default 0.45
+        swap_share: share of trials that exchange two diameters, in [0, 1), default 0
+        sweeps: since the run began, >= 1, default 1000
+        run: number of the random stream beside the seed, >= 0, default 0
+        first_sweep: number of the first sweep, by which the stream goes; -1, the default: after those made before
+        wall_time: seconds of this call, > 0, default infinity"""
+        return self.call('monte_carlo', resume=resume, energy_unit=energy_unit, alpha=alpha, energy_scale=energy_scale, temperature=temperature, step=step, acceptance=acceptance, swap_share=swap_share, sweeps=sweeps, run=run, first_sweep=first_sweep, wall_time=wall_time, progress=progress)
+
+    def isoconf_report(self) -> IsoconfReport:
+        """The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
+        runs). @since 0.1"""
+        return self.call('isoconf_report_get')
+
+    def isoconf_sums(self, block: int) -> IsoconfSumsResult:
+        """Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
+        of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
+        Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+        @since 0.1"""
+        return self.call('isoconf_sums', block)
+
+    def isoconf_series(self, block: int, column: int | str) -> np.ndarray:
+        """One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
+        jam_isoconf_sums. @since 0.1"""
+        return self.call('isoconf_series', block, column)
+
+    def isoconf_kept(self, instant: int) -> np.ndarray:
+        """Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
+        @since 0.1"""
+        return self.call('isoconf_kept', instant)
+
     def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None, full_lps: int | None = None) -> Estimate:
         """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
         same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
@@ -316,6 +361,16 @@ class ObservedCorrelationResult(NamedTuple):
 
     r: np.ndarray
     g: np.ndarray
+
+
+class IsoconfSumsResult(NamedTuple):
+    """What isoconf_sums returns."""
+
+    displacement: np.ndarray
+    square: np.ndarray
+    distance2: np.ndarray
+    distance4: np.ndarray
+    runs: int
 
 
 class ContactCandidatesResult(NamedTuple):

@@ -143,6 +143,27 @@ class Verbs(Observing):
                     user.close()
         return self._verb("jam_crunch", "jam_crunch_options", "jam_crunch_report", progress, options or None)
 
+    def isoconfigurational(
+        self,
+        instants: Any,
+        *,
+        monte_carlo: Mapping[str, Any] | None = None,
+        keep: Sequence[int] = (),
+        progress: Any = None,
+        **options: Any,
+    ) -> Any:
+        """Runs from this configuration, each with velocities (or Monte Carlo trials) of its own. Returns near_jamming.Runs.
+
+        instants: ascending, in collisions per particle, simulated time (clock='time') or sweeps. monte_carlo: None for
+        molecular dynamics, else options of monte_carlo(). keep: indices of instants whose displacements of every run
+        are kept. The packing does not change. status > 0 says that it stopped early, with the runs that were made.
+        """
+        from . import near_jamming
+
+        return near_jamming.run(
+            self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options
+        )
+
     def cancel(self) -> None:
         """Stops the call that runs on this system in another thread. If none runs, it stops the next call."""
         raw.jam_cancel(self.handle)
@@ -154,7 +175,12 @@ class Verbs(Observing):
         handle._log = callback  # the C side holds a borrowed reference
 
 
-for _verb, _struct in (("run", "run"), ("compress", "compress"), ("crunch", "crunch")):
+for _verb, _struct in (
+    ("run", "run"),
+    ("compress", "compress"),
+    ("crunch", "crunch"),
+    ("isoconfigurational", "isoconf"),
+):
     getattr(Verbs, _verb).__doc__ += (
         "\n\n        progress: True for a bar, or a callable(Progress). If it returns true the call stops.\n        Options:\n    "
         + _calls.describe(f"jam_{_struct}_options").replace("\n", "\n    ")

@@ -69,6 +69,8 @@ const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
 const JAM_PHASE_CRUNCH = Int32(3)  # one LP or re-linearised Newton step done
 const JAM_PHASE_POLISH = Int32(4)  # refinement of the final network
 const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls
+const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
+const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
 
 # jam_log_level: Log levels. @since 0.1
 const JAM_LOG_NONE = Int32(0)  # silent, the default
@@ -100,6 +102,29 @@ const JAM_EOS_PY_COMPRESSIBILITY = Int32(2)  # Percus-Yevick, compressibility ro
 const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
 const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
 const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
+
+# jam_energy_unit: Unit of the overlap x of a soft pair. @since 0.1
+const JAM_ENERGY_LENGTH = Int32(0)  # x = sigma_ij - r, unit of the box
+const JAM_ENERGY_RELATIVE = Int32(1)  # x = 1 - r / sigma_ij
+
+# jam_clock: What instants are counted in. Monte Carlo always counts sweeps. @since 0.1
+const JAM_CLOCK_COLLISIONS = Int32(0)  # collisions per particle; each collision counts for both of its spheres
+const JAM_CLOCK_TIME = Int32(1)  # simulated time, box / sqrt(kT/m) at T = 1
+
+# jam_isoconf_column: Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1
+const JAM_ISOCONF_TIME = Int32(0)  # simulated time, or sweeps
+const JAM_ISOCONF_TIME2 = Int32(1)  # its square
+const JAM_ISOCONF_MSD = Int32(2)  # mean of |dr|^2 over spheres, box^2
+const JAM_ISOCONF_MSD2 = Int32(3)  # its square
+const JAM_ISOCONF_SCATTERING = Int32(4)  # mean of cos(q dr_c) over spheres and axes
+const JAM_ISOCONF_SCATTERING2 = Int32(5)  # its square
+const JAM_ISOCONF_OVERLAP = Int32(6)  # share of spheres that moved less than overlap_length
+const JAM_ISOCONF_OVERLAP2 = Int32(7)  # its square
+const JAM_ISOCONF_ENERGY = Int32(8)  # Monte Carlo: energy a sphere
+const JAM_ISOCONF_ENERGY2 = Int32(9)  # its square
+const JAM_ISOCONF_VELOCITY = Int32(10)  # sum m v(t).v(0) over sum m v(0).v(0)
+const JAM_ISOCONF_COLLISIONS = Int32(11)  # collisions per particle
+const JAM_ISOCONF_PRESSURE = Int32(12)  # reduced pressure: since the start of the run; soft spheres: at the instant
 
 # jam_lp_solver: How the LPs are solved. @since 0.1
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
@@ -325,6 +350,86 @@ mutable struct jam_glass
     dimension_error::Cdouble  # its standard error
     r_squared::Cdouble  # of the straight line 1/p against phi
     jam_glass() = new(48, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1
+"""
+mutable struct jam_monte_carlo_options
+    struct_size::UInt32  # sizeof(jam_monte_carlo_options)
+    resume::Int32  # 1: continue the run that stopped early; default 0
+    energy_unit::Int32  # jam_energy_unit, default LENGTH
+    reserved::Int32  # 0
+    alpha::Cdouble  # 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+    energy_scale::Cdouble  # > 0, default 1
+    temperature::Cdouble  # of soft spheres, k_B T > 0, default 1
+    step::Cdouble  # half side of the cube of trial displacements, mean diameters; 0, the default: tuned
+    acceptance::Cdouble  # that a tuned step aims at, in (0, 1), default 0.45
+    swap_share::Cdouble  # share of trials that exchange two diameters, in [0, 1), default 0
+    sweeps::Int64  # since the run began, >= 1, default 1000
+    run::Int64  # number of the random stream beside the seed, >= 0, default 0
+    first_sweep::Int64  # number of the first sweep, by which the stream goes; -1, the default: after those made before
+    wall_time::Cdouble  # seconds of this call, > 0, default infinity
+    jam_monte_carlo_options() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What Monte Carlo did. @since 0.1
+"""
+mutable struct jam_monte_carlo_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_monte_carlo_report)
+    stop_reason::Int32  # jam_stop_reason; COLLISIONS: all sweeps were made
+    sweeps::Int64  # since the run began
+    next_sweep::Int64  # number of the sweep that would come next
+    acceptance::Cdouble  # of moves
+    swap_acceptance::Cdouble  # of swaps, NaN without any
+    step::Cdouble  # used, mean diameters
+    energy::Cdouble  # mean energy a sphere
+    energy_error::Cdouble  # standard error of it from 20 parts of the run, NaN with too few sweeps
+    pressure::Cdouble  # reduced p: soft, from the virial; hard, from the density of pairs at contact
+    pressure_error::Cdouble  # likewise
+    msd::Cdouble  # mean-square displacement since the run began, box^2
+    trials_per_second::Cdouble  # of this call, wall time
+    seconds::Cdouble  # of this call, wall time
+    jam_monte_carlo_report() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of jam_isoconfigurational. @since 0.1
+"""
+mutable struct jam_isoconf_options
+    struct_size::UInt32  # sizeof(jam_isoconf_options)
+    threads::Int32  # 1 or 2, default 1; the bits are the same
+    clock::Int32  # jam_clock, default COLLISIONS
+    resume::Int32  # 1: continue the runs that this handle holds; default 0
+    first_run::Int64  # number of the first run, >= 0, default 0
+    runs::Int64  # from that number on, >= 1, default 100
+    block::Int64  # sums are kept of each block of so many run numbers, >= 1, default 20
+    density_ratio::Cdouble  # packing fraction of the runs over that of the packing, in (0, 1], default 1
+    temperature::Cdouble  # of the velocities, > 0, default 1
+    wave_number::Cdouble  # q of F_s, over mean diameters, > 0, default 7
+    overlap_length::Cdouble  # spheres that moved less count in the overlap, mean diameters, > 0, default 0.3
+    memory_limit::Cdouble  # bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run
+    wall_time::Cdouble  # seconds of this call, > 0, default infinity
+    jam_isoconf_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What the runs gave so far. @since 0.1
+"""
+mutable struct jam_isoconf_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_isoconf_report)
+    stop_reason::Int32  # jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
+    first_run::Int64  # number of the first run
+    runs::Int64  # that are in the sums
+    blocks::Int64  # that these runs fill or touch
+    instants::Int64  # of each run
+    energy_drift::Cdouble  # largest |K_end/K_start - 1| of a run
+    max_overlap::Cdouble  # largest -h of a run
+    step::Cdouble  # Monte Carlo: half side of the trial cube, mean diameters
+    acceptance::Cdouble  # Monte Carlo: mean over runs
+    seconds::Cdouble  # wall time over all calls
+    jam_isoconf_report() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -829,6 +934,81 @@ JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1
 """
 function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
     return ccall((:jam_glass_fit, libjam), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_monte_carlo_options_init(o, size)
+    return ccall((:jam_monte_carlo_options_init, libjam), Int32, (Ref{jam_monte_carlo_options}, Csize_t), _ref(jam_monte_carlo_options, o), size)
+end
+
+"""
+Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
+preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
+report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
+jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
+(also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
+JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_monte_carlo(sys, o, report)
+    return ccall((:jam_monte_carlo, libjam), Int32, (Ptr{Cvoid}, Ref{jam_monte_carlo_options}, Ref{jam_monte_carlo_report}), sys, _ref(jam_monte_carlo_options, o), _ref(jam_monte_carlo_report, report))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_isoconf_options_init(o, size)
+    return ccall((:jam_isoconf_options_init, libjam), Int32, (Ref{jam_isoconf_options}, Csize_t), _ref(jam_isoconf_options, o), size)
+end
+
+"""
+Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
+is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
+molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
+instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
+may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
+order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
+JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
+resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
+    return ccall((:jam_isoconfigurational, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
+end
+
+"""
+The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
+runs). @since 0.1
+"""
+function jam_isoconf_report_get(sys, report)
+    return ccall((:jam_isoconf_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
+end
+
+"""
+Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
+of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
+Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
+@since 0.1
+"""
+function jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, distance2_len, distance4, distance4_len, runs, needed)
+    return ccall((:jam_isoconf_sums, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Int64}, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Int64, runs), _ref(Csize_t, needed))
+end
+
+"""
+One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
+jam_isoconf_sums. @since 0.1
+"""
+function jam_isoconf_series(sys, block, column, out, out_len, needed)
+    return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, column, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
+@since 0.1
+"""
+function jam_isoconf_kept(sys, instant, out, out_len, needed)
+    return ccall((:jam_isoconf_kept, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, instant, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """

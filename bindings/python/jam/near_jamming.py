@@ -1,0 +1,422 @@
+"""Dynamics near jamming: isoconfigurational runs, predictors from the contact network, and what they predict.
+
+    packing.crunch()
+    structure = jam.near_jamming.predictors(packing)
+    runs = packing.isoconfigurational([2, 10, 100], runs=300, density_ratio=0.995)
+    jam.near_jamming.correlations(runs, structure)["c"]        # K[C, <dr>] at each instant
+
+Formulas: R. Diaz Hernandez Rojas, thesis (Sapienza 2021), chapter 3.
+"""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any, NamedTuple, Sequence
+
+import numpy as np
+
+from . import _calls, raw, statistics
+from ._generated import IsoconfColumn, StatusCode
+from .statistics import Estimate
+
+_SUMS = ("displacement", "square", "distance2", "distance4")
+
+
+@dataclass(frozen=True, repr=False)
+class Runs:
+    """Sums over isoconfigurational runs, block by block of run numbers; b blocks, m instants.
+
+    instants (m,); counts (b,): runs of each block; displacement, square (b, m, n, d): sums of dr_c and dr_c^2;
+    distance2, distance4 (b, m, n): of |dr|^2 and |dr|^4; series: {column: (b, m)}, sums of one number a run;
+    kept: {index of an instant: (runs, n, d)}; first_run: number of the first run; status: of the call.
+    """
+
+    instants: np.ndarray
+    counts: np.ndarray
+    displacement: np.ndarray
+    square: np.ndarray
+    distance2: np.ndarray
+    distance4: np.ndarray
+    series: dict[str, np.ndarray]
+    first_run: int = 0
+    block: int = 1
+    kept: dict[int, np.ndarray] = field(default_factory=dict)
+    status: StatusCode = StatusCode.OK
+    step: float = 0.0
+    acceptance: float = 0.0
+
+    # ---- sums and means
+    @property
+    def runs(self) -> int:
+        """Number of runs in the sums."""
+        return int(self.counts.sum())
+
+    @property
+    def blocks(self) -> int:
+        return len(self.counts)
+
+    def total(self, name: str, weights: Any = None) -> np.ndarray:
+        """The sum of a quantity over runs, blocks added in their order; weights (b,): how often each block counts."""
+        values = getattr(self, name) if name in _SUMS or name == "counts" else self.series[name]
+        if weights is None:
+            out = np.zeros_like(values[0])
+            for one in values:  # in order, as the library adds them
+                out = out + one
+            return out
+        return np.tensordot(np.asarray(weights, float), values, 1)
+
+    def mean(self, name: str, weights: Any = None) -> np.ndarray:
+        """Mean over runs: of displacement (m, n, d), distance2 (m, n), ... or a column of series (m,)."""
+        return self.total(name, weights) / self.total("counts", weights)
+
+    def variance(self, weights: Any = None) -> np.ndarray:
+        """Var[dr_c] over runs (m, n, d)."""
+        return self.mean("square", weights) - self.mean("displacement", weights) ** 2
+
+    @property
+    def msd(self) -> np.ndarray:
+        """Mean-square displacement (m,), unit of box^2."""
+        return self.mean("msd")
+
+    @property
+    def time(self) -> np.ndarray:
+        """Mean simulated time at each instant (m,); Monte Carlo: sweeps."""
+        return self.mean("time")
+
+    def deviation(self, name: str) -> np.ndarray:
+        """Standard deviation over runs of time, msd, scattering, overlap or energy at each instant (m,)."""
+        square = {"time": "time2"}.get(name, name + "2")
+        return np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
+
+    def chi4(self, name: str = "overlap") -> np.ndarray:
+        """chi_4(t) = N (<Q^2> - <Q>^2) of 'overlap' or 'scattering' (m,), over runs from this one configuration."""
+        return self.distance2.shape[2] * self.deviation(name) ** 2
+
+    def halves(self) -> tuple[np.ndarray, np.ndarray]:
+        """Weights of two halves of the blocks, even and odd."""
+        if self.blocks < 2:
+            raise ValueError("one block has no halves: ask for smaller blocks")
+        odd = np.arange(self.blocks) % 2
+        return 1.0 - odd, odd.astype(float)
+
+    # ---- files, parts of a campaign
+    def merge(self, other: "Runs") -> "Runs":
+        """These runs and those that follow them. Bits are those of one campaign, as blocks begin at multiples of `block`."""
+        if not np.array_equal(self.instants, other.instants) or self.block != other.block:
+            raise ValueError("the two have other instants or blocks")
+        if other.first_run != self.first_run + self.runs:
+            raise ValueError(
+                f"runs {other.first_run} ... do not follow {self.first_run} ... {self.first_run + self.runs - 1}"
+            )
+        if other.first_run % self.block:
+            raise ValueError(f"run {other.first_run} is amid a block of {self.block}: split at multiples of it")
+        joined = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in _SUMS + ("counts",)}
+        return replace(
+            self,
+            **joined,
+            series={k: np.concatenate([v, other.series[k]]) for k, v in self.series.items()},
+            kept={k: np.concatenate([v, other.kept[k]]) for k, v in self.kept.items() if k in other.kept},
+            status=max(self.status, other.status),
+        )
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Writes an .npz file, beside and renamed."""
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
+        arrays.update({"series_" + k: v for k, v in self.series.items()})
+        arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
+        new = Path(path).with_suffix(".new.npz")
+        np.savez(new, **arrays)
+        os.replace(new, path)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike) -> "Runs":
+        """Reads what save wrote."""
+        with np.load(path) as data:
+            plain = {f.name: data[f.name] for f in fields(cls) if f.name not in ("series", "kept")}
+            series = {k[7:]: data[k] for k in data.files if k.startswith("series_")}
+            kept = {int(k[5:]): data[k] for k in data.files if k.startswith("kept_")}
+        for name in ("first_run", "block", "step", "acceptance"):
+            plain[name] = plain[name].item()
+        plain["status"] = StatusCode(int(plain["status"]))
+        return cls(**plain, series=series, kept=kept)
+
+    def __repr__(self) -> str:
+        return f"Runs({self.runs} runs, {len(self.instants)} instants, {self.distance2.shape[2]} spheres)"
+
+
+def take_runs(system: Any) -> Runs:
+    """The runs that a system holds, also after System.from_checkpoint; instants are then those of the first call."""
+    report = system.isoconf_report()
+    m, n, d = report.instants, system.n, system.dim
+    sums, counts = {name: [] for name in _SUMS}, []
+    for block in range(report.blocks):
+        one = system.isoconf_sums(block)
+        counts.append(one.runs)
+        for name in _SUMS:
+            sums[name].append(getattr(one, name).reshape((m, n, d) if name in ("displacement", "square") else (m, n)))
+    shape = {name: (0, m, n, d) if name in ("displacement", "square") else (0, m, n) for name in _SUMS}
+    series = {
+        c.name.lower(): np.array([system.isoconf_series(b, c) for b in range(report.blocks)]).reshape(-1, m)
+        for c in IsoconfColumn
+    }
+    return Runs(
+        instants=np.full(m, np.nan),
+        counts=np.array(counts, dtype=np.int64),
+        **{name: np.array(v) if v else np.empty(shape[name]) for name, v in sums.items()},
+        series=series,
+        first_run=report.first_run,
+        status=system.status,
+        step=report.step,
+        acceptance=report.acceptance,
+    )
+
+
+def run(
+    system: Any, instants: Any, monte_carlo: dict | None, keep: Sequence[int], progress: Any, options: dict
+) -> Runs:
+    """What System.isoconfigurational calls."""
+    times = _calls.as_array(instants, name="instants").reshape(-1)
+    made = _calls.options("jam_isoconf_options", options)
+    chosen = None if monte_carlo is None else _calls.options("jam_monte_carlo_options", monte_carlo)
+    kept = np.asarray([int(k) for k in keep], dtype=np.int32)
+    with system._reporting(progress):
+        status = raw.jam_isoconfigurational(
+            system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
+        )
+    runs = take_runs(system)
+    system.status = StatusCode(status)
+    sets = {int(k): system.isoconf_kept(int(k)).reshape(-1, system.n, system.dim) for k in kept}
+    return replace(runs, instants=times, block=made.block, kept=sets, status=system.status)
+
+
+def campaign(
+    system: Any, path: str | os.PathLike, instants: Any, runs: int, *, part: int = 100, **options: Any
+) -> Runs:
+    """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign goes on.
+
+    part: runs between two savings, rounded up to whole blocks. options: those of System.isoconfigurational but first_run.
+    A file with other instants or blocks is a ValueError, as are runs of another packing, told by its sphere count.
+    """
+    block = int(options.setdefault("block", 20))
+    part = -(-part // block) * block
+    done = Runs.load(path) if os.path.exists(path) else None
+    if done is not None and (
+        not np.array_equal(done.instants, np.asarray(instants, float))
+        or done.block != block
+        or done.distance2.shape[2] != system.n
+    ):
+        raise ValueError(f"{path} holds runs of another campaign")
+    while done is None or done.runs < runs:
+        first = 0 if done is None else done.runs
+        made = system.isoconfigurational(instants, first_run=first, runs=min(part, runs - first), **options)
+        done = made if done is None else done.merge(made)
+        done.save(path)
+        if made.status > 0:
+            break
+    return done
+
+
+# ---- predictors
+
+
+class Predictors(NamedTuple):
+    """Structure of a jammed packing, a value a sphere; rattlers have zeros. c (n, d): sum_j n_ij; s (n,): sum_{j<k} n_ij.n_ik;
+    force_sum (n,): sum_j f_ij; force_pairs (n,): sum_{j<k} f_ij.f_ik; rattlers (n,): bool."""
+
+    c: np.ndarray
+    s: np.ndarray
+    force_sum: np.ndarray
+    force_pairs: np.ndarray
+    rattlers: np.ndarray
+
+
+def predictors(system: Any) -> Predictors:
+    """Predictors from the contact network. StateError before a crunch; ValueError when all spheres are rattlers."""
+    plain, weighted, contacts = system.sphere_structure(0), system.sphere_structure(1), system.contacts
+    if len(contacts.pairs) == 0:
+        raise ValueError("the packing has rattlers only: there is no contact network to predict from")
+    total = np.zeros(system.n)
+    np.add.at(total, contacts.pairs.ravel(), np.repeat(contacts.forces, 2))
+    return Predictors(plain.c, plain.s, total, weighted.s, np.asarray(system.rattlers, dtype=bool))
+
+
+# ---- correlations, prediction
+
+
+def correlations(
+    runs: Runs, structure: Predictors, weights: Any = None, rattlers: bool = True
+) -> dict[str, np.ndarray]:
+    """Spearman's K at each instant (m,), with or without rattlers.
+
+    c, c_pooled: K[C, <dr>], mean of components and pooled; s, force_sum, force_pairs: with <|dr|^2>;
+    variance: K[|C_c|, Var dr_c], mean of components.
+    """
+    use = np.ones(len(structure.s), bool) if rattlers else ~structure.rattlers
+    first, square = runs.mean("displacement", weights)[:, use], runs.mean("distance2", weights)[:, use]
+    spread = runs.variance(weights)[:, use]
+    c = structure.c[use]
+    pairs = np.array([statistics.spearman_components(c, dr) for dr in first])
+    out = {"c": pairs[:, 0], "c_pooled": pairs[:, 1]}
+    for name in ("s", "force_sum", "force_pairs"):
+        out[name] = np.array([statistics.spearman(getattr(structure, name)[use], r2) for r2 in square])
+    out["variance"] = np.array([statistics.spearman_components(np.abs(c), v)[0] for v in spread])
+    return out
+
+
+def correlation_errors(runs: Runs, structure: Predictors, times: int = 100, **options: Any) -> dict[str, np.ndarray]:
+    """Standard errors (m,) of correlations(), by resampling blocks of runs with replacement."""
+    made: dict[str, list] = {}
+
+    def keep(weights: np.ndarray) -> float:
+        for name, values in correlations(runs, structure, weights, **options).items():
+            made.setdefault(name, []).append(values)
+        return 0.0
+
+    statistics.bootstrap(keep, runs.blocks, times)
+    return {name: np.std(values, axis=0, ddof=1) for name, values in made.items()}
+
+
+def reliability(runs: Runs) -> dict[str, np.ndarray]:
+    """How well means over half of the runs repeat themselves: K between halves (m,), of <dr> and <|dr|^2>.
+
+    The noise of runs bounds K with any predictor by about sqrt(2 K / (1 + K)) (Spearman and Brown)."""
+    a, b = runs.halves()
+    first, second = runs.mean("displacement", a), runs.mean("displacement", b)
+    one, two = runs.mean("distance2", a), runs.mean("distance2", b)
+    return {
+        "displacement": np.array([statistics.spearman_components(x, y)[0] for x, y in zip(first, second)]),
+        "distance2": np.array([statistics.spearman(x, y) for x, y in zip(one, two)]),
+    }
+
+
+class Prediction(NamedTuple):
+    """At each instant (m,): mean <dr_c> of the spheres with the top and bottom share of C_c, over components; mean <|dr|^2> of
+    those of S; areas under ROC curves: sign of <dr_c> from C_c, top share of <|dr|^2> from S (0.5: no better than chance).
+    """
+
+    c_top: np.ndarray
+    c_bottom: np.ndarray
+    s_top: np.ndarray
+    s_bottom: np.ndarray
+    c_area: np.ndarray
+    s_area: np.ndarray
+
+
+def prediction(runs: Runs, structure: Predictors, share: float = 0.1) -> Prediction:
+    """Prediction by ranking, rattlers left out."""
+    use = ~structure.rattlers
+    c, s, rows = structure.c[use], structure.s[use], []
+    for dr, r2 in zip(runs.mean("displacement")[:, use], runs.mean("distance2")[:, use]):
+        by_axis = np.array([statistics.deciles(c[:, k], dr[:, k], share) for k in range(c.shape[1])]).mean(0)
+        mobile = r2 >= np.quantile(r2, 1.0 - share)
+        rows.append(
+            [
+                *by_axis,
+                *statistics.deciles(s, r2, share),
+                statistics.roc_area(c, dr > 0),
+                statistics.roc_area(s, mobile),
+            ]
+        )
+    return Prediction(*np.array(rows).T)
+
+
+def median_over_mean(displacements: Any) -> float:
+    """Slope of median against mean of |dr|^2 over spheres, from whole sets (runs, n, d); about 0.75 in a cage."""
+    r2 = (np.asarray(displacements) ** 2).sum(2)
+    mean, median = r2.mean(0), np.median(r2, axis=0)
+    return float(mean @ median / (mean @ mean))
+
+
+def collapse_exponent(
+    ensembles: Sequence[Runs], structure: Predictors, control: Any, kind: str = "c", times: int = 40
+) -> Estimate:
+    """Exponent nu for which K[C, <dr>] (kind 'c') or K[S, <|dr|^2>] ('s') against MSD / control^nu fall on one curve.
+
+    Each curve counts from its maximum on. control: phi_J - phi or T of each ensemble. The error is that of resampled blocks of runs; all need as many blocks.
+    """
+    blocks = min(r.blocks for r in ensembles)
+
+    def curves(weights: np.ndarray) -> tuple:
+        xs, ys = [], []
+        for r in ensembles:
+            w = np.zeros(r.blocks)
+            w[:blocks] = weights
+            if (weights == 1).all():
+                w[:] = 1.0
+            k = []
+            for m in range(len(r.instants)):
+                if kind == "c":
+                    mean = np.tensordot(w, r.displacement[:, m], 1)
+                    k.append(statistics.spearman_components(structure.c, mean)[0])
+                else:
+                    k.append(statistics.spearman(structure.s, np.tensordot(w, r.distance2[:, m], 1)))
+            # Before its maximum K rises as the noise of few runs averages out: that is no decorrelation.
+            start = int(np.argmax(k))
+            xs.append(r.mean("msd", w)[start:])
+            ys.append(np.array(k)[start:])
+        return xs, ys
+
+    return statistics.collapse_estimate(curves, blocks, control, times)
+
+
+def is_caged(runs: Runs, system: Any, limit: float = 0.1) -> np.ndarray:
+    """Whether the root of the MSD is below `limit` mean diameters (m,): beyond it the packing's network says nothing any more."""
+    return np.sqrt(runs.msd) < limit * system.diameters.mean()
+
+
+# ---- modes
+
+
+class ModeWeights(NamedTuple):
+    """At each instant: projections (m, modes) of the normalised <dr> on modes; curvature (m,): u.H.u; noise (m,): mean square
+    projection on the translations, which no run can move along."""
+
+    projections: np.ndarray
+    curvature: np.ndarray
+    noise: np.ndarray
+
+
+def mode_weights(
+    system: Any, runs: Runs, modes: Any, instants: Sequence[int] | None = None, **hessian: Any
+) -> ModeWeights:
+    """<dr> of the stable spheres, normalised, against modes of system.modes(which='all') with the same `hessian` options."""
+    stable, d = system.hessian_map(), system.dim
+    mean = runs.mean("displacement")
+    rows, curved, noise = [], [], []
+    for m in range(len(mean)) if instants is None else instants:
+        u = mean[m][stable]
+        u = u / np.linalg.norm(u)
+        rows.append(system.project(modes.vectors.reshape(-1), u.reshape(-1)))
+        curved.append(system.curvature(u.reshape(-1), **hessian))
+        noise.append(float(((u.sum(0) / np.sqrt(len(stable))) ** 2).mean()) / d)
+    return ModeWeights(np.array(rows), np.array(curved), np.array(noise))
+
+
+# ---- glass observables from whole displacement sets or trajectories
+
+
+def self_scattering(displacements: Any, q: float) -> np.ndarray:
+    """F_s(q): mean of cos(q dr_c) over spheres and axes, of sets (..., n, d)."""
+    return np.cos(q * np.asarray(displacements)).mean((-2, -1))
+
+
+def overlap(displacements: Any, length: float) -> np.ndarray:
+    """Q: share of spheres that moved less than `length`, of sets (..., n, d)."""
+    return ((np.asarray(displacements) ** 2).sum(-1) < length**2).mean(-1)
+
+
+def propensity(runs: Runs) -> np.ndarray:
+    """Dynamic propensity <|dr_i|^2> of each sphere at each instant (m, n)."""
+    return runs.mean("distance2")
+
+
+def clone_overlap(a: Any, b: Any) -> np.ndarray:
+    """Overlap of the displacements of two clones (..., n, d): sum a.b over the root of sum a.a sum b.b."""
+    a, b = np.asarray(a), np.asarray(b)
+    return (a * b).sum((-2, -1)) / np.sqrt((a * a).sum((-2, -1)) * (b * b).sum((-2, -1)))
+
+
+def clone_distance(a: Any, b: Any) -> np.ndarray:
+    """Mean square distance between clones, (1/N) sum |r_i^A - r_i^B|^2, of their displacements (..., n, d)."""
+    return ((np.asarray(a) - np.asarray(b)) ** 2).sum(-1).mean(-1)

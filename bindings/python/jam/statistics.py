@@ -1,0 +1,111 @@
+"""Rank statistics, resampling and collapse of curves: what the studies of dynamics near jamming need beyond scipy."""
+from __future__ import annotations
+
+from typing import Any, Callable, Iterable, NamedTuple, Sequence
+
+import numpy as np
+
+
+class Estimate(NamedTuple):
+    """A value and its standard error."""
+
+    value: float
+    error: float
+
+
+def spearman(x: Any, y: Any) -> float:
+    """Spearman's rank coefficient K[x, y]; ties get average ranks. NaN when one of them is constant."""
+    from scipy.stats import rankdata
+
+    x, y = np.ravel(x), np.ravel(y)
+    if x.shape != y.shape:
+        raise ValueError(f"x has {x.size} values, y has {y.size}")
+    if x.size < 3:
+        raise ValueError(f"a rank coefficient needs at least 3 values, not {x.size}")
+    a, b = rankdata(x) - 0.5 * (x.size + 1), rankdata(y) - 0.5 * (y.size + 1)
+    norm = np.sqrt((a @ a) * (b @ b))
+    return float(a @ b / norm) if norm > 0 else float("nan")
+
+
+def spearman_components(x: Any, y: Any) -> tuple[float, float]:
+    """K of two vector fields (n, d): mean over the d components, and all n d values pooled."""
+    x, y = np.asarray(x), np.asarray(y)
+    return float(np.mean([spearman(x[:, c], y[:, c]) for c in range(x.shape[1])])), spearman(x, y)
+
+
+def roc_area(score: Any, positive: Any) -> float:
+    """Area under the ROC curve: how often a positive case has the higher score than a negative one; ties count half."""
+    from scipy.stats import rankdata
+
+    score, positive = np.ravel(score), np.ravel(positive).astype(bool)
+    count, others = int(positive.sum()), int((~positive).sum())
+    if count == 0 or others == 0:
+        return float("nan")
+    ranks = rankdata(score)
+    return float((ranks[positive].sum() - 0.5 * count * (count + 1)) / (count * others))
+
+
+def deciles(predictor: Any, observed: Any, share: float = 0.1) -> tuple[float, float]:
+    """Mean of `observed` over the spheres with the largest and with the smallest `share` of the predictor."""
+    predictor, observed = np.ravel(predictor), np.ravel(observed)
+    if not 0.0 < share <= 0.5:
+        raise ValueError(f"share is {share}, it must be in (0, 0.5]")
+    order, count = np.argsort(predictor, kind="stable"), max(1, int(round(share * predictor.size)))
+    return float(observed[order[-count:]].mean()), float(observed[order[:count]].mean())
+
+
+def bootstrap(f: Callable[[np.ndarray], Any], blocks: int, times: int = 200, seed: int = 1) -> np.ndarray:
+    """f(weights) for `times` resamples of `blocks` blocks with replacement; weights (blocks,) count how often each is drawn."""
+    if blocks < 2:
+        raise ValueError(f"{blocks} blocks cannot be resampled: make the blocks smaller or the runs more")
+    draw = np.random.default_rng(seed)
+    return np.array([f(np.bincount(draw.integers(0, blocks, blocks), minlength=blocks)) for _ in range(times)])
+
+
+def collapse(x: Sequence[Any], y: Sequence[Any], control: Any, levels: int = 40) -> float:
+    """Exponent nu for which the falling curves y_k against x_k / control_k^nu lie closest together.
+
+    At each of `levels` values of y, log x is read off every curve that reaches it; nu is the slope of least squares of log x
+    against log control, one for all levels. So curves that do not overlap cannot look collapsed. x: positive, ascending.
+    NaN when no two curves share a value of y.
+    """
+    logs = np.log(np.asarray(control, float))
+    if len(x) < 2 or len(x) != len(y) or len(x) != logs.size:
+        raise ValueError(f"{len(x)} and {len(y)} curves and {logs.size} values of the control")
+    falling = [np.minimum.accumulate(np.asarray(k, float)) for k in y]
+    grid = np.linspace(min(k[-1] for k in falling), max(k[0] for k in falling), levels + 2)[1:-1]
+    read = np.array(
+        [np.interp(-grid, -k, np.log(np.asarray(a, float)), left=np.nan, right=np.nan) for a, k in zip(x, falling)]
+    )
+    there = np.isfinite(read)
+    shared = there.sum(0) >= 2
+    if not shared.any():
+        return float("nan")
+    read, there = read[:, shared], there[:, shared]
+    control_logs = np.where(there, logs[:, None], np.nan)
+    from_mean = control_logs - np.nanmean(control_logs, axis=0)
+    return float(np.nansum(from_mean * (read - np.nanmean(read, axis=0))) / np.nansum(from_mean**2))
+
+
+def collapse_estimate(
+    curves: Callable[[np.ndarray], tuple], blocks: int, control: Any, times: int = 40, **options: Any
+) -> Estimate:
+    """collapse() of curves(weights) -> (x, y), with the standard error from resampled blocks of runs."""
+    value = collapse(*curves(np.ones(blocks)), control, **options)
+    made = bootstrap(lambda w: collapse(*curves(w), control, **options), blocks, times)
+    return Estimate(value, float(np.std(made, ddof=1)))
+
+
+def velocity_spectrum(time: Any, correlation: Any, omega: Iterable[float]) -> np.ndarray:
+    """Density of states from a velocity autocorrelation on a uniform grid of times: (2/pi) int C(t) cos(omega t) dt.
+
+    A Hann window falls to zero at the last time; features narrower than about pi / time[-1] are smoothed.
+    """
+    t, c = np.asarray(time, float), np.asarray(correlation, float)
+    if t.ndim != 1 or t.shape != c.shape or t.size < 4:
+        raise ValueError("time and correlation must have the same length, at least 4")
+    step = np.diff(t)
+    if np.ptp(step) > 1e-6 * step.mean():
+        raise ValueError("times must be equally spaced")
+    weighted = c * 0.5 * (1.0 + np.cos(np.pi * t / t[-1]))
+    return np.array([2.0 / np.pi * np.trapz(weighted * np.cos(w * t), t) for w in omega])

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""How well the contact network predicts the motion of hard spheres just below jamming: isoconfigurational runs.
+
+usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--seed SEED]
+Default: 100 runs at five densities. --large: 5000 runs at seven densities, some 25 minutes of one core.
+Runs are saved in FOLDER; a study that was stopped goes on. Needs jam, numpy, scipy, matplotlib. Prints tables.
+
+Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected: K falls by at most a decade while the MSD grows
+by two; curves fall together against MSD / (phi_J - phi)^nu with nu = 1.80 for C and 1.65 for S; median |dr|^2 = 0.75 of its mean.
+"""
+import argparse
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+import jam  # noqa: E402
+from jam import near_jamming as nj  # noqa: E402
+
+INSTANTS = [1, 2, 3, 5, 7, 10, 14, 20, 30, 50, 70, 100]
+THESIS = {"c": 1.80, "s": 1.65}
+NAMES = {
+    "c": "K[C, <dr>]",
+    "s": "K[S, <|dr|^2>]",
+    "force_sum": "K[sum f]",
+    "force_pairs": "K[sum f.f]",
+    "variance": "K[|C|, Var]",
+}
+
+
+def make_packing(seed, n=1024):
+    packing = jam.System.random(n=n, dim=3, seed=seed)
+    packing.compress([(1e-2, 500.0), (3e-3, 1e5)])
+    report = packing.crunch()
+    print(
+        f"phi_J = {report.packing_fraction:.6f}, {report.rattlers} rattlers, {report.excess_contacts} excess contacts"
+    )
+    return packing
+
+
+def table(ensembles, structure, errors):
+    print("| phi/phi_J | tau | time | MSD | " + " | ".join(NAMES.values()) + " |")
+    print("|---" * (4 + len(NAMES)) + "|")
+    for ratio, runs in ensembles.items():
+        k, e = nj.correlations(runs, structure), nj.correlation_errors(runs, structure, errors)
+        for m, tau in enumerate(runs.instants):
+            if tau in (2, 10, 20, 100):
+                cells = " | ".join(f"{k[name][m]:.3f}({e[name][m]:.3f})" for name in NAMES)
+                print(f"| {ratio} | {tau:g} | {runs.time[m]:.3g} | {runs.msd[m]:.2e} | {cells} |")
+
+
+def draw(ensembles, structure, exponents, picture):
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
+    for color, (ratio, runs) in zip(plt.cm.viridis(np.linspace(0, 0.9, len(ensembles))), ensembles.items()):
+        k = nj.correlations(runs, structure)
+        label = f"phi/phi_J = {ratio}"
+        axes[0, 0].errorbar(
+            runs.instants, runs.time / runs.time[0], runs.deviation("time") / runs.time[0], color=color, label=label
+        )
+        axes[0, 1].loglog(runs.instants, runs.msd, ".-", color=color)
+        axes[0, 2].semilogx(runs.instants, k["variance"], ".-", color=color)
+        for row, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
+            row.loglog(runs.msd / (1 - ratio) ** exponents[name].value, k[name], ".-", color=color, label=label)
+    axes[0, 0].set(xscale="log", yscale="log", xlabel="tau", ylabel="time over that at tau = 1")
+    axes[0, 1].set(xlabel="tau", ylabel="MSD")
+    tau = np.array([1.0, 5.0])
+    first = next(iter(ensembles.values()))
+    axes[0, 1].loglog(tau, first.msd[0] * tau**2, "k--", lw=1, label="slope 2")
+    axes[0, 2].axhspan(-0.06, 0.06, color="0.9")
+    axes[0, 2].set(ylim=(-0.3, 0.3), xlabel="tau", ylabel="K[|C_c|, Var dr_c]")
+    for axis, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
+        e = exponents[name]
+        axis.set(
+            xlabel=f"MSD / (1 - phi/phi_J)^{e.value:.2f}",
+            ylabel=NAMES[name],
+            title=f"nu = {e.value:.2f}({e.error:.2f}), thesis {THESIS[name]:.2f}",
+        )
+    axes[0, 0].legend(fontsize=7)
+    axes[0, 1].legend(fontsize=7)
+    ratio = min(ensembles, key=lambda r: abs(r - 0.995))
+    runs = ensembles[ratio]
+    m = list(runs.instants).index(10)
+    c, dr = structure.c[:, 2], runs.mean("displacement")[m][:, 2]
+    axes[1, 2].plot(c[~structure.rattlers], dr[~structure.rattlers], ".", ms=2)
+    axes[1, 2].plot(c[structure.rattlers], dr[structure.rattlers], "r.", ms=3, label="rattlers")
+    axes[1, 2].set(xlabel="C_z", ylabel="<dz>", title=f"{ratio}, tau = 10: K = {jam.statistics.spearman(c, dr):.2f}")
+    axes[1, 2].legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(picture, dpi=75)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("picture")
+    parser.add_argument("--large", action="store_true")
+    parser.add_argument("--runs", type=int)
+    parser.add_argument("--seed", type=int, default=1)
+    args = parser.parse_args()
+    ratios = (0.9, 0.93, 0.96, 0.98, 0.99, 0.995, 0.999) if args.large else (0.96, 0.98, 0.99, 0.995, 0.999)
+    count = args.runs or (5000 if args.large else 100)
+    os.makedirs(args.folder, exist_ok=True)
+    packing = make_packing(args.seed)
+    structure, ensembles = nj.predictors(packing), {}
+    for ratio in ratios:
+        file = os.path.join(args.folder, f"md_{args.seed}_{ratio}.npz")
+        ensembles[ratio] = nj.campaign(
+            packing,
+            file,
+            INSTANTS,
+            count,
+            density_ratio=ratio,
+            block=max(5, count // 50),
+            keep=[7] if ratio == 0.995 else [],
+        )
+    table(ensembles, structure, 20)
+    print(f"median over mean of |dr|^2 at tau = 20, 0.995: {nj.median_over_mean(ensembles[0.995].kept[7]):.3f} (0.75)")
+    near = {ratio: runs for ratio, runs in ensembles.items() if ratio >= 0.96}
+    exponents = {
+        kind: nj.collapse_exponent(list(near.values()), structure, [1 - r for r in near], kind, 10) for kind in "cs"
+    }
+    for kind, e in exponents.items():
+        print(f"collapse of {NAMES[kind]}: nu = {e.value:.3f} +- {e.error:.3f}, thesis {THESIS[kind]}")
+    without = nj.correlations(ensembles[0.995], structure, rattlers=False)
+    print("0.995 without rattlers: " + ", ".join(f"{NAMES[k]} {without[k][5]:.3f}" for k in NAMES) + " at tau = 10")
+    p = nj.prediction(ensembles[0.99], structure)
+    print("| tau | top and bottom tenth of C: <dr_c> | of S: <|dr|^2> | ROC area of C | of S |\n|---|---|---|---|---|")
+    for m, tau in enumerate(INSTANTS):
+        if tau in (2, 10, 100):
+            print(
+                f"| {tau} | {p.c_top[m]:.2e}, {p.c_bottom[m]:.2e} | {p.s_top[m]:.2e}, {p.s_bottom[m]:.2e} "
+                f"| {p.c_area[m]:.3f} | {p.s_area[m]:.3f} |"
+            )
+    draw(ensembles, structure, exponents, args.picture)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Do a few soft modes explain the motion near jamming? Mean displacements against the modes of two Hessians.
+
+usage: near_jamming_modes.py FOLDER PICTURE.png [--large]
+Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs. Runs are saved in FOLDER.
+Needs jam, numpy, scipy, matplotlib. Prints a table.
+
+Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected: weight is spread over all modes, at late times
+more of it on low ones; the curvature u.H.u lies above 40 to 60 % of the frequencies early and above about 20 % late. The thesis
+compares u.H.u, whose unit is omega^2, with omega; here both u.H.u and its root are printed.
+"""
+import argparse
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from near_jamming_md import make_packing  # noqa: E402
+
+from jam import near_jamming as nj  # noqa: E402
+
+INSTANTS = [2, 10, 30, 100]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("picture")
+    parser.add_argument("--large", action="store_true")
+    args = parser.parse_args()
+    os.makedirs(args.folder, exist_ok=True)
+    n, count = (1024, 5000) if args.large else (256, 200)
+    packing = make_packing(1, n)
+    runs = nj.campaign(packing, os.path.join(args.folder, f"modes_{n}.npz"), INSTANTS, count, density_ratio=0.995)
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
+    print(
+        "| Hessian | tau | u.H.u | share of omega below u.H.u | below its root | weight on the lowest tenth | noise |"
+    )
+    print("|---" * 7 + "|")
+    for row, stiffness in enumerate(("harmonic", "hard")):
+        modes = packing.modes(which="all", stiffness=stiffness)
+        weights = nj.mode_weights(packing, runs, modes, stiffness=stiffness)
+        omega = np.sqrt(np.maximum(modes.values, 0.0))[packing.dim :]
+        axes[row, 2].plot(omega, np.arange(1, len(omega) + 1) / len(omega), "k-")
+        for m, tau in enumerate(INSTANTS):
+            squares = weights.projections[m] ** 2
+            curved = weights.curvature[m]
+            print(
+                f"| {stiffness} | {tau} | {curved:.3f} | {(omega < curved).mean():.2f} | {(omega < curved**0.5).mean():.2f} "
+                f"| {squares[: len(squares) // 10].sum():.2f} | {weights.noise[m]:.1e} |"
+            )
+            size = max(1, len(squares) // 60)
+            whole = len(squares) // size * size
+            smooth = np.sqrt(squares[:whole].reshape(-1, size).mean(1))
+            (line,) = axes[row, 0].semilogy(np.arange(len(smooth)) * size, smooth, label=f"tau = {tau}")
+            axes[row, 2].axvline(curved, color=line.get_color())
+            axes[row, 2].axvline(curved**0.5, color=line.get_color(), ls=":")
+            if m in (0, len(INSTANTS) - 1):
+                axes[row, 1].loglog(
+                    modes.participation, np.abs(weights.projections[m]), ".", ms=2, label=f"tau = {tau}"
+                )
+        axes[row, 0].set(xlabel="mode", ylabel=f"root mean square |u.v|, {stiffness}")
+        axes[row, 1].set(xlabel="inverse participation ratio", ylabel="|u.v|")
+        axes[row, 2].set(xlabel="omega; u.H.u solid, its root dotted", ylabel="share of modes")
+        axes[row, 0].legend(fontsize=7)
+        axes[row, 1].legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(args.picture, dpi=75)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,125 @@
+// Header section "Monte Carlo, runs from one configuration": the ensemble of runs and its sums.
+#include "dynamics/isoconfigurational.hpp"
+
+#include "capi/guard.hpp"
+
+using namespace jam;
+
+namespace {
+
+template <class F>
+jam_status with_runs(const jam_system *sys, F &&f) noexcept {
+  return guard_const(sys, [&]() -> jam_status {
+    if (!sys->runs) fail(JAM_E_STATE, "there are no runs: call jam_isoconfigurational first");
+    return f(*sys->runs);
+  });
+}
+
+// One of several arrays of a call, in the user's unit; NULL leaves it out.
+void give_scaled(const char *name, const std::vector<double> &data, double unit, double *out, size_t out_len) {
+  if (!out && out_len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, out_len);
+  if (!out) return;
+  if (out_len < data.size()) fail(JAM_E_BUFFER, "%s holds %zu elements, %zu are needed", name, out_len, data.size());
+  for (size_t k = 0; k < data.size(); ++k) out[k] = data[k] * unit;
+}
+
+void take_monte_carlo_options(const jam_monte_carlo_options *m, jam_monte_carlo_options &full) {
+  take_options(m, full);
+  check_monte_carlo_options(full);
+}
+
+}  // namespace
+
+extern "C" {
+
+jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size) {
+  return init_options(o, size, default_isoconf_options());
+}
+
+jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
+                                  const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
+                                  jam_isoconf_report *report) {
+  return guard_verb(sys, [&]() -> jam_status {
+    jam_isoconf_options full = default_isoconf_options();
+    jam_monte_carlo_options monte_carlo = default_monte_carlo_options();
+    check_out_struct(report, "report");
+    take_options(o, full);
+    check_isoconf_options(full);
+    if (m) take_monte_carlo_options(m, monte_carlo);
+    check_array_in(instant, instant_len, "instant");
+    if (kept_len && !kept) fail(JAM_E_NULL, "kept is NULL but its length is %zu", kept_len);
+    std::vector<double> instants(instant, instant + instant_len);
+    std::vector<int32_t> sets(kept, kept + kept_len);
+    const jam_monte_carlo_options *chosen = m ? &monte_carlo : nullptr;
+    if (full.resume) {
+      if (!sys->runs) fail(JAM_E_STATE, "resume is 1 but there are no runs on this handle");
+      sys->runs->continue_with(sys->packing, full, chosen, instants, sets);
+    } else {
+      const bool jammed = sys->has_report && sys->report.jammed;
+      sys->runs = std::make_unique<Isoconfigurational>(sys->packing, jammed, full, chosen, std::move(instants),
+                                                       std::move(sets));
+    }
+    Limits limits;
+    limits.wall_time = full.wall_time;
+    Listeners listeners;
+    listeners.monitor = &sys->monitor;
+    const Running running(sys, sys->runs.get());
+    const jam_status status = sys->runs->run(limits, listeners);
+    give_struct(sys->runs->report(), report);
+    return status;
+  });
+}
+
+jam_status jam_isoconf_report_get(const jam_system *sys, jam_isoconf_report *report) {
+  return with_runs(sys, [&](const Isoconfigurational &runs) -> jam_status {
+    need(report, "report");
+    check_out_struct(report, "report");
+    give_struct(runs.report(), report);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_isoconf_sums(const jam_system *sys, int64_t block, double *displacement, size_t displacement_len,
+                            double *square, size_t square_len, double *distance2, size_t distance2_len,
+                            double *distance4, size_t distance4_len, int64_t *runs, size_t *needed) {
+  return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
+    const RunSums sums = made.sums(block);
+    const double box = made.box();
+    if (needed) *needed = sums.distance2.size();
+    give_scaled("displacement", sums.displacement, box, displacement, displacement_len);
+    give_scaled("square", sums.square, box * box, square, square_len);
+    give_scaled("distance2", sums.distance2, box * box, distance2, distance2_len);
+    give_scaled("distance4", sums.distance4, box * box * box * box, distance4, distance4_len);
+    if (runs) *runs = sums.runs;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t column, double *out, size_t out_len,
+                              size_t *needed) {
+  return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
+    if (column < 0 || static_cast<size_t>(column) >= isoconf_columns)
+      fail(JAM_E_ARGUMENT, "column is %d, not a jam_isoconf_column", column);
+    const RunSums sums = made.sums(block);
+    const double box = made.box();
+    const double unit = column == JAM_ISOCONF_MSD    ? box * box
+                        : column == JAM_ISOCONF_MSD2 ? box * box * box * box
+                                                     : 1.0;
+    std::vector<double> values;
+    for (size_t k = static_cast<size_t>(column); k < sums.series.size(); k += isoconf_columns)
+      values.push_back(sums.series[k] * unit);
+    return give_array(values.data(), values.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, double *out, size_t out_len, size_t *needed) {
+  return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
+    const std::vector<double> &set = made.kept(instant);
+    const jam_status status = give_array(set.data(), set.size(), out, out_len, needed);
+    if (out)
+      for (size_t k = 0; k < set.size(); ++k) out[k] *= made.box();
+    return status;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,51 @@
+// Header section "Monte Carlo, runs from one configuration": the single run.
+#include <memory>
+
+#include "capi/guard.hpp"
+#include "dynamics/monte_carlo.hpp"
+
+using namespace jam;
+
+extern "C" {
+
+jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size) {
+  return init_options(o, size, default_monte_carlo_options());
+}
+
+jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report) {
+  return guard_verb(sys, [&]() -> jam_status {
+    jam_monte_carlo_options full = default_monte_carlo_options();
+    check_out_struct(report, "report");
+    take_options(o, full);
+    check_monte_carlo_options(full);
+    std::unique_ptr<MonteCarloStage> stage;
+    if (full.resume) {
+      if (!sys->paused || sys->paused->phase() != JAM_PHASE_MONTE_CARLO)
+        fail(JAM_E_STATE, "resume is 1 but no Monte Carlo run was stopped early on this handle");
+      stage.reset(static_cast<MonteCarloStage *>(sys->paused.release()));
+    } else {
+      if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
+      stage = std::make_unique<MonteCarloStage>(sys->packing, full);
+    }
+    Limits limits;
+    limits.per_particle = static_cast<double>(full.sweeps);
+    limits.wall_time = full.wall_time;
+    Listeners listeners;
+    listeners.monitor = &sys->monitor;
+    if (sys->observing) listeners.observer = sys->observer.get();
+    jam_status status = JAM_OK;
+    {
+      const Running running(sys, stage.get());
+      status = stage->run(limits, listeners);
+    }
+    const jam_monte_carlo_report made = stage->report();
+    sys->commit(stage->packing());
+    sys->drop_results();
+    sys->sweeps = made.next_sweep;
+    if (status != JAM_OK) sys->paused = std::move(stage);
+    give_struct(made, report);
+    return status;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,149 @@
+"""Isoconfigurational runs, Monte Carlo and statistics from Python: against formulas and against each other."""
+import os
+import tempfile
+
+import numpy as np
+
+import jam
+from jam import near_jamming as nj
+from jam import statistics as st
+
+
+def jammed(n=128, seed=3):
+    packing = jam.System.random(n=n, dim=3, seed=seed)
+    packing.compress([(1e-2, 500), (1e-2, 1e5)])
+    assert packing.crunch().jammed
+    return packing
+
+
+def refused(error, f, *args, **named):
+    try:
+        f(*args, **named)
+    except error:
+        return True
+    return False
+
+
+def test_runs(packing):
+    structure = nj.predictors(packing)
+    options = dict(density_ratio=0.99, block=10)
+    runs = packing.isoconfigurational([2, 10, 50], runs=60, keep=[1], **options)
+    assert runs.runs == 60 and runs.blocks == 6 and runs.status == jam.StatusCode.OK
+    sets = runs.kept[1]
+    assert sets.shape == (60, packing.n, 3)
+    assert np.allclose(sets.mean(0), runs.mean("displacement")[1], rtol=0, atol=1e-15)
+    assert np.allclose((sets**2).sum(2).mean(0), nj.propensity(runs)[1], rtol=1e-12)
+    assert np.allclose(nj.self_scattering(sets, 7 / packing.diameters.mean()).mean(), runs.mean("scattering")[1])
+    assert np.allclose(nj.overlap(sets, 0.3 * packing.diameters.mean()).mean(), runs.mean("overlap")[1])
+    q = (sets**2).sum((1, 2)) / packing.n
+    assert np.allclose(q.std(), runs.deviation("msd")[1], rtol=1e-6)
+    # parts of a campaign are the campaign, bit for bit
+    first = packing.isoconfigurational([2, 10, 50], runs=20, keep=[1], **options)
+    second = packing.isoconfigurational([2, 10, 50], first_run=20, runs=40, keep=[1], **options)
+    joined = first.merge(second)
+    for name in ("displacement", "square", "distance2", "distance4"):
+        assert np.array_equal(joined.total(name), runs.total(name))
+    assert np.array_equal(joined.kept[1], sets)
+    assert refused(ValueError, second.merge, first)
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "runs.npz")
+        runs.save(file)
+        back = jam.near_jamming.Runs.load(file)
+    assert np.array_equal(back.total("distance4"), runs.total("distance4")) and back.runs == 60
+    # structure predicts motion at once and less later; variances know nothing of it
+    k = nj.correlations(runs, structure)
+    assert k["c"][0] > 0.5 and k["s"][0] > 0.5 and k["force_sum"][0] < -0.3
+    assert k["c"][0] > k["c"][2] and abs(k["c"] - k["c_pooled"]).max() < 0.05
+    without = nj.correlations(runs, structure, rattlers=False)
+    assert abs(without["c"] - k["c"]).max() < 0.1
+    errors = nj.correlation_errors(runs, structure, 20)
+    assert (errors["c"] > 0).all() and (errors["c"] < 0.1).all()
+    halves = nj.reliability(runs)
+    assert (halves["displacement"] > 0.3).all() and (halves["distance2"] <= 1.0).all()
+    p = nj.prediction(runs, structure)
+    assert p.c_top[0] > 0 > p.c_bottom[0] and p.s_top[0] > p.s_bottom[0]
+    assert p.c_area[0] > 0.7 and p.s_area[0] > 0.7
+    assert 0.6 < nj.median_over_mean(sets) < 0.9
+    assert nj.is_caged(runs, packing).all()
+    weights = nj.mode_weights(packing, runs, packing.modes(which="all"))
+    assert np.allclose((weights.projections**2).sum(1), 1.0)
+    assert (weights.curvature > 0).all() and (weights.noise < 1e-3).all()
+
+
+def test_monte_carlo(packing):
+    runs = packing.isoconfigurational([10, 100], monte_carlo=dict(alpha=2, temperature=1e-6), runs=20, block=5)
+    assert 0.4 < runs.acceptance < 0.5 and runs.step > 0
+    k = nj.correlations(runs, nj.predictors(packing))
+    assert k["s"][0] > 0.3
+    # so hot that the packing melts: said by is_caged, and the network predicts nothing
+    hot = packing.isoconfigurational([400], monte_carlo=dict(alpha=2, temperature=1.0), runs=20, block=5)
+    assert not nj.is_caged(hot, packing).any()
+    before = packing.positions.copy()
+    moved = packing.copy()
+    report = moved.monte_carlo(alpha=2, temperature=1e-6, sweeps=200)
+    assert report.sweeps == 200 and report.energy > 0 and not np.array_equal(moved.positions, before)
+    assert refused(jam.JamError, lambda: moved.contacts)  # the network belongs to the state before
+
+
+def test_errors():
+    fluid = jam.System.random(n=32, dim=3, seed=1)
+    assert refused(jam.errors.StateError, nj.predictors, fluid)
+    assert refused(jam.errors.ArgumentError, fluid.isoconfigurational, [2, 1])
+    assert refused(jam.errors.ArgumentError, fluid.isoconfigurational, [1], temperature=0)
+    assert refused(TypeError, fluid.isoconfigurational, [1], no_such_option=1)
+    one = fluid.isoconfigurational([1], runs=2, block=2)
+    assert refused(ValueError, one.halves)
+    assert refused(ValueError, st.spearman, [1, 2], [1, 2])
+    assert refused(ValueError, st.spearman, [1, 2, 3], [1, 2])
+
+
+def test_statistics():
+    from scipy.stats import spearmanr
+
+    draw = np.random.default_rng(1)
+    x = np.round(draw.normal(size=200), 1)  # with ties
+    y = np.round(x + draw.normal(size=200), 1)
+    assert abs(st.spearman(x, y) - spearmanr(x, y)[0]) < 1e-12
+    assert np.isnan(st.spearman(np.ones(5), np.arange(5)))
+    assert st.roc_area([1, 2, 3, 4], [0, 0, 1, 1]) == 1.0 and st.roc_area([1, 1, 1, 1], [0, 1, 0, 1]) == 0.5
+    assert st.deciles(np.arange(100), np.arange(100.0)) == (94.5, 4.5)
+    # a mean of blocks: the bootstrap gives the textbook error
+    values = draw.normal(size=50)
+    made = st.bootstrap(lambda w: (w * values).sum() / w.sum(), 50, 2000)
+    assert abs(made.std() / (values.std() / np.sqrt(50)) - 1.0) < 0.06
+    # curves that collapse by construction, with noise
+    controls = np.array([0.1, 0.03, 0.01, 0.003])
+    xs = [np.geomspace(1e-4, 1e-1, 25) * c**1.8 * 10 ** draw.uniform(-0.3, 0.3) for c in controls]
+    ys = [1.0 / (1.0 + (a / c**1.8 * 100) ** 0.4) + 1e-3 * draw.normal(size=25) for a, c in zip(xs, controls)]
+    assert abs(st.collapse(xs, ys, controls) - 1.8) < 0.02
+    # an oscillator: its spectrum is a line at its frequency
+    t = np.linspace(0, 100, 2001)
+    omega = np.linspace(0, 6, 121)
+    assert abs(omega[np.argmax(st.velocity_spectrum(t, np.cos(3 * t), omega))] - 3.0) < 0.06
+    a, b = draw.normal(size=(2, 40, 3))
+    assert abs(nj.clone_overlap(a, a) - 1.0) < 1e-12 and abs(nj.clone_overlap(a, b)) < 0.5
+    assert nj.clone_distance(a, a) == 0.0
+
+
+def test_checkpoint(packing):
+    packing = packing.copy()
+    options = dict(density_ratio=0.99, block=2)
+    whole = packing.isoconfigurational([2, 10], runs=8, **options)
+    packing.isoconfigurational([2, 10], runs=3, **options)
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "state")
+        packing.checkpoint_write(file)
+        again = jam.System.from_checkpoint(file)
+    assert nj.take_runs(again).runs == 3
+    rest = again.isoconfigurational([2, 10], runs=8, resume=1, **options)
+    assert np.array_equal(rest.total("displacement"), whole.total("displacement"))
+
+
+if __name__ == "__main__":
+    packing = jammed()
+    test_statistics()
+    test_errors()
+    test_runs(packing)
+    test_monte_carlo(packing)
+    test_checkpoint(packing)
+    print("ok")

@@ -1,0 +1,307 @@
+/* Runs from one configuration: the same bits however they are split, stopped or resumed; clear errors; nothing lost. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "jam/jam.h"
+#include "test.h"
+
+enum { N = 60, D = 3, M = 3, RUNS = 12, BLOCK = 4 };
+static const double instants[M] = {1.0, 3.0, 9.0};
+
+static jam_system *packing(void) {
+  jam_create_options o;
+  jam_compress_options c;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = N;
+  o.dim = D;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  jam_compress_options_init(&c, sizeof c);
+  c.packing_fraction = 0.5;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  return sys;
+}
+
+static jam_isoconf_options options(void) {
+  jam_isoconf_options o;
+  assert_int_equal(jam_isoconf_options_init(&o, sizeof o), JAM_OK);
+  o.runs = RUNS;
+  o.block = BLOCK;
+  o.density_ratio = 0.95;
+  return o;
+}
+
+static jam_status run(jam_system *sys, const jam_isoconf_options *o, jam_isoconf_report *r) {
+  if (r) r->struct_size = sizeof *r;
+  return jam_isoconfigurational(sys, o, NULL, instants, M, NULL, 0, r);
+}
+
+typedef struct sums {
+  double displacement[M * N * D], square[M * N * D], distance2[M * N], distance4[M * N];
+  int64_t runs;
+} sums;
+
+static void get(const jam_system *sys, int64_t block, sums *s) {
+  memset(s, 0, sizeof *s);
+  assert_int_equal(jam_isoconf_sums(sys, block, s->displacement, M * N * D, s->square, M * N * D, s->distance2, M * N,
+                                    s->distance4, M * N, &s->runs, NULL),
+                   JAM_OK);
+}
+
+static void bits_do_not_depend_on_threads_or_handles(void **state) {
+  jam_system *one = packing(), *two = packing();
+  jam_isoconf_options o = options();
+  static sums a, b;
+  int64_t k;
+  (void)state;
+  assert_int_equal(run(one, &o, NULL), JAM_OK);
+  o.threads = 2;
+  assert_int_equal(run(two, &o, NULL), JAM_OK);
+  get(one, -1, &a);
+  get(two, -1, &b);
+  assert_int_equal(a.runs, RUNS);
+  assert_memory_equal(&a, &b, sizeof a);
+  assert_true(a.distance2[0] > 0.0);
+  /* Each block alone, by another handle. */
+  for (k = 0; k < RUNS / BLOCK; ++k) {
+    o.threads = 1;
+    o.first_run = k * BLOCK;
+    o.runs = BLOCK;
+    assert_int_equal(run(two, &o, NULL), JAM_OK);
+    get(one, k, &a);
+    get(two, 0, &b);
+    assert_memory_equal(&a, &b, sizeof a);
+  }
+  /* One run alone: what distinguishes the blocks of one run from each other. */
+  o.first_run = 5;
+  o.runs = o.block = 1;
+  assert_int_equal(run(two, &o, NULL), JAM_OK);
+  get(two, -1, &a);
+  o.first_run = 6;
+  assert_int_equal(run(two, &o, NULL), JAM_OK);
+  get(two, -1, &b);
+  assert_memory_not_equal(a.displacement, b.displacement, sizeof a.displacement);
+  jam_destroy(one);
+  jam_destroy(two);
+}
+
+static int32_t stop(const jam_progress *p, void *user) {
+  (void)user;
+  assert_int_equal(p->phase, JAM_PHASE_ISOCONFIGURATIONAL);
+  return 1;
+}
+
+static void stopped_runs_are_kept_and_resume(void **state) {
+  char path[] = "isoconf_XXXXXX";
+  jam_system *whole = packing(), *cut = packing(), *again = NULL;
+  jam_isoconf_options o = options();
+  jam_isoconf_report r;
+  static sums a, b;
+  (void)state;
+  assert_int_equal(run(whole, &o, NULL), JAM_OK);
+  get(whole, -1, &a);
+  o.runs = 6; /* amid a block */
+  assert_int_equal(run(cut, &o, &r), JAM_OK);
+  get(cut, -1, &b);
+  o.runs = RUNS;
+  o.resume = 1;
+  assert_int_equal(jam_set_progress(cut, stop, NULL), JAM_OK);
+  assert_int_equal(run(cut, &o, &r), JAM_CANCELLED);
+  assert_int_equal(jam_set_progress(cut, NULL, NULL), JAM_OK);
+  o.wall_time = 1e-9;
+  assert_int_equal(run(cut, &o, &r), JAM_LIMIT);
+  o.wall_time = 1e9;
+  assert_in_range(r.runs, 6, RUNS - 1);
+  assert_true(mkstemp(path) >= 0);
+  assert_int_equal(jam_checkpoint_write(cut, path), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  unlink(path);
+  assert_int_equal(run(again, &o, &r), JAM_OK);
+  get(again, -1, &b);
+  assert_memory_equal(&a, &b, sizeof a);
+  assert_int_equal(run(cut, &o, &r), JAM_OK);
+  get(cut, -1, &b);
+  assert_memory_equal(&a, &b, sizeof a);
+  /* More runs than were asked for first. */
+  o.runs = RUNS + 3;
+  assert_int_equal(run(cut, &o, &r), JAM_OK);
+  assert_int_equal(r.runs, RUNS + 3);
+  assert_int_equal(r.blocks, 4);
+  /* Not the same runs any more. */
+  o.density_ratio = 0.94;
+  assert_int_equal(run(cut, &o, &r), JAM_E_STATE);
+  o.density_ratio = 0.95;
+  assert_int_equal(jam_scale_diameters(cut, 0.999), JAM_OK);
+  assert_int_equal(run(cut, &o, &r), JAM_E_STATE);
+  get(cut, -1, &b);
+  assert_int_equal(b.runs, RUNS + 3);
+  jam_destroy(again);
+  jam_destroy(whole);
+  jam_destroy(cut);
+}
+
+static void sums_are_those_of_whole_sets(void **state) {
+  static double set[RUNS * N * D];
+  static const int32_t kept[1] = {1};
+  jam_system *sys = packing();
+  jam_isoconf_options o = options();
+  double msd[M], msd_sum = 0.0;
+  static sums a;
+  size_t needed = 0, i, k, c;
+  (void)state;
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, instants, M, kept, 1, NULL), JAM_OK);
+  get(sys, -1, &a);
+  assert_int_equal(jam_isoconf_kept(sys, 1, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, RUNS * N * D);
+  assert_int_equal(jam_isoconf_kept(sys, 1, set, needed, &needed), JAM_OK);
+  assert_int_equal(jam_isoconf_kept(sys, 0, set, needed, &needed), JAM_E_STATE);
+  for (i = 0; i < N; ++i) {
+    double r2 = 0.0, r4 = 0.0, x[D] = {0.0, 0.0, 0.0};
+    for (k = 0; k < RUNS; ++k) {
+      double one = 0.0;
+      for (c = 0; c < D; ++c) {
+        const double v = set[(k * N + i) * D + c];
+        x[c] += v;
+        one += v * v;
+      }
+      r2 += one;
+      r4 += one * one;
+    }
+    for (c = 0; c < D; ++c) assert_true(fabs(x[c] - a.displacement[(N + i) * D + c]) < 1e-13);
+    assert_true(fabs(r2 - a.distance2[N + i]) < 1e-12 * r2);
+    assert_true(fabs(r4 - a.distance4[N + i]) < 1e-12 * r4);
+    msd_sum += r2 / N;
+  }
+  assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_MSD, msd, M, NULL), JAM_OK);
+  assert_true(fabs(msd[1] / msd_sum - 1.0) < 1e-12);
+  /* No net momentum: the spheres' displacements of each run add up to zero. */
+  for (k = 0; k < RUNS; ++k)
+    for (c = 0; c < D; ++c) {
+      double sum = 0.0;
+      for (i = 0; i < N; ++i) sum += set[(k * N + i) * D + c];
+      assert_true(fabs(sum) < 1e-12);
+    }
+  jam_destroy(sys);
+}
+
+/* In free flight, dr = v t: at short times |dr|^2 = d T t^2 and the velocities still agree with the first ones. */
+static void time_and_temperature_are_those_asked_for(void **state) {
+  static const double times[2] = {1e-7, 2e-7};
+  jam_system *sys = packing();
+  jam_isoconf_options o = options();
+  double msd[2], time[2], velocity[2];
+  (void)state;
+  o.clock = JAM_CLOCK_TIME;
+  o.temperature = 0.1;
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, times, 2, NULL, 0, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_MSD, msd, 2, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_TIME, time, 2, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_VELOCITY, velocity, 2, NULL), JAM_OK);
+  assert_true(fabs(time[1] / RUNS / 2e-7 - 1.0) < 1e-12);
+  assert_true(fabs(msd[0] / RUNS / (D * 0.1 * 1e-14) - 1.0) < 1e-3);
+  assert_true(fabs(msd[1] / msd[0] - 4.0) < 1e-2);
+  assert_true(fabs(velocity[0] / RUNS - 1.0) < 1e-3);
+  jam_destroy(sys);
+}
+
+static void bad_input_is_named(void **state) {
+  static const double falling[2] = {2.0, 1.0}, none[1] = {0.0};
+  static const int32_t twice[2] = {1, 1}, beyond[1] = {3};
+  jam_system *sys = packing();
+  jam_isoconf_options o = options();
+  jam_isoconf_report r;
+  double x;
+  (void)state;
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_isoconf_report_get(sys, &r), JAM_E_STATE);
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "ascending"));
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, none, 1, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, NULL, 0, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, NULL, 3, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, instants, M, twice, 2, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, instants, M, beyond, 1, NULL), JAM_E_ARGUMENT);
+#define REFUSED(member, value, code) \
+  o = options();                     \
+  o.member = value;                  \
+  assert_int_equal(run(sys, &o, NULL), code)
+  REFUSED(temperature, 0.0, JAM_E_ARGUMENT);
+  REFUSED(temperature, -1.0, JAM_E_ARGUMENT);
+  REFUSED(temperature, INFINITY, JAM_E_ARGUMENT);
+  REFUSED(density_ratio, 1.5, JAM_E_ARGUMENT);
+  REFUSED(density_ratio, 0.0, JAM_E_ARGUMENT);
+  REFUSED(density_ratio, 1.0 - 1e-12, JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "rounded"));
+  REFUSED(runs, 0, JAM_E_ARGUMENT);
+  REFUSED(runs, INT64_MAX, JAM_E_ARGUMENT);
+  REFUSED(first_run, -1, JAM_E_ARGUMENT);
+  REFUSED(block, 0, JAM_E_ARGUMENT);
+  REFUSED(threads, 3, JAM_E_ARGUMENT);
+  REFUSED(clock, 7, JAM_E_ARGUMENT);
+  REFUSED(wave_number, 0.0, JAM_E_ARGUMENT);
+  REFUSED(memory_limit, 1e4, JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "bytes are needed"));
+  REFUSED(wall_time, NAN, JAM_E_ARGUMENT);
+  REFUSED(struct_size, 2, JAM_E_STRUCT_SIZE);
+  REFUSED(resume, 1, JAM_E_STATE);
+  o = options();
+  assert_int_equal(run(sys, &o, &r), JAM_OK);
+  assert_true(r.energy_drift < 1e-12 && r.max_overlap < 1e-13);
+  REFUSED(temperature, 0.0, JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf_report_get(sys, &r), JAM_OK); /* what was there is still there */
+  assert_int_equal(r.runs, RUNS);
+  assert_int_equal(jam_isoconf_series(sys, -1, 99, &x, 1, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf_series(sys, 3, 0, &x, 1, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_isoconf_series(sys, 0, 0, &x, 1, NULL), JAM_E_BUFFER);
+  jam_destroy(sys);
+}
+
+static void a_jammed_packing_needs_room(void **state) {
+  jam_system *sys = packing();
+  jam_compress_options c;
+  jam_isoconf_options o = options();
+  jam_isoconf_report r;
+  (void)state;
+  jam_compress_options_init(&c, sizeof c);
+  c.pressure = 1e6;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
+  o.density_ratio = 1.0;
+  assert_int_equal(run(sys, &o, NULL), JAM_E_ARGUMENT);
+  o.density_ratio = 1.0 - 1e-10; /* the nearest decade that positions can resolve */
+  assert_int_equal(run(sys, &o, &r), JAM_OK);
+  assert_true(r.energy_drift < 1e-10 && r.max_overlap < 1e-13);
+  jam_destroy(sys);
+}
+
+static void one_sphere_cannot_run(void **state) {
+  const double x[3] = {0.1, 0.2, 0.3}, sigma = 0.3;
+  jam_create_options o;
+  jam_isoconf_options i = options();
+  jam_isoconf_report r;
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 1;
+  assert_int_equal(jam_create(&o, x, 3, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(run(sys, &i, &r), JAM_NOT_CONVERGED);
+  assert_int_equal(r.stop_reason, JAM_STOP_STALLED);
+  assert_int_equal(r.runs, 0);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bits_do_not_depend_on_threads_or_handles),
+      cmocka_unit_test(stopped_runs_are_kept_and_resume),
+      cmocka_unit_test(sums_are_those_of_whole_sets),
+      cmocka_unit_test(time_and_temperature_are_those_asked_for),
+      cmocka_unit_test(bad_input_is_named),
+      cmocka_unit_test(a_jammed_packing_needs_room),
+      cmocka_unit_test(one_sphere_cannot_run),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,285 @@
+/* Metropolis Monte Carlo against exact averages: two and three spheres by quadrature, fluids by molecular dynamics. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "jam/jam.h"
+#include "test.h"
+
+static jam_monte_carlo_options options(double alpha, double temperature, int64_t sweeps) {
+  jam_monte_carlo_options o;
+  assert_int_equal(jam_monte_carlo_options_init(&o, sizeof o), JAM_OK);
+  o.alpha = alpha;
+  o.temperature = temperature;
+  o.sweeps = sweeps;
+  return o;
+}
+
+static jam_monte_carlo_report run(jam_system *sys, const jam_monte_carlo_options *o) {
+  jam_monte_carlo_report r;
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_monte_carlo(sys, o, &r), JAM_OK);
+  return r;
+}
+
+static jam_system *spheres(int dim, int n, const double *diameter) {
+  const double disks[6] = {0.0, 0.0, 0.5, 0.25, 0.0, 0.5};
+  const double balls[9] = {0.0, 0.0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.5, 0.0};
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim;
+  o.n = n;
+  assert_int_equal(jam_create(&o, dim == 2 ? disks : balls, (size_t)(dim * n), diameter, (size_t)n, &sys), JAM_OK);
+  return sys;
+}
+
+static double energy(double r2, double sigma, double alpha, int relative) {
+  const double r = sqrt(r2);
+  if (r >= sigma) return 0.0;
+  return pow(relative ? 1.0 - r / sigma : sigma - r, alpha);
+}
+static double nearest(double x) { return x - floor(x + 0.5); }
+
+/* Mean energy a sphere and pressure of two spheres: integral over the separation by the midpoint rule. */
+static void two(double sigma, double alpha, int relative, double temperature, double *mean, double *pressure) {
+  const int m = 140;
+  double z = 0.0, u = 0.0, w = 0.0;
+  int a, b, c;
+  for (a = 0; a < m; ++a)
+    for (b = 0; b < m; ++b)
+      for (c = 0; c < m; ++c) {
+        const double x = (a + 0.5) / m - 0.5, y = (b + 0.5) / m - 0.5, v = (c + 0.5) / m - 0.5;
+        const double r2 = x * x + y * y + v * v, e = energy(r2, sigma, alpha, relative), p = exp(-e / temperature);
+        const double r = sqrt(r2), s = relative ? 1.0 - r / sigma : sigma - r;
+        z += p;
+        u += p * e;
+        if (s > 0.0) w += p * alpha * pow(s, alpha - 1.0) * (relative ? r / sigma : r);
+      }
+  *mean = 0.5 * u / z;
+  *pressure = 1.0 + w / z / (3.0 * 2.0 * temperature);
+}
+
+static void two_spheres_have_the_boltzmann_averages(void **state) {
+  const double sigma[2] = {0.45, 0.45};
+  const struct {
+    double alpha, temperature;
+    int relative;
+  } cases[] = {{1.5, 0.05, 0}, {2.0, 0.02, 0}, {2.5, 0.2, 1}, {3.0, 0.1, 1}};
+  size_t k;
+  (void)state;
+  for (k = 0; k < sizeof cases / sizeof *cases; ++k) {
+    jam_system *sys = spheres(3, 2, sigma);
+    jam_monte_carlo_options o = options(cases[k].alpha, cases[k].temperature, 200000);
+    jam_monte_carlo_report r;
+    double u, p;
+    o.energy_unit = cases[k].relative ? JAM_ENERGY_RELATIVE : JAM_ENERGY_LENGTH;
+    two(0.45, cases[k].alpha, cases[k].relative, cases[k].temperature, &u, &p);
+    r = run(sys, &o);
+    assert_true(fabs(r.energy - u) < 4.0 * r.energy_error && r.energy_error < 0.05 * u);
+    assert_true(fabs(r.pressure - p) < 4.0 * r.pressure_error && r.pressure_error < 0.02 * p);
+    jam_destroy(sys);
+  }
+}
+
+/* Three disks of three sizes; swaps leave the average as it is only if they are accepted by the right rule. */
+static void three_disks_and_swaps_have_the_boltzmann_averages(void **state) {
+  const double sigma[3] = {0.28, 0.40, 0.48};
+  const double temperature = 0.05, alpha = 2.0;
+  const int m = 36;
+  double z = 0.0, u = 0.0;
+  int a, b, c, d, with_swaps;
+  (void)state;
+  for (a = 0; a < m; ++a)
+    for (b = 0; b < m; ++b) {
+      const double x1 = (a + 0.5) / m - 0.5, y1 = (b + 0.5) / m - 0.5;
+      const double e1 = energy(x1 * x1 + y1 * y1, 0.5 * (sigma[0] + sigma[1]), alpha, 1);
+      for (c = 0; c < m; ++c)
+        for (d = 0; d < m; ++d) {
+          const double x2 = (c + 0.5) / m - 0.5, y2 = (d + 0.5) / m - 0.5;
+          const double dx = nearest(x1 - x2), dy = nearest(y1 - y2);
+          const double e = e1 + energy(x2 * x2 + y2 * y2, 0.5 * (sigma[0] + sigma[2]), alpha, 1) +
+                           energy(dx * dx + dy * dy, 0.5 * (sigma[1] + sigma[2]), alpha, 1);
+          const double p = exp(-e / temperature);
+          z += p;
+          u += p * e;
+        }
+    }
+  u /= 3.0 * z;
+  for (with_swaps = 0; with_swaps < 2; ++with_swaps) {
+    jam_system *sys = spheres(2, 3, sigma);
+    jam_monte_carlo_options o = options(alpha, temperature, 200000);
+    const double *now = NULL;
+    size_t len = 0;
+    jam_monte_carlo_report r;
+    o.energy_unit = JAM_ENERGY_RELATIVE;
+    o.swap_share = with_swaps ? 0.5 : 0.0;
+    r = run(sys, &o);
+    assert_true(fabs(r.energy - u) < 4.0 * r.energy_error && r.energy_error < 0.03 * u);
+    assert_int_equal(jam_diameters_view(sys, &now, &len), JAM_OK);
+    assert_true(fabs(now[0] + now[1] + now[2] - 1.16) < 1e-6);
+    if (with_swaps)
+      assert_true(r.swap_acceptance > 0.05 && r.swap_acceptance < 0.95);
+    else
+      assert_true(isnan(r.swap_acceptance));
+    jam_destroy(sys);
+  }
+}
+
+static void hard_fluids_have_the_pressure_of_molecular_dynamics(void **state) {
+  const double fractions[2] = {0.30, 0.47};
+  size_t k;
+  (void)state;
+  for (k = 0; k < 2; ++k) {
+    const int n = 256;
+    jam_create_options c;
+    jam_compress_options grow;
+    jam_run_options nve;
+    jam_md_report md;
+    jam_monte_carlo_options o = options(0.0, 1.0, 4000);
+    jam_monte_carlo_report r;
+    jam_system *sys = NULL;
+    double exact;
+    md.struct_size = sizeof md;
+    jam_create_options_init(&c, sizeof c);
+    c.n = n;
+    assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+    jam_compress_options_init(&grow, sizeof grow);
+    grow.packing_fraction = fractions[k];
+    assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
+    jam_run_options_init(&nve, sizeof nve);
+    nve.collisions_per_particle = 300;
+    assert_int_equal(jam_run(sys, &nve, NULL), JAM_OK);
+    nve.collisions_per_particle = 1500;
+    assert_int_equal(jam_run(sys, &nve, &md), JAM_OK);
+    r = run(sys, &o);
+    exact = md.pressure;
+    assert_true(fabs(r.pressure - exact) < 4.0 * hypot(r.pressure_error, md.pressure_error));
+    assert_true(r.pressure_error < 0.01 * exact);
+    assert_true(fabs(r.acceptance - 0.45) < 0.05);
+    assert_true(r.msd > 0.0 && r.energy == 0.0);
+    jam_destroy(sys);
+  }
+}
+
+static int32_t stop(const jam_progress *p, void *user) {
+  (void)user;
+  return p->steps >= 10;
+}
+
+static void a_resumed_run_has_the_same_bits(void **state) {
+  const double sigma[3] = {0.28, 0.40, 0.48};
+  jam_monte_carlo_options o = options(2.0, 0.001, 3000);
+  jam_system *a = spheres(3, 3, sigma), *b = spheres(3, 3, sigma);
+  jam_monte_carlo_report r, whole;
+  const double *x = NULL, *y = NULL;
+  size_t len = 0;
+  (void)state;
+  o.swap_share = 0.2;
+  r.struct_size = sizeof r;
+  whole = run(a, &o);
+  assert_int_equal(jam_set_progress(b, stop, NULL), JAM_OK);
+  assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_CANCELLED);
+  assert_in_range(r.sweeps, 10, 2999);
+  assert_int_equal(jam_set_progress(b, NULL, NULL), JAM_OK);
+  o.resume = 1;
+  r = run(b, &o);
+  assert_int_equal(r.sweeps, 3000);
+  assert_true(r.energy == whole.energy && r.pressure == whole.pressure && r.msd == whole.msd);
+  assert_int_equal(jam_positions_view(a, &x, &len), JAM_OK);
+  assert_int_equal(jam_positions_view(b, &y, &len), JAM_OK);
+  assert_memory_equal(x, y, len * sizeof *x);
+  assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_E_STATE);
+  /* The next run goes on with new random numbers. */
+  o.resume = 0;
+  assert_int_equal(run(b, &o).next_sweep, 6000);
+  jam_destroy(a);
+  jam_destroy(b);
+}
+
+static void runs_from_one_state_have_streams_of_their_own(void **state) {
+  const double sigma[3] = {0.28, 0.40, 0.48}, instants[2] = {5.0, 50.0};
+  jam_system *sys = spheres(3, 3, sigma);
+  jam_isoconf_options i;
+  jam_monte_carlo_options o = options(2.0, 0.001, 50);
+  double displacement[2][2 * 9], alone[18];
+  size_t k;
+  (void)state;
+  jam_isoconf_options_init(&i, sizeof i);
+  i.runs = 2;
+  i.block = 1;
+  o.step = 0.05;
+  assert_int_equal(jam_isoconfigurational(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
+  for (k = 0; k < 2; ++k)
+    assert_int_equal(jam_isoconf_sums(sys, (int64_t)k, displacement[k], 18, NULL, 0, NULL, 0, NULL, 0, NULL, NULL),
+                     JAM_OK);
+  assert_memory_not_equal(displacement[0], displacement[1], sizeof displacement[0]);
+  i.first_run = 1;
+  i.runs = 1;
+  assert_int_equal(jam_isoconfigurational(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
+  assert_int_equal(jam_isoconf_sums(sys, 0, alone, 18, NULL, 0, NULL, 0, NULL, 0, NULL, NULL), JAM_OK);
+  assert_memory_equal(alone, displacement[1], sizeof alone);
+  jam_destroy(sys);
+}
+
+static void bad_input_is_named(void **state) {
+  const double sigma[2] = {0.3, 0.3}, wide[2] = {0.499, 0.499};
+  jam_system *sys = spheres(3, 2, sigma), *tight = spheres(3, 2, wide);
+  jam_monte_carlo_options o;
+  (void)state;
+#define REFUSED(member, value, code) \
+  o = options(2.0, 0.01, 10);        \
+  o.member = value;                  \
+  assert_int_equal(jam_monte_carlo(sys, &o, NULL), code)
+  REFUSED(temperature, 0.0, JAM_E_ARGUMENT);
+  REFUSED(temperature, -1.0, JAM_E_ARGUMENT);
+  REFUSED(alpha, 1.0, JAM_E_ARGUMENT);
+  REFUSED(alpha, -2.0, JAM_E_ARGUMENT);
+  REFUSED(energy_scale, 0.0, JAM_E_ARGUMENT);
+  REFUSED(energy_unit, 2, JAM_E_ARGUMENT);
+  REFUSED(step, -1.0, JAM_E_ARGUMENT);
+  REFUSED(step, 3.0, JAM_E_ARGUMENT);
+  REFUSED(acceptance, 1.0, JAM_E_ARGUMENT);
+  REFUSED(swap_share, 1.0, JAM_E_ARGUMENT);
+  REFUSED(sweeps, 0, JAM_E_ARGUMENT);
+  REFUSED(run, -1, JAM_E_ARGUMENT);
+  REFUSED(wall_time, 0.0, JAM_E_ARGUMENT);
+  REFUSED(resume, 1, JAM_E_STATE);
+  o = options(0.0, 1.0, 10);
+  assert_int_equal(jam_monte_carlo(tight, &o, NULL), JAM_E_UNSUPPORTED);
+  jam_destroy(sys);
+  jam_destroy(tight);
+}
+
+static void hard_spheres_in_contact_cannot_move(void **state) {
+  jam_create_options c;
+  jam_compress_options grow;
+  jam_monte_carlo_options o = options(0.0, 1.0, 10);
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&c, sizeof c);
+  c.n = 100;
+  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  jam_compress_options_init(&grow, sizeof grow);
+  grow.pressure = 1e6;
+  assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_scale_diameters(sys, 1.0 - 1e-14), JAM_OK);
+  assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "contact"));
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(two_spheres_have_the_boltzmann_averages),
+      cmocka_unit_test(three_disks_and_swaps_have_the_boltzmann_averages),
+      cmocka_unit_test(hard_fluids_have_the_pressure_of_molecular_dynamics),
+      cmocka_unit_test(a_resumed_run_has_the_same_bits),
+      cmocka_unit_test(runs_from_one_state_have_streams_of_their_own),
+      cmocka_unit_test(bad_input_is_named),
+      cmocka_unit_test(hard_spheres_in_contact_cannot_move),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

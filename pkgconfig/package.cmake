@@ -22,8 +22,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(about "libjam makes jammed packings of hard spheres by event-driven molecular dynamics and linear programming.
- It finds their contact networks, forces and vibrational modes in two to eight dimensions.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "jammed packings of hard spheres")
+set(about "libjam makes jammed packings of hard spheres by event-driven
+ molecular dynamics and linear programming. It finds their contact
+ networks, forces and vibrational modes in two to eight dimensions.")
 
 # jam_package(COMPONENT NAME SECTION SUMMARY): one package; its documents lie where Debian wants them.
 function(jam_package component name section summary)
@@ -60,7 +62,7 @@ endfunction()
 
 set(CPACK_COMPONENTS_ALL runtime dev doc)
 jam_package(runtime libjam${JAM_ABI} libs "Jammed packings of hard spheres: shared library")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
 jam_package(dev libjam-dev libdevel "Jammed packings of hard spheres: C, C++, Fortran and Julia")

@@ -34,7 +34,7 @@ struct FourBodies {
 // A sum of squares of 64-bit integers in four digits of 32 bits, each in a lane of 64 bits.
 struct Squares {
   Long4 digit[4] = {};
-  JAM_SIMD_INLINE void add(Long4 value) {
+  JAM_SIMD_INLINE void add(const Long4 &value) {
     constexpr uint64_t mask = 0xffffffff;
     const Unsigned4 m = value < 0 ? -(Unsigned4)value : (Unsigned4)value, upper = m >> 32;
     const Unsigned4 low = multiply_low(m, m), middle = multiply_low(m, upper), high = multiply_low(upper, upper);

@@ -62,7 +62,7 @@ JAM_SIMD_INLINE unsigned bits_of(const Int8 &v) {
 #endif
 }
 
-JAM_SIMD_INLINE Double4 square_root(Double4 x) {
+JAM_SIMD_INLINE Double4 square_root(const Double4 &x) {
 #if defined(__SSE2__) && defined(JAM_SIMD_256)
   return (Double4)_mm256_sqrt_pd((__m256d)x);
 #elif defined(__SSE2__)
@@ -72,13 +72,12 @@ JAM_SIMD_INLINE Double4 square_root(Double4 x) {
   half[1] = _mm_sqrt_pd(half[1]);
   return load<Double4>(half);
 #else
-  for (int k = 0; k < 4; ++k) x[k] = __builtin_sqrt(x[k]);
-  return x;
+  return Double4{__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]), __builtin_sqrt(x[3])};
 #endif
 }
 
 // Product of the lower halves of each lane.
-JAM_SIMD_INLINE Unsigned4 multiply_low(Unsigned4 a, Unsigned4 b) {
+JAM_SIMD_INLINE Unsigned4 multiply_low(const Unsigned4 &a, const Unsigned4 &b) {
 #if defined(__SSE2__) && defined(JAM_SIMD_256)
   return (Unsigned4)_mm256_mul_epu32((__m256i)a, (__m256i)b);
 #elif defined(__SSE2__)
@@ -111,7 +110,7 @@ JAM_SIMD_INLINE void transpose(Double4 &a, Double4 &b, Double4 &c, Double4 &d) {
 
 // The nearest double, as the processor's conversion of one integer gives it: both halves become the low bits of
 // doubles (2^52 + low and 2^84 + 2^63 + high 2^32), whose differences are exact; the last sum rounds once.
-JAM_SIMD_INLINE Double4 to_double(Long4 v) {
+JAM_SIMD_INLINE Double4 to_double(const Long4 &v) {
 #if defined(JAM_SIMD_CONVERTS)
   return __builtin_convertvector(v, Double4);
 #else
@@ -122,7 +121,7 @@ JAM_SIMD_INLINE Double4 to_double(Long4 v) {
 }
 
 // The nearest integer, ties to even, for |x| < 2^62: multiples of 2^32 and the rest apart, both exact.
-JAM_SIMD_INLINE Long4 to_integer(Double4 x) {
+JAM_SIMD_INLINE Long4 to_integer(const Double4 &x) {
 #if defined(JAM_SIMD_CONVERTS)
   return (Long4)_mm256_cvtpd_epi64((__m256d)x);
 #else

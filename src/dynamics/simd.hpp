@@ -30,7 +30,7 @@ JAM_SIMD_INLINE Vector load(const void *at) {
   return v;
 }
 template <class Vector>
-JAM_SIMD_INLINE void store(void *at, Vector v) {
+JAM_SIMD_INLINE void store(void *at, const Vector &v) {
   std::memcpy(at, &v, sizeof v);
 }
 

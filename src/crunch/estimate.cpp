@@ -27,14 +27,14 @@ constexpr double close_gap = 3e-5;
 PairList longest_list(const Packing &p, const jam_crunch_options &o) {
   const double unit = diameter_mean(p), free = free_spacing(p),
                jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
-  const double chain = 2.2 * (o.step_bound > 0.0           ? o.step_bound
-                              : contact_gap(p) > close_gap ? Tuning().max_bound
-                                                           : 0.1 + 0.6 * free);
-  double reach = unit * (o.method == JAM_CRUNCH_SEQUENTIAL_LP ? chain
-                         : o.step_bound > 0.0                 ? std::max(chain, 0.15 + 1.5 * free)
+  const double lp_reach = 2.2 * (o.step_bound > 0.0           ? o.step_bound
+                                 : contact_gap(p) > close_gap ? Tuning().max_bound
+                                                              : 0.1 + 0.6 * free);
+  double reach = unit * (o.method == JAM_CRUNCH_SEQUENTIAL_LP ? lp_reach
+                         : o.step_bound > 0.0                 ? std::max(lp_reach, 0.15 + 1.5 * free)
                                                               : 0.15 + 1.5 * free);
   if (o.neighbour_radius > 0.0) reach = std::max(0.0, o.neighbour_radius * unit - diameter_max(p));
-  // How far the diameters grow before the list gets shorter: the chain and mixtures keep theirs, the path of equal
+  // How far the diameters grow before the list gets shorter: sequential LPs and mixtures keep theirs, the path of equal
   // spheres shortens it early.
   const double part = o.method == JAM_CRUNCH_SEQUENTIAL_LP || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
   const double grown = std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);

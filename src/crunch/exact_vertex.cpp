@@ -19,10 +19,10 @@ constexpr int max_rounds = 30;
 // Translations are fixed by one sphere, rattlers by themselves: neither costs accuracy.
 std::vector<double> pins(const ContactNetwork &net, int dim) {
   std::vector<double> diagonal(net.coordination.size() * dim, 0.0);
-  bool pinned = false;
+  bool grounded = false;
   for (size_t i = 0; i < net.coordination.size(); ++i) {
-    if (net.coordination[i] > 0 && pinned) continue;
-    pinned = pinned || net.coordination[i] > 0;
+    if (net.coordination[i] > 0 && grounded) continue;
+    grounded = grounded || net.coordination[i] > 0;
     std::fill_n(&diagonal[i * dim], dim, 1.0);
   }
   return diagonal;

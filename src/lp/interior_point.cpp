@@ -161,8 +161,8 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   LpSolution out;
   const int before = system_.factorisations;
   double best_merit = std::numeric_limits<double>::infinity();
-  int idle = 0;
-  const int patience = control.multipliers ? 3 : 8;  // a cold start is at hand where a warm one stalls
+  int stalled_iterations = 0;
+  const int max_stalled_iterations = control.multipliers ? 3 : 8;  // a cold start is at hand where a warm one stalls
   bool asked = false;
   for (;; ++out.iterations) {
     residuals();
@@ -179,10 +179,10 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     }
     // Nothing more to win: rounding rules. Good enough if the gap is near the tolerance all the same.
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
-    idle = merit < 0.9 * best_merit ? 0 : idle + 1;
+    stalled_iterations = merit < 0.9 * best_merit ? 0 : stalled_iterations + 1;
     best_merit = std::min(best_merit, merit);
     if (monitor && monitor->interrupted()) break;
-    if (idle >= patience || out.iterations >= control.max_iterations) {
+    if (stalled_iterations >= max_stalled_iterations || out.iterations >= control.max_iterations) {
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
       break;
     }

@@ -264,7 +264,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   r.min_force = stress.min_force;
   r.excess_contacts = excess_of(out.network, p.dim);
   r.clusters = count_clusters(graph);
-  // The null space decides between two: rattlers that rest against their cage at a tiny gap make the second network
+  // The null space decides between two: rattlers that nearly touch their neighbours make the second network
   // hyperstatic.
   clear = clear ||
           (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);

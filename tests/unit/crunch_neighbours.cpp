@@ -45,7 +45,7 @@ void nothing_within_reach(void **) {
   p.dim = 3, p.box = 40.0, p.position = {1.0, 1.0, 1.0, 20.0, 20.0, 20.0}, p.diameter = {1.0, 1.0},
   p.velocity.assign(6, 0.0);
   for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(select_neighbours(p, reach).size(), 0);
-  p.position = {1.0, 1.0, 1.0, 3.0, 1.0, 1.0};  // a gap of 1: within the farthest reach, and no cage
+  p.position = {1.0, 1.0, 1.0, 3.0, 1.0, 1.0};  // a gap of 1: within the farthest reach, but not surrounded
   for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(select_neighbours(p, reach).size(), 1);
 }
 

@@ -88,7 +88,7 @@ void path_from_low_density(void **) {
   }
 }
 
-// The chain, stopped after each of its first LPs, which take the longest steps.
+// Sequential LPs, stopped after each of its first LPs, which take the longest steps.
 void sequential_lp_from_low_density(void **) {
   for (const Case &c : dilute) {
     const Packing p = start(c.n, c.dim, c.phi, c.ratio);

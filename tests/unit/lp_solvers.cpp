@@ -66,7 +66,7 @@ void far_rows_bind(void **) {
   }
 }
 
-// A chain of LPs, each solved from the multipliers of the one before and from nothing; and from multipliers that
+// A sequence of LPs, each solved from the multipliers of the one before and from nothing; and from multipliers that
 // mislead.
 void warm_starts(void **) {
   Packing p = start(80, 3, 0.3, 2);

@@ -13,8 +13,9 @@
 namespace jam {
 
 struct IpmControl {
-  double tolerance = 1e-15;   // on sum of complementarity products, which is the duality gap in units of Gamma
-  double early_fraction = 0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a sequence)
+  double tolerance = 1e-15;  // on sum of complementarity products, which is the duality gap in units of Gamma
+  double early_fraction =
+      0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a sequence)
   double balance =
       1e-5;  // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
   int max_iterations = 80;

@@ -122,7 +122,9 @@ typedef enum jam_stop_reason {
   JAM_STOP_LP_LIMIT = 9,         /* crunch: max_lps came first */
   JAM_STOP_SOLVER = 10,          /* crunch: no LP answer passed the checks */
   JAM_STOP_UNJAMMED = 11,        /* crunch: converged without a rigid network */
-  JAM_STOP_TIME = 12             /* MD: its simulated time is over */
+  JAM_STOP_TIME = 12,            /* MD: its simulated time is over */
+  JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
+  JAM_STOP_STEPS = 14            /* soft spheres: max_steps came first */
 } jam_stop_reason;
 
 /* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
@@ -145,7 +147,9 @@ typedef struct jam_system jam_system;
 /* What to do with overlaps in given positions. @since 0.1 */
 typedef enum jam_overlap_policy {
   JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
-  JAM_OVERLAP_SHRINK = 1  /* scale all diameters until the worst pair just touches */
+  JAM_OVERLAP_SHRINK = 1, /* scale all diameters until the worst pair just touches */
+  JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also in later calls; starts without positions are uniform points.
+                           * Calls for hard spheres refuse a system that overlaps */
 } jam_overlap_policy;
 
 /* Pair distance. @since 0.1 */
@@ -249,6 +253,8 @@ typedef enum jam_phase {
   JAM_PHASE_CRUNCH = 3,            /* one LP or re-linearised Newton step done */
   JAM_PHASE_POLISH = 4,            /* refinement of the final network */
   JAM_PHASE_ANALYSE = 5,           /* long analysis calls */
+  JAM_PHASE_RELAX = 6,             /* minimising the energy of soft spheres */
+  JAM_PHASE_DECOMPRESS = 7,        /* soft spheres on their way down to jamming; steps: decompressions so far */
   JAM_PHASE_MONTE_CARLO = 8,       /* Metropolis sweeps */
   JAM_PHASE_ISOCONFIGURATIONAL = 9 /* runs from one configuration; steps counts those that are done */
 } jam_phase;
@@ -796,6 +802,159 @@ JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, s
  * sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
  * 0.1 */
 JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+
+/* ------------------------------------------------------------------ soft spheres */
+/* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha; energies
+ * in units of epsilon. Systems that hold overlaps are made with JAM_OVERLAP_ALLOW. */
+
+/* Factor c and length l of the energy. @since 0.1 */
+typedef enum jam_soft_scale {
+  JAM_SOFT_RELATIVE = 0, /* c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance */
+  JAM_SOFT_ABSOLUTE = 1, /* c = 1 / alpha, l = 1 in the unit of the box */
+  JAM_SOFT_BARE = 2      /* c = 1, l = 1 */
+} jam_soft_scale;
+
+/* How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1 */
+typedef enum jam_minimiser {
+  JAM_MINIMISER_NEWTON = 0, /* FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the
+                             * middle of their cages */
+  JAM_MINIMISER_FIRE = 1,   /* FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020)) */
+  JAM_MINIMISER_LBFGS = 2   /* limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980)) */
+} jam_minimiser;
+
+/* How the overlap of a pair is computed. @since 0.1 */
+typedef enum jam_soft_precision {
+  JAM_SOFT_REFERENCE = 0, /* from a reference in twice the digits and small displacements: forces balance to 1e-14 at any
+                           * overlap */
+  JAM_SOFT_DOUBLE = 1     /* from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison */
+} jam_soft_precision;
+
+/* Options of jam_relax. @since 0.1 */
+typedef struct jam_relax_options {
+  uint32_t struct_size;    /* sizeof(jam_relax_options) */
+  int32_t minimiser;       /* jam_minimiser, default NEWTON */
+  int32_t scale;           /* jam_soft_scale, default RELATIVE */
+  int32_t precision;       /* jam_soft_precision, default REFERENCE */
+  double alpha;            /* exponent of the energy, > 1, default 2 */
+  double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
+  int64_t max_evaluations; /* of the forces, >= 1, default 1e6 */
+  double wall_time;        /* limit in seconds, > 0, default infinity */
+} jam_relax_options;
+
+/* What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed again
+ * and again; stable spheres are the others. @since 0.1 */
+typedef struct jam_relax_report {
+  uint32_t struct_size;     /* set by the caller: sizeof(jam_relax_report) */
+  int32_t converged;        /* 1: force_residual is below force_tolerance, or no spheres overlap */
+  int32_t stop_reason;      /* jam_stop_reason */
+  int32_t minimiser;        /* jam_minimiser */
+  double force_residual;    /* max |F_i| of stable spheres over the mean contact force; 0 without contacts */
+  double energy;            /* U, unit epsilon */
+  double pressure;          /* sum of f r over d V, unit epsilon / length^d */
+  double packing_fraction;  /* of the diameters, overlaps counted twice */
+  double distance;          /* alpha U / sum of f r, an estimate of ln(R / R_J) */
+  double jammed_fraction;   /* phi (1 - distance)^d, an estimate of phi_J */
+  double coordination;      /* mean number of contacts of a stable sphere */
+  double mean_overlap;      /* mean of (sigma - r) / sigma over contacts of stable spheres */
+  double max_overlap;       /* largest of all pairs */
+  int64_t contacts;         /* overlapping pairs of stable spheres */
+  int64_t excess_contacts;  /* contacts - (d (stable - 1) + 1) */
+  int64_t stable;           /* n - rattlers */
+  int64_t rattlers;         /* spheres left out */
+  int64_t evaluations;      /* of the forces */
+  int64_t factorisations;   /* of the Hessian */
+  double seconds;           /* wall time */
+} jam_relax_report;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
+/* Minimises the energy of overlapping spheres at fixed diameters and box, and keeps the contact network with its forces
+ * and stiffnesses (jam_contacts, jam_forces, jam_hessian with JAM_STIFFNESS_SOFT, ...). The system must have been made
+ * with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may be
+ * NULL. Example: examples/c/soft.c
+ * Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps); JAM_PRECISION converged, but overlaps
+ * are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the best
+ * so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW),
+ * JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
+
+/* Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1 */
+typedef struct jam_decompress_options {
+  uint32_t struct_size;    /* sizeof(jam_decompress_options) */
+  int32_t minimiser;       /* jam_minimiser, default NEWTON */
+  int32_t scale;           /* jam_soft_scale, default RELATIVE */
+  int32_t precision;       /* jam_soft_precision, default REFERENCE */
+  double alpha;            /* exponent of the energy, > 1, default 2 */
+  double force_tolerance;  /* as in jam_relax_options, default 1e-12 */
+  double energy_factor;    /* U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed */
+  double pressure;         /* target, as jam_relax_report.pressure, >= 0, default 0: none */
+  double distance;         /* target, as jam_relax_report.distance, >= 0, default 0: none */
+  int32_t isostatic;       /* 1 (default): end where contacts are those of one state of self-stress and the Hessian has
+                            * d zero modes */
+  int32_t crunch;          /* 1 (default): then crunch from just below contact, and go on until both have one network;
+                            * the system ends as that jammed packing. 0: it ends as the soft packing */
+  int32_t max_steps;       /* >= 1, default 1000 */
+  int32_t reserved;        /* 0 */
+  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6 */
+  double wall_time;        /* limit in seconds, > 0, default infinity */
+} jam_decompress_options;
+
+/* What jam_decompress found. @since 0.1 */
+typedef struct jam_decompress_report {
+  uint32_t struct_size;    /* set by the caller: sizeof(jam_decompress_report) */
+  int32_t stop_reason;     /* jam_stop_reason */
+  int32_t isostatic;       /* 1: contacts of one state of self-stress and d zero modes of the Hessian */
+  int32_t same_network;    /* 1: crunch ended with the same contacts; -1: crunch was not run */
+  double force_residual;   /* these as in jam_relax_report, of the last soft packing */
+  double energy;           /* U */
+  double pressure;         /* epsilon / length^d */
+  double packing_fraction; /* of the soft packing */
+  double distance;         /* estimate of ln(R / R_J) */
+  double jammed_fraction;  /* estimate of phi_J */
+  double crunch_fraction;  /* phi_J by crunch; NaN when it was not run */
+  double force_difference; /* largest |f_soft - f_crunch| over the mean force; NaN without the same network */
+  double coordination;     /* mean number of contacts of a stable sphere */
+  int64_t contacts;        /* overlapping pairs of stable spheres */
+  int64_t excess_contacts; /* contacts - (d (stable - 1) + 1) */
+  int64_t common_contacts; /* with crunch; -1 when it was not run */
+  int64_t rattlers;        /* spheres left out */
+  int64_t steps;           /* of the decompression */
+  int64_t restored;        /* steps taken back because they lost the network */
+  int64_t evaluations;     /* of the forces */
+  int64_t factorisations;  /* of the Hessian, crunch not counted */
+  double seconds;          /* wall time */
+  double seconds_crunch;   /* of it in crunch */
+} jam_decompress_report;
+
+/* Columns of the history of a decompression, a row a minimum. @since 0.1 */
+typedef enum jam_soft_column {
+  JAM_SOFT_PHI = 0,            /* packing fraction */
+  JAM_SOFT_PRESSURE = 1,       /* epsilon / length^d */
+  JAM_SOFT_ENERGY = 2,         /* U / n */
+  JAM_SOFT_COORDINATION = 3,   /* mean number of contacts of a stable sphere */
+  JAM_SOFT_DISTANCE = 4,       /* alpha U / sum of f r */
+  JAM_SOFT_EXCESS = 5,         /* contacts - (d (stable - 1) + 1) */
+  JAM_SOFT_RATTLERS = 6,       /* spheres left out */
+  JAM_SOFT_RESIDUAL = 7,       /* max |F_i| over the mean force */
+  JAM_SOFT_EVALUATIONS = 8,    /* of the forces, in this step */
+  JAM_SOFT_FACTORISATIONS = 9, /* in this step */
+  JAM_SOFT_SECONDS = 10        /* wall time of the step */
+} jam_soft_column;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size);
+/* From overlapping spheres down to jamming: minimises, shrinks all diameters by one factor so that the energy falls by
+ * energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is taken
+ * back and its square root is tried. report may be NULL.
+ * Status: JAM_OK a target was reached (with isostatic and crunch: one network by both ways); JAM_NOT_JAMMED the start has
+ * no overlaps at its minimum; JAM_PRECISION overlaps came down to the rounding of positions before; JAM_NOT_CONVERGED,
+ * JAM_LIMIT, JAM_CANCELLED: the last minimum is kept. Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER.
+ * Threads: alone. @since 0.1 */
+JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
+/* One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+ * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
+                                          size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
 

@@ -13,6 +13,8 @@ struct ContactNetwork {
   std::vector<double> vector;         // (contacts, dim) unit n_ij
   std::vector<double> gap;            // h of each contact
   std::vector<double> force;          // mean 1
+  // Of soft spheres alone, else empty: d2v / dr2 and force over distance, in units of their energy.
+  std::vector<double> stiffness, prestress;
   double force_scale = 0.0;           // mean of lambda |r| with sum lambda sigma^2 = 1
   std::vector<int32_t> coordination;  // n; 0 for rattlers
   size_t size() const { return pairs.size(); }

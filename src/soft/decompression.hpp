@@ -1,0 +1,65 @@
+// From overlapping spheres down to jamming. Data flow:
+//   minimum -> estimate of R_J -> smaller diameters, predicted displacements -> minimum -> ... -> 1SS -> crunch
+//   compares
+#pragma once
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "network/contact_network.hpp"
+#include "soft/relaxation.hpp"
+
+namespace jam {
+
+jam_relax_options default_relax_options();
+jam_decompress_options default_decompress_options();
+void check_relax_options(const jam_relax_options &o);
+void check_decompress_options(const jam_decompress_options &o);
+
+// A soft packing at its minimum, rounded to doubles; the network has the digits beyond.
+struct SoftResult {
+  Packing packing;
+  ContactNetwork contacts;  // of stable spheres, with stiffnesses
+  jam_relax_report report{};
+  jam_status status = JAM_OK;
+};
+
+// Throws for bad options, else never.
+SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor);
+
+constexpr size_t soft_columns = JAM_SOFT_SECONDS + 1;
+using SoftRow = std::array<double, soft_columns>;
+
+// What a jammed packing that was made from just below contact says of the soft one.
+struct SoftVerdict {
+  bool same_network = false;
+  int64_t common_contacts = -1;
+  double packing_fraction = 0.0, force_difference = 0.0, seconds = 0.0;
+};
+
+struct DecompressionResult {
+  SoftResult soft;  // the last minimum
+  std::vector<SoftRow> history;
+  jam_decompress_report report{};
+  jam_status status = JAM_OK;
+};
+
+// judge: called at a 1SS network; empty: not asked.
+DecompressionResult decompress(const Packing &start, const jam_decompress_options &o, Monitor &monitor,
+                               const std::function<SoftVerdict(const SoftResult &)> &judge);
+
+// ---- parts
+
+// Measures a state at its minimum: report without what was spent, network.
+SoftResult measure(SoftState &state, int32_t minimiser);
+// Minimises by a jam_minimiser. near_minimum: Newton's method is tried before first-order descent.
+DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum);
+// Status and stop reason of a minimum.
+jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reason);
+// Overlaps, relative to the contact distance, that the rounding of positions hides.
+double overlap_resolution(const Packing &p);
+// Multiplies all diameters by exp(growth) and moves spheres by the part of the linear response that lowers the energy
+// most.
+void follow_growth(SoftState &state, double growth, int64_t &factorisations);
+
+}  // namespace jam

@@ -1,0 +1,99 @@
+// Limited-memory BFGS with a line search on the slope alone: near the minimum the energy keeps half the digits of the
+// forces and can no longer tell which of two points is lower.
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "soft/relaxation.hpp"
+
+namespace jam {
+namespace {
+
+constexpr size_t memory = 10;         // pairs of steps and changes of force
+constexpr double longest_move = 0.1;  // mean diameters in one step
+constexpr double overshoot = 0.9;     // largest slope behind the minimum of a line, over that at its start
+constexpr int64_t look_every = 64;    // evaluations between two looks at which spheres are stable
+
+double dot(const std::vector<double> &a, const std::vector<double> &b) {
+  double s = 0.0;
+  for (size_t k = 0; k < a.size(); ++k) s += a[k] * b[k];
+  return s;
+}
+
+struct Update {
+  std::vector<double> s, y;
+  double rho;
+};
+
+// Two-loop recursion: way := H force, with H = 1 / first_stiffness before any update.
+void descent_way(const std::deque<Update> &updates, double first_stiffness, std::vector<double> &way) {
+  std::vector<double> a(updates.size());
+  for (size_t q = updates.size(); q-- > 0;) {
+    a[q] = updates[q].rho * dot(updates[q].s, way);
+    for (size_t k = 0; k < way.size(); ++k) way[k] -= a[q] * updates[q].y[k];
+  }
+  const double scale =
+      updates.empty() ? 1.0 / first_stiffness : 1.0 / (updates.back().rho * dot(updates.back().y, updates.back().y));
+  for (double &x : way) x *= scale;
+  for (size_t q = 0; q < updates.size(); ++q) {
+    const double b = updates[q].rho * dot(updates[q].y, way);
+    for (size_t k = 0; k < way.size(); ++k) way[k] += (a[q] - b) * updates[q].s[k];
+  }
+}
+
+}  // namespace
+
+DescentEnd lbfgs(Relaxation &r, double tolerance) {
+  SoftState &state = r.state;
+  const int d = state.dim();
+  const double move_limit = longest_move * state.diameter_mean();
+  std::deque<Update> updates;
+  std::vector<double> way, before;
+  for (int64_t count = 0;; ++count) {
+    if (r.sums.energy == 0.0) return DescentEnd::no_overlaps;
+    if (r.residual() < tolerance || (count % look_every == 0 && r.stable_residual() < tolerance))
+      return DescentEnd::balanced;
+    DescentEnd end;
+    if (r.must_stop(end)) return end;
+    before = way = r.force;
+    descent_way(updates, r.sums.stiffness(state.energy().alpha()), way);
+    double slope = dot(before, way);
+    if (!(slope > 0.0)) {  // no descent: begin again along the force
+      updates.clear();
+      way = before;
+      for (double &x : way) x /= r.sums.stiffness(state.energy().alpha());
+      slope = dot(before, way);
+    }
+    double most = 0.0;
+    for (size_t i = 0; i < state.n(); ++i) {
+      double w2 = 0.0;
+      for (int c = 0; c < d; ++c) w2 += way[i * d + c] * way[i * d + c];
+      most = std::max(most, w2);
+    }
+    if (most > move_limit * move_limit) {
+      const double part = move_limit / std::sqrt(most);
+      for (double &x : way) x *= part;
+      slope *= part;
+    }
+    double at = 0.0, next = 1.0;
+    for (int attempt = 0; attempt < 5; ++attempt) {
+      std::vector<double> &u = state.displacement();
+      for (size_t k = 0; k < u.size(); ++k) u[k] += (next - at) * way[k];
+      at = next;
+      r.evaluate();
+      const double now = dot(r.force, way);
+      if (now > -overshoot * slope) break;
+      next = std::max(0.1 * at, at * slope / (slope - now));
+    }
+    Update made{way, before, 0.0};
+    for (size_t k = 0; k < way.size(); ++k) made.s[k] *= at, made.y[k] -= r.force[k];
+    const double sy = dot(made.s, made.y);
+    if (sy > 1e-10 * std::sqrt(dot(made.s, made.s) * dot(made.y, made.y))) {
+      made.rho = 1.0 / sy;
+      updates.push_back(std::move(made));
+      if (updates.size() > memory) updates.pop_front();
+    }
+  }
+}
+
+}  // namespace jam

@@ -1,0 +1,72 @@
+// What is reported of a soft packing at its minimum.
+#include <algorithm>
+#include <cmath>
+
+#include "soft/decompression.hpp"
+
+namespace jam {
+
+SoftResult measure(SoftState &state, int32_t minimiser) {
+  state.rebase();  // offsets of pairs then belong to the rounded positions
+  const int d = state.dim();
+  SoftResult out;
+  out.packing = state.packing();
+  const SoftContacts contacts = state.contacts();
+  const std::vector<char> on = stable_contacts(state, contacts);
+  std::vector<double> force;
+  const SoftSums sums = state.evaluate(force);
+  ContactNetwork &net = out.contacts;
+  net.coordination.assign(state.n(), 0);
+  jam_relax_report &r = out.report;
+  double mean = 0.0, overlap = 0.0;
+  for (size_t q = 0; q < contacts.size(); ++q) {
+    const size_t k = contacts.pair[q];
+    const int32_t i = state.pairs().i[k], j = state.pairs().j[k];
+    const double sigma = contacts.distance[q] + contacts.overlap[q], h = contacts.overlap[q] / sigma;
+    r.max_overlap = std::max(r.max_overlap, h);
+    if (!on[q]) continue;
+    net.pairs.i.push_back(i), net.pairs.j.push_back(j);
+    net.pairs.offset.insert(net.pairs.offset.end(), &state.pairs().offset[k * d], &state.pairs().offset[k * d] + d);
+    net.vector.insert(net.vector.end(), &contacts.normal[q * d], &contacts.normal[q * d] + d);
+    net.gap.push_back(-h);
+    net.force.push_back(contacts.force[q]);
+    net.stiffness.push_back(state.energy().stiffness(contacts.overlap[q], contacts.force[q]));
+    net.prestress.push_back(contacts.force[q] / contacts.distance[q]);
+    ++net.coordination[i], ++net.coordination[j];
+    mean += contacts.force[q];
+    overlap += h;
+  }
+  const auto count = static_cast<double>(net.size());
+  double scale = 0.0;
+  for (size_t k = 0; k < net.size(); ++k) {
+    const double r2 = net.force[k] / net.prestress[k];  // distance
+    const double sigma = r2 / (1.0 + net.gap[k]);
+    net.force[k] *= count / mean;
+    scale += net.force[k] * sigma * sigma / r2;
+  }
+  net.force_scale = scale > 0.0 ? 1.0 / scale : 0.0;
+
+  double worst = 0.0;
+  for (size_t i = 0; i < state.n(); ++i) {
+    if (net.coordination[i] == 0) continue;
+    double f2 = 0.0;
+    for (int c = 0; c < d; ++c) f2 += force[i * d + c] * force[i * d + c];
+    worst = std::max(worst, f2);
+    ++r.stable;
+  }
+  r.minimiser = minimiser;
+  r.contacts = static_cast<int64_t>(net.size());
+  r.rattlers = static_cast<int64_t>(state.n()) - r.stable;
+  r.excess_contacts = r.stable > 0 ? r.contacts - (d * (r.stable - 1) + 1) : 0;
+  r.force_residual = r.contacts > 0 ? std::sqrt(worst) * count / mean : 0.0;
+  r.energy = sums.energy;
+  r.pressure = sums.virial / (d * std::pow(state.base().box, d));
+  r.packing_fraction = packing_fraction(state.base());
+  r.distance = sums.distance(state.energy().alpha());
+  r.jammed_fraction = r.packing_fraction * std::pow(1.0 - r.distance, d);
+  r.coordination = r.stable > 0 ? 2.0 * count / static_cast<double>(r.stable) : 0.0;
+  r.mean_overlap = r.contacts > 0 ? overlap / count : 0.0;
+  return out;
+}
+
+}  // namespace jam

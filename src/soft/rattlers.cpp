@@ -1,0 +1,59 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/pair_rule.hpp"
+#include "soft/relaxation.hpp"
+
+namespace jam {
+namespace {
+
+// The centre of a cage by steps away from the nearest neighbour, each a little shorter than the one before: in mean
+// diameters, from the first one on. A gap this wide is enough.
+constexpr double first_step = 0.1, step_factor = 0.9, wide_gap = 0.05;
+constexpr int sweeps = 120;
+
+}  // namespace
+
+void centre_rattlers(SoftState &state) {
+  const int d = state.dim();
+  const SoftContacts contacts = state.contacts();
+  const std::vector<char> on = stable_contacts(state, contacts);
+  std::vector<char> rattler(state.n(), 1);
+  for (size_t q = 0; q < contacts.size(); ++q)
+    if (on[q]) rattler[state.pairs().i[contacts.pair[q]]] = rattler[state.pairs().j[contacts.pair[q]]] = 0;
+  Packing p = state.packing();
+  const double mean = state.diameter_mean();
+  const PairList pairs = find_pairs(p, 0.5 * mean, 1.0);
+  std::vector<std::vector<size_t>> of(state.n());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k]) continue;
+    if (rattler[pairs.i[k]]) of[pairs.i[k]].push_back(k);
+    if (rattler[pairs.j[k]]) of[pairs.j[k]].push_back(k);
+  }
+  const std::vector<double> start = p.position;
+  std::vector<double> best = start, widest(state.n(), -std::numeric_limits<double>::infinity());
+  double step = first_step * mean, r[JAM_MAX_DIM];
+  for (int sweep = 0; sweep < sweeps; ++sweep, step *= step_factor)
+    for (size_t i = 0; i < state.n(); ++i) {
+      if (of[i].empty()) continue;
+      double least = std::numeric_limits<double>::infinity(), away[JAM_MAX_DIM] = {};
+      for (const size_t k : of[i]) {
+        const double length = std::sqrt(pair_vector(p, pairs, k, r));
+        const double gap = length - contact_distance(p, pairs.i[k], pairs.j[k]);
+        if (!(gap < least) || !(length > 0.0)) continue;
+        least = gap;
+        const double sign = static_cast<size_t>(pairs.i[k]) == i ? 1.0 : -1.0;
+        for (int c = 0; c < d; ++c) away[c] = sign * r[c] / length;
+      }
+      if (least > widest[i]) {
+        widest[i] = least;
+        std::copy_n(&p.position[i * d], d, &best[i * d]);
+      }
+      if (least > wide_gap * mean) continue;
+      for (int c = 0; c < d; ++c) p.position[i * d + c] += step * away[c];
+    }
+  for (size_t k = 0; k < start.size(); ++k) state.displacement()[k] += best[k] - start[k];
+}
+
+}  // namespace jam

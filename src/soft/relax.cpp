@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "soft/decompression.hpp"
+
+namespace jam {
+
+jam_relax_options default_relax_options() {
+  jam_relax_options o{};
+  o.struct_size = sizeof o;
+  o.minimiser = JAM_MINIMISER_NEWTON;
+  o.scale = JAM_SOFT_RELATIVE;
+  o.precision = JAM_SOFT_REFERENCE;
+  o.alpha = 2.0;
+  o.force_tolerance = 1e-12;
+  o.max_evaluations = 1000000;
+  o.wall_time = std::numeric_limits<double>::infinity();
+  return o;
+}
+
+void check_relax_options(const jam_relax_options &o) {
+  if (o.minimiser < JAM_MINIMISER_NEWTON || o.minimiser > JAM_MINIMISER_LBFGS)
+    fail(JAM_E_ARGUMENT, "minimiser is %d, not a jam_minimiser", o.minimiser);
+  if (o.scale < JAM_SOFT_RELATIVE || o.scale > JAM_SOFT_BARE)
+    fail(JAM_E_ARGUMENT, "scale is %d, not a jam_soft_scale", o.scale);
+  if (o.precision != JAM_SOFT_REFERENCE && o.precision != JAM_SOFT_DOUBLE)
+    fail(JAM_E_ARGUMENT, "precision is %d, not a jam_soft_precision", o.precision);
+  if (!(o.alpha > 1.0) || !std::isfinite(o.alpha))
+    fail(JAM_E_ARGUMENT, "alpha is %g, it must be finite and above 1", o.alpha);
+  if (!(o.force_tolerance > 0.0)) fail(JAM_E_ARGUMENT, "force_tolerance is %g, it must be positive", o.force_tolerance);
+  if (o.max_evaluations < 1)
+    fail(JAM_E_ARGUMENT, "max_evaluations is %lld, it must be at least 1", static_cast<long long>(o.max_evaluations));
+  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+}
+
+DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum) {
+  switch (minimiser) {
+    case JAM_MINIMISER_FIRE:
+      return fire(r, tolerance);
+    case JAM_MINIMISER_LBFGS:
+      return lbfgs(r, tolerance);
+    default:
+      return hybrid(r, tolerance, near_minimum);
+  }
+}
+
+jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reason) {
+  switch (end) {
+    case DescentEnd::balanced:
+      stop_reason = JAM_STOP_CONVERGED;
+      return JAM_OK;
+    case DescentEnd::no_overlaps:
+      stop_reason = JAM_STOP_UNJAMMED;
+      return JAM_NOT_JAMMED;
+    case DescentEnd::limit:
+      stop_reason = JAM_STOP_EVALUATIONS;
+      return JAM_LIMIT;
+    case DescentEnd::interrupted:
+      stop_reason = monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+      return monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
+    case DescentEnd::stalled:
+      break;
+  }
+  stop_reason = JAM_STOP_STALLED;
+  return JAM_NOT_CONVERGED;
+}
+
+double overlap_resolution(const Packing &p) {
+  return 8.0 * std::numeric_limits<double>::epsilon() * p.box / *std::min_element(p.diameter.begin(), p.diameter.end());
+}
+
+SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
+  check_relax_options(o);
+  monitor.wall_time = o.wall_time;
+  SoftState state(start, PairEnergy(o.alpha, o.scale), o.precision);
+  Effort effort;
+  effort.monitor = &monitor;
+  effort.phase = JAM_PHASE_RELAX;
+  effort.max_evaluations = o.max_evaluations;
+  effort.packing_fraction = packing_fraction(start);
+  effort.pressure = std::nan("");
+  Relaxation r(state, effort);
+  const DescentEnd end = minimise(r, o.minimiser, o.force_tolerance, false);
+  SoftResult out = measure(state, o.minimiser);
+  out.status = status_of(end, monitor, out.report.stop_reason);
+  out.report.converged = end == DescentEnd::balanced || end == DescentEnd::no_overlaps;
+  if (end == DescentEnd::balanced && out.report.mean_overlap < overlap_resolution(out.packing)) {
+    out.status = JAM_PRECISION;
+    out.report.stop_reason = JAM_STOP_PRECISION;
+  }
+  out.report.evaluations = effort.evaluations;
+  out.report.factorisations = effort.factorisations;
+  out.report.seconds = monitor.seconds();
+  return out;
+}
+
+}  // namespace jam

@@ -1,0 +1,64 @@
+#include "soft/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+namespace {
+
+double largest(const std::vector<double> &force, int d, const std::vector<char> *of) {
+  double most = 0.0;
+  for (size_t i = 0; i < force.size() / static_cast<size_t>(d); ++i) {
+    if (of && !(*of)[i]) continue;
+    double f2 = 0.0;
+    for (int c = 0; c < d; ++c) f2 += force[i * d + c] * force[i * d + c];
+    most = std::max(most, f2);
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+double Relaxation::residual() const {
+  const double mean = sums.mean_force();
+  return mean > 0.0 ? largest(force, state.dim(), nullptr) / mean : 0.0;
+}
+
+double Relaxation::stable_residual() const {
+  const SoftContacts contacts = state.contacts();
+  const std::vector<char> on = stable_contacts(state, contacts);
+  std::vector<char> stable(state.n(), 0);
+  double sum = 0.0;
+  int64_t count = 0;
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    if (!on[k]) continue;
+    stable[state.pairs().i[contacts.pair[k]]] = stable[state.pairs().j[contacts.pair[k]]] = 1;
+    sum += contacts.force[k];
+    ++count;
+  }
+  if (count == 0) return residual();
+  return largest(force, state.dim(), &stable) * static_cast<double>(count) / sum;
+}
+
+bool Relaxation::must_stop(DescentEnd &end) const {
+  if (effort.evaluations >= effort.max_evaluations) {
+    end = DescentEnd::limit;
+    return true;
+  }
+  if (effort.monitor && effort.evaluations % 64 == 0) {
+    jam_progress p{};
+    p.phase = effort.phase;
+    p.packing_fraction = effort.packing_fraction;
+    p.pressure = effort.pressure;
+    p.steps = effort.steps;
+    p.factorisations = effort.factorisations;
+    p.gain = p.max_step = p.fraction = std::nan("");
+    if (effort.monitor->report(p) || effort.monitor->interrupted()) {
+      end = DescentEnd::interrupted;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace jam

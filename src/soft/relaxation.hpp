@@ -1,0 +1,64 @@
+// Minimising the energy of soft spheres. Data flow:
+//   state -> FIRE | L-BFGS until contacts settle -> Newton on the stable spheres -> balance of forces
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/monitor.hpp"
+#include "soft/soft_state.hpp"
+
+namespace jam {
+
+// Why a descent ended.
+enum class DescentEnd {
+  balanced,     // max |F_i| over the mean force is below the tolerance
+  no_overlaps,  // the energy is 0
+  limit,        // evaluations are used up
+  interrupted,  // cancelled, or wall time is over
+  stalled       // the method made no progress
+};
+
+// What has been spent, and when to stop; shared by all parts of a call.
+struct Effort {
+  Monitor *monitor = nullptr;
+  int32_t phase = 0;            // jam_phase that is reported
+  int64_t max_evaluations = 0;  // counted from where `evaluations` was set
+  int64_t evaluations = 0, factorisations = 0;
+  int64_t steps = 0;
+  double packing_fraction = 0.0, pressure = 0.0;  // reported
+};
+
+// A state, its forces and sums at the present displacements.
+class Relaxation {
+ public:
+  Relaxation(SoftState &state, Effort &effort) : state(state), effort(effort) { evaluate(); }
+
+  // Takes in changed displacements.
+  void evaluate() {
+    state.moved();
+    sums = state.evaluate(force);
+    ++effort.evaluations;
+  }
+  // Largest |F_i| over the mean force: of all spheres, and of stable ones.
+  double residual() const;
+  double stable_residual() const;
+  // Called once an evaluation: true when the descent must end, with the reason in `end`.
+  bool must_stop(DescentEnd &end) const;
+
+  SoftState &state;
+  Effort &effort;
+  std::vector<double> force;  // (n, dim)
+  SoftSums sums;
+};
+
+// Each minimises until max |F_i| of stable spheres over the mean force is below the tolerance.
+DescentEnd fire(Relaxation &r, double tolerance);
+DescentEnd lbfgs(Relaxation &r, double tolerance);
+// near_minimum: begins with Newton's method.
+DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum = false);
+
+// Moves every sphere that has fewer than d + 1 contacts to where its nearest neighbours are as far as they can be.
+// Spheres that first-order methods leave against their cage flicker between contact and none, and stop Newton's method.
+void centre_rattlers(SoftState &state);
+
+}  // namespace jam

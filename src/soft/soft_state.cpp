@@ -1,0 +1,199 @@
+#include "soft/soft_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair_rule.hpp"
+#include "linalg/double_double.hpp"
+#include "network/contact_network.hpp"
+
+namespace jam {
+namespace {
+
+// Reach of the neighbour list beyond contact, mean diameters: it grows where lists are made anew within few
+// evaluations.
+constexpr double shortest_skin = 0.1, longest_skin = 0.4;
+// Stands for the square of a distance of 0.
+constexpr double tiny = 1e-280;
+constexpr int64_t few_evaluations = 25, many_evaluations = 250;
+
+}  // namespace
+
+SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precision)
+    : base_(p),
+      energy_(energy),
+      precision_(precision),
+      diameter_mean_(jam::diameter_mean(p)),
+      skin_(shortest_skin * diameter_mean_),
+      displacement_(p.position.size(), 0.0) {
+  rebase();
+}
+
+void SoftState::rebase() {
+  for (size_t k = 0; k < displacement_.size(); ++k) {
+    DoubleDouble x = two_sum(base_.position[k], displacement_[k]);
+    const double inside = wrap(x.high, base_.box);
+    if (inside != x.high) {  // by whole boxes, and nothing of the low part is lost
+      const double boxes = std::nearbyint((x.high - inside) / base_.box);
+      x = x - two_product(boxes, base_.box);
+      if (!(x.high >= 0.0 && x.high < base_.box)) x = wrap(x.high, base_.box);
+    }
+    base_.position[k] = x.high;
+    displacement_[k] = precision_ == JAM_SOFT_DOUBLE ? 0.0 : x.low;
+  }
+  diameter_mean_ = jam::diameter_mean(base_);
+  pairs_ = find_pairs(base_, skin_, 1.0);
+  uses_ = 0;
+  take_references();
+}
+
+void SoftState::take_references() {
+  const int d = base_.dim;
+  const size_t m = pairs_.size();
+  vector_.resize(m * d), reference_.resize(m), sigma_.resize(m), inverse_.resize(m);
+  for (size_t k = 0; k < m; ++k) {
+    const int32_t i = pairs_.i[k], j = pairs_.j[k];
+    const double *a = &base_.position[static_cast<size_t>(i) * d], *b = &base_.position[static_cast<size_t>(j) * d];
+    const DoubleDouble sigma = contact_distance<DoubleDouble>(base_, i, j);
+    DoubleDouble q = sigma * sigma;
+    for (int c = 0; c < d; ++c) {
+      const DoubleDouble r = two_sum(a[c], -b[c]) + DoubleDouble(pairs_.offset[k * d + c]);
+      vector_[k * d + c] = static_cast<double>(r);
+      q = q - r * r;
+    }
+    sigma_[k] = static_cast<double>(sigma);
+    inverse_[k] = 1.0 / sigma_[k];
+    reference_[k] = static_cast<double>(q);
+  }
+}
+
+bool SoftState::moved() {
+  ++uses_;
+  double most = 0.0;
+  const int d = base_.dim;
+  for (size_t i = 0; i < n(); ++i) {
+    double u2 = 0.0;
+    for (int c = 0; c < d; ++c) u2 += displacement_[i * d + c] * displacement_[i * d + c];
+    most = std::max(most, u2);
+  }
+  if (!(4.0 * most >= skin_ * skin_)) return false;
+  if (uses_ < few_evaluations) skin_ = std::min(1.5 * skin_, longest_skin * diameter_mean_);
+  if (uses_ > many_evaluations) skin_ = std::max(0.5 * skin_, shortest_skin * diameter_mean_);
+  rebase();
+  return true;
+}
+
+void SoftState::scale_diameters(double factor) {
+  for (double &s : base_.diameter) s *= factor;
+  rebase();
+}
+
+Packing SoftState::packing() const {
+  Packing p = base_;
+  for (size_t k = 0; k < p.position.size(); ++k) p.position[k] = wrap(p.position[k] + displacement_[k], p.box);
+  return p;
+}
+
+// One pair at the present displacements: its overlap (sigma + r), positive where spheres overlap, and r_ij.
+template <int D>
+inline double overlap_square(int dim, const double *r0, double reference, const double *ui, const double *uj,
+                             double *r) {
+  double change = 0.0;
+  for (int c = 0; c < (D ? D : dim); ++c) {
+    const double du = ui[c] - uj[c];
+    r[c] = r0[c] + du;
+    change += du * (r0[c] + r[c]);
+  }
+  return reference - change;
+}
+
+// The same from coordinates rounded to doubles, for comparison alone.
+template <int D>
+inline double overlap_square_plain(int dim, const double *xi, const double *xj, const double *offset, double sigma,
+                                   const double *ui, const double *uj, double *r) {
+  double r2 = 0.0;
+  for (int c = 0; c < (D ? D : dim); ++c) {
+    r[c] = ((xi[c] + ui[c]) - (xj[c] + uj[c])) + offset[c];
+    r2 += r[c] * r[c];
+  }
+  const double length = std::sqrt(r2);
+  return (sigma - length) * (sigma + length);
+}
+
+template <int D>
+SoftSums SoftState::evaluate_in(std::vector<double> &force) const {
+  const int d = D ? D : base_.dim;
+  SoftSums sums;
+  std::fill(force.begin(), force.end(), 0.0);
+  const bool plain = precision_ == JAM_SOFT_DOUBLE;
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < reference_.size(); ++k) {
+    const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
+    const double sigma = sigma_[k];
+    const double q =
+        plain ? overlap_square_plain<D>(d, &base_.position[i], &base_.position[j], &pairs_.offset[k * d], sigma,
+                                        &displacement_[i], &displacement_[j], r)
+              : overlap_square<D>(d, &vector_[k * d], reference_[k], &displacement_[i], &displacement_[j], r);
+    if (!(q > 0.0)) continue;
+    double r2 = 0.0;
+    for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
+    if (!(r2 > 0.0)) r2 = tiny;  // the same centre: no direction to push in
+    const double length = std::sqrt(r2), sum = sigma + length, both = 1.0 / (length * sum);
+    const double delta = q * length * both, f = energy_.force(delta, inverse_[k]);
+    sums.energy += energy_.value(delta, f);
+    sums.virial += f * length;
+    sums.force += f;
+    sums.overlap += delta;
+    ++sums.contacts;
+    const double push = f * sum * both;
+    for (int c = 0; c < d; ++c) {
+      const double x = push * r[c];
+      force[i + c] += x;
+      force[j + c] -= x;
+    }
+  }
+  return sums;
+}
+
+SoftSums SoftState::evaluate(std::vector<double> &force) const {
+  force.resize(displacement_.size());
+  return base_.dim == 2 ? evaluate_in<2>(force) : base_.dim == 3 ? evaluate_in<3>(force) : evaluate_in<0>(force);
+}
+
+SoftContacts SoftState::contacts() const {
+  const int d = base_.dim;
+  SoftContacts out;
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < reference_.size(); ++k) {
+    const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
+    const double q =
+        precision_ == JAM_SOFT_DOUBLE
+            ? overlap_square_plain<0>(d, &base_.position[i], &base_.position[j], &pairs_.offset[k * d], sigma_[k],
+                                      &displacement_[i], &displacement_[j], r)
+            : overlap_square<0>(d, &vector_[k * d], reference_[k], &displacement_[i], &displacement_[j], r);
+    if (!(q > 0.0)) continue;
+    double r2 = 0.0;
+    for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
+    const double length = std::sqrt(r2), delta = q / (sigma_[k] + length);
+    if (!(length > 0.0)) continue;
+    out.pair.push_back(k);
+    out.overlap.push_back(delta);
+    out.force.push_back(energy_.force(delta, inverse_[k]));
+    out.distance.push_back(length);
+    for (int c = 0; c < d; ++c) out.normal.push_back(r[c] / length);
+  }
+  return out;
+}
+
+std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &contacts) {
+  PairList list;
+  std::vector<char> on;
+  for (const size_t k : contacts.pair) {
+    list.i.push_back(state.pairs().i[k]), list.j.push_back(state.pairs().j[k]);
+    on.push_back(list.i.back() != list.j.back());  // an image of the same sphere holds nothing
+  }
+  drop_loose(list, on, state.n(), state.dim());
+  return on;
+}
+
+}  // namespace jam

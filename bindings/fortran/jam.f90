@@ -49,10 +49,13 @@ module jam
   integer(c_int32_t), parameter :: JAM_STOP_SOLVER = 10
   integer(c_int32_t), parameter :: JAM_STOP_UNJAMMED = 11
   integer(c_int32_t), parameter :: JAM_STOP_TIME = 12
+  integer(c_int32_t), parameter :: JAM_STOP_EVALUATIONS = 13
+  integer(c_int32_t), parameter :: JAM_STOP_STEPS = 14
 
   ! jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
   integer(c_int32_t), parameter :: JAM_OVERLAP_REFUSE = 0
   integer(c_int32_t), parameter :: JAM_OVERLAP_SHRINK = 1
+  integer(c_int32_t), parameter :: JAM_OVERLAP_ALLOW = 2
 
   ! jam_model: Pair distance. @since 0.1
   integer(c_int32_t), parameter :: JAM_MODEL_EUCLID = 0
@@ -68,6 +71,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_PHASE_CRUNCH = 3
   integer(c_int32_t), parameter :: JAM_PHASE_POLISH = 4
   integer(c_int32_t), parameter :: JAM_PHASE_ANALYSE = 5
+  integer(c_int32_t), parameter :: JAM_PHASE_RELAX = 6
+  integer(c_int32_t), parameter :: JAM_PHASE_DECOMPRESS = 7
   integer(c_int32_t), parameter :: JAM_PHASE_MONTE_CARLO = 8
   integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
 
@@ -159,10 +164,38 @@ module jam
   integer(c_int32_t), parameter :: JAM_HISTORY_PART = 16
   integer(c_int32_t), parameter :: JAM_HISTORY_BOUND = 17
 
+  ! jam_soft_scale: Factor c and length l of the energy. @since 0.1
+  integer(c_int32_t), parameter :: JAM_SOFT_RELATIVE = 0
+  integer(c_int32_t), parameter :: JAM_SOFT_ABSOLUTE = 1
+  integer(c_int32_t), parameter :: JAM_SOFT_BARE = 2
+
+  ! jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1
+  integer(c_int32_t), parameter :: JAM_MINIMISER_NEWTON = 0
+  integer(c_int32_t), parameter :: JAM_MINIMISER_FIRE = 1
+  integer(c_int32_t), parameter :: JAM_MINIMISER_LBFGS = 2
+
+  ! jam_soft_precision: How the overlap of a pair is computed. @since 0.1
+  integer(c_int32_t), parameter :: JAM_SOFT_REFERENCE = 0
+  integer(c_int32_t), parameter :: JAM_SOFT_DOUBLE = 1
+
+  ! jam_soft_column: Columns of the history of a decompression, a row a minimum. @since 0.1
+  integer(c_int32_t), parameter :: JAM_SOFT_PHI = 0
+  integer(c_int32_t), parameter :: JAM_SOFT_PRESSURE = 1
+  integer(c_int32_t), parameter :: JAM_SOFT_ENERGY = 2
+  integer(c_int32_t), parameter :: JAM_SOFT_COORDINATION = 3
+  integer(c_int32_t), parameter :: JAM_SOFT_DISTANCE = 4
+  integer(c_int32_t), parameter :: JAM_SOFT_EXCESS = 5
+  integer(c_int32_t), parameter :: JAM_SOFT_RATTLERS = 6
+  integer(c_int32_t), parameter :: JAM_SOFT_RESIDUAL = 7
+  integer(c_int32_t), parameter :: JAM_SOFT_EVALUATIONS = 8
+  integer(c_int32_t), parameter :: JAM_SOFT_FACTORISATIONS = 9
+  integer(c_int32_t), parameter :: JAM_SOFT_SECONDS = 10
+
   ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
   integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARD = 2
+  integer(c_int32_t), parameter :: JAM_STIFFNESS_SOFT = 3
 
   ! jam_modes_which: Which modes. @since 0.1
   integer(c_int32_t), parameter :: JAM_MODES_LOWEST = 0
@@ -654,6 +687,155 @@ module jam
     real(c_double) :: seconds = 0
   end type jam_estimate
 
+  ! Options of jam_relax. @since 0.1
+  type, bind(c) :: jam_relax_options
+    ! sizeof(jam_relax_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! jam_minimiser, default NEWTON
+    integer(c_int32_t) :: minimiser = 0
+    ! jam_soft_scale, default RELATIVE
+    integer(c_int32_t) :: scale = 0
+    ! jam_soft_precision, default REFERENCE
+    integer(c_int32_t) :: precision = 0
+    ! exponent of the energy, > 1, default 2
+    real(c_double) :: alpha = 0
+    ! on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12
+    real(c_double) :: force_tolerance = 0
+    ! of the forces, >= 1, default 1e6
+    integer(c_int64_t) :: max_evaluations = 0
+    ! limit in seconds, > 0, default infinity
+    real(c_double) :: wall_time = 0
+  end type jam_relax_options
+
+  ! What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
+  ! again and again; stable spheres are the others. @since 0.1
+  type, bind(c) :: jam_relax_report
+    ! set by the caller: sizeof(jam_relax_report)
+    integer(c_int32_t) :: struct_size = 144
+    ! 1: force_residual is below force_tolerance, or no spheres overlap
+    integer(c_int32_t) :: converged = 0
+    ! jam_stop_reason
+    integer(c_int32_t) :: stop_reason = 0
+    ! jam_minimiser
+    integer(c_int32_t) :: minimiser = 0
+    ! max |F_i| of stable spheres over the mean contact force; 0 without contacts
+    real(c_double) :: force_residual = 0
+    ! U, unit epsilon
+    real(c_double) :: energy = 0
+    ! sum of f r over d V, unit epsilon / length^d
+    real(c_double) :: pressure = 0
+    ! of the diameters, overlaps counted twice
+    real(c_double) :: packing_fraction = 0
+    ! alpha U / sum of f r, an estimate of ln(R / R_J)
+    real(c_double) :: distance = 0
+    ! phi (1 - distance)^d, an estimate of phi_J
+    real(c_double) :: jammed_fraction = 0
+    ! mean number of contacts of a stable sphere
+    real(c_double) :: coordination = 0
+    ! mean of (sigma - r) / sigma over contacts of stable spheres
+    real(c_double) :: mean_overlap = 0
+    ! largest of all pairs
+    real(c_double) :: max_overlap = 0
+    ! overlapping pairs of stable spheres
+    integer(c_int64_t) :: contacts = 0
+    ! contacts - (d (stable - 1) + 1)
+    integer(c_int64_t) :: excess_contacts = 0
+    ! n - rattlers
+    integer(c_int64_t) :: stable = 0
+    ! spheres left out
+    integer(c_int64_t) :: rattlers = 0
+    ! of the forces
+    integer(c_int64_t) :: evaluations = 0
+    ! of the Hessian
+    integer(c_int64_t) :: factorisations = 0
+    ! wall time
+    real(c_double) :: seconds = 0
+  end type jam_relax_report
+
+  ! Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1
+  type, bind(c) :: jam_decompress_options
+    ! sizeof(jam_decompress_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! jam_minimiser, default NEWTON
+    integer(c_int32_t) :: minimiser = 0
+    ! jam_soft_scale, default RELATIVE
+    integer(c_int32_t) :: scale = 0
+    ! jam_soft_precision, default REFERENCE
+    integer(c_int32_t) :: precision = 0
+    ! exponent of the energy, > 1, default 2
+    real(c_double) :: alpha = 0
+    ! as in jam_relax_options, default 1e-12
+    real(c_double) :: force_tolerance = 0
+    ! U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed
+    real(c_double) :: energy_factor = 0
+    ! target, as jam_relax_report.pressure, >= 0, default 0: none
+    real(c_double) :: pressure = 0
+    ! target, as jam_relax_report.distance, >= 0, default 0: none
+    real(c_double) :: distance = 0
+    ! 1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes
+    integer(c_int32_t) :: isostatic = 0
+    ! 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
+    integer(c_int32_t) :: crunch = 0
+    ! >= 1, default 1000
+    integer(c_int32_t) :: max_steps = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! of the forces, in one step, >= 1, default 1e6
+    integer(c_int64_t) :: max_evaluations = 0
+    ! limit in seconds, > 0, default infinity
+    real(c_double) :: wall_time = 0
+  end type jam_decompress_options
+
+  ! What jam_decompress found. @since 0.1
+  type, bind(c) :: jam_decompress_report
+    ! set by the caller: sizeof(jam_decompress_report)
+    integer(c_int32_t) :: struct_size = 168
+    ! jam_stop_reason
+    integer(c_int32_t) :: stop_reason = 0
+    ! 1: contacts of one state of self-stress and d zero modes of the Hessian
+    integer(c_int32_t) :: isostatic = 0
+    ! 1: crunch ended with the same contacts; -1: crunch was not run
+    integer(c_int32_t) :: same_network = 0
+    ! these as in jam_relax_report, of the last soft packing
+    real(c_double) :: force_residual = 0
+    ! U
+    real(c_double) :: energy = 0
+    ! epsilon / length^d
+    real(c_double) :: pressure = 0
+    ! of the soft packing
+    real(c_double) :: packing_fraction = 0
+    ! estimate of ln(R / R_J)
+    real(c_double) :: distance = 0
+    ! estimate of phi_J
+    real(c_double) :: jammed_fraction = 0
+    ! phi_J by crunch; NaN when it was not run
+    real(c_double) :: crunch_fraction = 0
+    ! largest |f_soft - f_crunch| over the mean force; NaN without the same network
+    real(c_double) :: force_difference = 0
+    ! mean number of contacts of a stable sphere
+    real(c_double) :: coordination = 0
+    ! overlapping pairs of stable spheres
+    integer(c_int64_t) :: contacts = 0
+    ! contacts - (d (stable - 1) + 1)
+    integer(c_int64_t) :: excess_contacts = 0
+    ! with crunch; -1 when it was not run
+    integer(c_int64_t) :: common_contacts = 0
+    ! spheres left out
+    integer(c_int64_t) :: rattlers = 0
+    ! of the decompression
+    integer(c_int64_t) :: steps = 0
+    ! steps taken back because they lost the network
+    integer(c_int64_t) :: restored = 0
+    ! of the forces
+    integer(c_int64_t) :: evaluations = 0
+    ! of the Hessian, crunch not counted
+    integer(c_int64_t) :: factorisations = 0
+    ! wall time
+    real(c_double) :: seconds = 0
+    ! of it in crunch
+    real(c_double) :: seconds_crunch = 0
+  end type jam_decompress_report
+
   ! Options of all calls that use a Hessian. @since 0.1
   type, bind(c) :: jam_hessian_options
     ! sizeof(jam_hessian_options)
@@ -795,8 +977,9 @@ module jam
   interface jam_defaults
     module procedure default_create_options, default_run_options, default_compress_options, &
       default_observe_options, default_monte_carlo_options, default_isoconf_options, &
-      default_crunch_options, default_hessian_options, default_modes_options, &
-      default_geometry_options, default_dos_options
+      default_crunch_options, default_relax_options, default_decompress_options, &
+      default_hessian_options, default_modes_options, default_geometry_options, &
+      default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -1477,6 +1660,68 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crunch_step_duals
 
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_relax_options_init(o, size) &
+        bind(c, name="jam_relax_options_init") result(status)
+      import
+      type(jam_relax_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_relax_options_init
+
+    ! Minimises the energy of overlapping spheres at fixed diameters and box, and keeps the contact network with its forces
+    ! and stiffnesses (jam_contacts, jam_forces, jam_hessian with JAM_STIFFNESS_SOFT, ...). The system must have been made
+    ! with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may
+    ! be NULL. Example: examples/c/soft.c Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps);
+    ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT,
+    ! JAM_CANCELLED: the state is the best so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made
+    ! without JAM_OVERLAP_ALLOW), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_relax(sys, o, report) &
+        bind(c, name="jam_relax") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_relax_options), intent(in), optional :: o
+      type(jam_relax_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_relax
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_decompress_options_init(o, size) &
+        bind(c, name="jam_decompress_options_init") result(status)
+      import
+      type(jam_decompress_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_decompress_options_init
+
+    ! From overlapping spheres down to jamming: minimises, shrinks all diameters by one factor so that the energy falls by
+    ! energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
+    ! taken back and its square root is tried. report may be NULL. Status: JAM_OK a target was reached (with isostatic and
+    ! crunch: one network by both ways); JAM_NOT_JAMMED the start has no overlaps at its minimum; JAM_PRECISION overlaps
+    ! came down to the rounding of positions before; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
+    ! Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1
+    function jam_decompress(sys, o, report) &
+        bind(c, name="jam_decompress") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_decompress_options), intent(in), optional :: o
+      type(jam_decompress_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_decompress
+
+    ! One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+    ! JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+    function jam_decompress_history(sys, column, out, out_len, needed) &
+        bind(c, name="jam_decompress_history") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: column
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_decompress_history
+
     ! Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
     ! Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1
     function jam_contacts(sys, iout, iout_len, needed) &
@@ -2154,6 +2399,16 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_step_duals
+    function c_jam_decompress_history(sys, column, out, out_len, needed) &
+        bind(c, name="jam_decompress_history") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: column
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_decompress_history
     function c_jam_contacts(sys, iout, iout_len, needed) &
         bind(c, name="jam_contacts") result(status)
       import
@@ -2554,6 +2809,11 @@ module jam
     module procedure f_jam_crunch_step_duals
   end interface jam_crunch_step_duals
 
+  interface jam_decompress_history
+    procedure jam_decompress_history
+    module procedure f_jam_decompress_history
+  end interface jam_decompress_history
+
   interface jam_contacts
     procedure jam_contacts
     module procedure f_jam_contacts
@@ -2706,6 +2966,7 @@ module jam
   private :: c_jam_crunch_step_contacts, f_jam_crunch_step_contacts
   private :: c_jam_crunch_step_vectors, f_jam_crunch_step_vectors
   private :: c_jam_crunch_step_duals, f_jam_crunch_step_duals
+  private :: c_jam_decompress_history, f_jam_decompress_history
   private :: c_jam_contacts, f_jam_contacts
   private :: c_jam_contact_vectors, f_jam_contact_vectors
   private :: c_jam_contact_gaps, f_jam_contact_gaps
@@ -3195,6 +3456,22 @@ contains
     end if
     status = c_jam_crunch_step_duals(sys, at_out, count_out)
   end function f_jam_crunch_step_duals
+
+  function f_jam_decompress_history(sys, column, out) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: column
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    status = c_jam_decompress_history(sys, column, at_out, count_out)
+  end function f_jam_decompress_history
 
   function f_jam_contacts(sys, iout) result(status)
     type(c_ptr), intent(in) :: sys
@@ -3767,6 +4044,18 @@ contains
     integer(c_int32_t) :: status
     status = jam_crunch_options_init(o, c_sizeof(o))
   end subroutine default_crunch_options
+
+  subroutine default_relax_options(o)
+    type(jam_relax_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_relax_options_init(o, c_sizeof(o))
+  end subroutine default_relax_options
+
+  subroutine default_decompress_options(o)
+    type(jam_decompress_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_decompress_options_init(o, c_sizeof(o))
+  end subroutine default_decompress_options
 
   subroutine default_hessian_options(o)
     type(jam_hessian_options), intent(out) :: o

@@ -187,6 +187,43 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @sinc
   ~jam_estimate() { free($self); }
 }
 %feature("docstring") jam_estimate "Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1"
+%extend jam_relax_options {
+  jam_relax_options() {
+    jam_relax_options *made = (jam_relax_options *)calloc(1, sizeof *made);
+    if (made) { jam_relax_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_relax_options() { free($self); }
+}
+%feature("docstring") jam_relax_options "Options of jam_relax. @since 0.1"
+%extend jam_relax_report {
+  jam_relax_report() {
+    jam_relax_report *made = (jam_relax_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_relax_report() { free($self); }
+}
+%feature("docstring") jam_relax_report "What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
+again and again; stable spheres are the others. @since 0.1"
+%extend jam_decompress_options {
+  jam_decompress_options() {
+    jam_decompress_options *made = (jam_decompress_options *)calloc(1, sizeof *made);
+    if (made) { jam_decompress_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_decompress_options() { free($self); }
+}
+%feature("docstring") jam_decompress_options "Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1"
+%extend jam_decompress_report {
+  jam_decompress_report() {
+    jam_decompress_report *made = (jam_decompress_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_decompress_report() { free($self); }
+}
+%feature("docstring") jam_decompress_report "What jam_decompress found. @since 0.1"
 %extend jam_hessian_options {
   jam_hessian_options() {
     jam_hessian_options *made = (jam_hessian_options *)calloc(1, sizeof *made);
@@ -401,6 +438,23 @@ none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 
 %feature("docstring") jam_crunch_step_duals "Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
 sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
 0.1"
+%feature("docstring") jam_relax_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters and box, and keeps the contact network with its forces
+and stiffnesses (jam_contacts, jam_forces, jam_hessian with JAM_STIFFNESS_SOFT, ...). The system must have been made
+with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may
+be NULL. Example: examples/c/soft.c Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps);
+JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT,
+JAM_CANCELLED: the state is the best so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made
+without JAM_OVERLAP_ALLOW), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_decompress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_decompress "From overlapping spheres down to jamming: minimises, shrinks all diameters by one factor so that the energy falls by
+energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
+taken back and its square root is tried. report may be NULL. Status: JAM_OK a target was reached (with isostatic and
+crunch: one network by both ways); JAM_NOT_JAMMED the start has no overlaps at its minimum; JAM_PRECISION overlaps
+came down to the rounding of positions before; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
+Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1"
+%feature("docstring") jam_decompress_history "One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
 %feature("docstring") jam_contacts "Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 %feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since

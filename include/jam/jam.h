@@ -804,8 +804,8 @@ JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, s
 JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ soft spheres */
-/* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha; energies
- * in units of epsilon. Systems that hold overlaps are made with JAM_OVERLAP_ALLOW. */
+/* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha;
+ * energies in units of epsilon. Systems that hold overlaps are made with JAM_OVERLAP_ALLOW. */
 
 /* Factor c and length l of the energy. @since 0.1 */
 typedef enum jam_soft_scale {
@@ -824,8 +824,8 @@ typedef enum jam_minimiser {
 
 /* How the overlap of a pair is computed. @since 0.1 */
 typedef enum jam_soft_precision {
-  JAM_SOFT_REFERENCE = 0, /* from a reference in twice the digits and small displacements: forces balance to 1e-14 at any
-                           * overlap */
+  JAM_SOFT_REFERENCE = 0, /* from a reference in twice the digits and small displacements: forces balance to 1e-14 at
+                           * any overlap */
   JAM_SOFT_DOUBLE = 1     /* from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison */
 } jam_soft_precision;
 
@@ -841,60 +841,59 @@ typedef struct jam_relax_options {
   double wall_time;        /* limit in seconds, > 0, default infinity */
 } jam_relax_options;
 
-/* What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed again
- * and again; stable spheres are the others. @since 0.1 */
+/* What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
+ * again and again; stable spheres are the others. @since 0.1 */
 typedef struct jam_relax_report {
-  uint32_t struct_size;     /* set by the caller: sizeof(jam_relax_report) */
-  int32_t converged;        /* 1: force_residual is below force_tolerance, or no spheres overlap */
-  int32_t stop_reason;      /* jam_stop_reason */
-  int32_t minimiser;        /* jam_minimiser */
-  double force_residual;    /* max |F_i| of stable spheres over the mean contact force; 0 without contacts */
-  double energy;            /* U, unit epsilon */
-  double pressure;          /* sum of f r over d V, unit epsilon / length^d */
-  double packing_fraction;  /* of the diameters, overlaps counted twice */
-  double distance;          /* alpha U / sum of f r, an estimate of ln(R / R_J) */
-  double jammed_fraction;   /* phi (1 - distance)^d, an estimate of phi_J */
-  double coordination;      /* mean number of contacts of a stable sphere */
-  double mean_overlap;      /* mean of (sigma - r) / sigma over contacts of stable spheres */
-  double max_overlap;       /* largest of all pairs */
-  int64_t contacts;         /* overlapping pairs of stable spheres */
-  int64_t excess_contacts;  /* contacts - (d (stable - 1) + 1) */
-  int64_t stable;           /* n - rattlers */
-  int64_t rattlers;         /* spheres left out */
-  int64_t evaluations;      /* of the forces */
-  int64_t factorisations;   /* of the Hessian */
-  double seconds;           /* wall time */
+  uint32_t struct_size;    /* set by the caller: sizeof(jam_relax_report) */
+  int32_t converged;       /* 1: force_residual is below force_tolerance, or no spheres overlap */
+  int32_t stop_reason;     /* jam_stop_reason */
+  int32_t minimiser;       /* jam_minimiser */
+  double force_residual;   /* max |F_i| of stable spheres over the mean contact force; 0 without contacts */
+  double energy;           /* U, unit epsilon */
+  double pressure;         /* sum of f r over d V, unit epsilon / length^d */
+  double packing_fraction; /* of the diameters, overlaps counted twice */
+  double distance;         /* alpha U / sum of f r, an estimate of ln(R / R_J) */
+  double jammed_fraction;  /* phi (1 - distance)^d, an estimate of phi_J */
+  double coordination;     /* mean number of contacts of a stable sphere */
+  double mean_overlap;     /* mean of (sigma - r) / sigma over contacts of stable spheres */
+  double max_overlap;      /* largest of all pairs */
+  int64_t contacts;        /* overlapping pairs of stable spheres */
+  int64_t excess_contacts; /* contacts - (d (stable - 1) + 1) */
+  int64_t stable;          /* n - rattlers */
+  int64_t rattlers;        /* spheres left out */
+  int64_t evaluations;     /* of the forces */
+  int64_t factorisations;  /* of the Hessian */
+  double seconds;          /* wall time */
 } jam_relax_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
 /* Minimises the energy of overlapping spheres at fixed diameters and box, and keeps the contact network with its forces
  * and stiffnesses (jam_contacts, jam_forces, jam_hessian with JAM_STIFFNESS_SOFT, ...). The system must have been made
- * with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may be
- * NULL. Example: examples/c/soft.c
- * Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps); JAM_PRECISION converged, but overlaps
- * are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the best
- * so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW),
- * JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may
+ * be NULL. Example: examples/c/soft.c Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps);
+ * JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT,
+ * JAM_CANCELLED: the state is the best so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made
+ * without JAM_OVERLAP_ALLOW), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
 /* Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1 */
 typedef struct jam_decompress_options {
-  uint32_t struct_size;    /* sizeof(jam_decompress_options) */
-  int32_t minimiser;       /* jam_minimiser, default NEWTON */
-  int32_t scale;           /* jam_soft_scale, default RELATIVE */
-  int32_t precision;       /* jam_soft_precision, default REFERENCE */
-  double alpha;            /* exponent of the energy, > 1, default 2 */
-  double force_tolerance;  /* as in jam_relax_options, default 1e-12 */
-  double energy_factor;    /* U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed */
-  double pressure;         /* target, as jam_relax_report.pressure, >= 0, default 0: none */
-  double distance;         /* target, as jam_relax_report.distance, >= 0, default 0: none */
-  int32_t isostatic;       /* 1 (default): end where contacts are those of one state of self-stress and the Hessian has
-                            * d zero modes */
-  int32_t crunch;          /* 1 (default): then crunch from just below contact, and go on until both have one network;
-                            * the system ends as that jammed packing. 0: it ends as the soft packing */
-  int32_t max_steps;       /* >= 1, default 1000 */
-  int32_t reserved;        /* 0 */
+  uint32_t struct_size;   /* sizeof(jam_decompress_options) */
+  int32_t minimiser;      /* jam_minimiser, default NEWTON */
+  int32_t scale;          /* jam_soft_scale, default RELATIVE */
+  int32_t precision;      /* jam_soft_precision, default REFERENCE */
+  double alpha;           /* exponent of the energy, > 1, default 2 */
+  double force_tolerance; /* as in jam_relax_options, default 1e-12 */
+  double energy_factor; /* U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed */
+  double pressure;      /* target, as jam_relax_report.pressure, >= 0, default 0: none */
+  double distance;      /* target, as jam_relax_report.distance, >= 0, default 0: none */
+  int32_t isostatic;    /* 1 (default): end where contacts are those of one state of self-stress and the Hessian has
+                         * d zero modes */
+  int32_t crunch;       /* 1 (default): then crunch from just below contact, and go on until both have one network;
+                         * the system ends as that jammed packing. 0: it ends as the soft packing */
+  int32_t max_steps;    /* >= 1, default 1000 */
+  int32_t reserved;     /* 0 */
   int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6 */
   double wall_time;        /* limit in seconds, > 0, default infinity */
 } jam_decompress_options;
@@ -944,12 +943,11 @@ typedef enum jam_soft_column {
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size);
 /* From overlapping spheres down to jamming: minimises, shrinks all diameters by one factor so that the energy falls by
- * energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is taken
- * back and its square root is tried. report may be NULL.
- * Status: JAM_OK a target was reached (with isostatic and crunch: one network by both ways); JAM_NOT_JAMMED the start has
- * no overlaps at its minimum; JAM_PRECISION overlaps came down to the rounding of positions before; JAM_NOT_CONVERGED,
- * JAM_LIMIT, JAM_CANCELLED: the last minimum is kept. Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER.
- * Threads: alone. @since 0.1 */
+ * energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
+ * taken back and its square root is tried. report may be NULL. Status: JAM_OK a target was reached (with isostatic and
+ * crunch: one network by both ways); JAM_NOT_JAMMED the start has no overlaps at its minimum; JAM_PRECISION overlaps
+ * came down to the rounding of positions before; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
+ * Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
 /* One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
  * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
@@ -987,7 +985,9 @@ JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t
 typedef enum jam_stiffness {
   JAM_STIFFNESS_HARMONIC = 0, /* k = 1 */
   JAM_STIFFNESS_POWER = 1,    /* energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1)) */
-  JAM_STIFFNESS_HARD = 2      /* entropic force of hard spheres near jamming: k = f^2 */
+  JAM_STIFFNESS_HARD = 2,     /* entropic force of hard spheres near jamming: k = f^2 */
+  JAM_STIFFNESS_SOFT = 3      /* after jam_relax or jam_decompress: that of the energy that was minimised, in its units;
+                               * prestress is then the share of the pre-stress f / r that is kept, 0..1 */
 } jam_stiffness;
 
 /* Options of all calls that use a Hessian. @since 0.1 */

@@ -76,6 +76,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->has_report = src->has_report;
     sys->history = src->history;
     sys->has_history = src->has_history;
+    sys->soft_history = src->soft_history;
     sys->note_diameters();
     sys->sweeps = src->sweeps;
     if (src->runs) sys->runs = std::make_unique<Isoconfigurational>(*src->runs);
@@ -128,7 +129,7 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
       fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
     check_array_in(positions, positions_len, "positions");
     for (size_t k = 0; k < positions_len; ++k) p.position[k] = wrap(positions[k], p.box);
-    settle_overlaps(p, JAM_OVERLAP_REFUSE);
+    settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     sys->drop_results();
     return JAM_OK;
@@ -158,7 +159,7 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
     check_diameters(p.diameter, p.box);
-    if (factor > 1.0) settle_overlaps(p, JAM_OVERLAP_REFUSE);
+    if (factor > 1.0) settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     sys->drop_results();
     return JAM_OK;

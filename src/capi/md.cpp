@@ -128,7 +128,7 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     auto sys = std::make_unique<jam_system>();
     std::string stage;
     sys->packing = read_checkpoint(path, stage);
-    settle_overlaps(sys->packing, JAM_OVERLAP_REFUSE);
+    settle_overlaps(sys->packing, sys->packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->note_diameters();
     if (!stage.empty()) sys->paused = read_dynamics(sys->packing, std::move(stage));
     if (sys->paused && sys->paused->phase() == JAM_PHASE_ISOCONFIGURATIONAL)  // results, and perhaps more to make

@@ -77,6 +77,10 @@ const char *jam_stop_string(int32_t reason) {
       return "unjammed";
     case JAM_STOP_TIME:
       return "time";
+    case JAM_STOP_EVALUATIONS:
+      return "evaluations";
+    case JAM_STOP_STEPS:
+      return "steps";
     default:
       return "unknown";
   }

@@ -10,6 +10,7 @@
 #include "dynamics/observer.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
+#include "soft/decompression.hpp"
 
 struct jam_system {
   jam::Packing packing;          // the view buffers; their addresses stay for the life of the handle
@@ -18,6 +19,7 @@ struct jam_system {
   bool has_report = false;
   std::vector<jam::HistoryRow> history;  // valid when has_history
   bool has_history = false;
+  std::vector<jam::SoftRow> soft_history;  // of the last decompression; empty without one
   const jam::CrunchStep *step = nullptr;  // of the crunch that runs
   jam::Monitor monitor;
   std::atomic<bool> busy{false};

@@ -18,7 +18,7 @@ void check_options(const jam_create_options &o) {
   if (o.n != 0) check_n(o.n);  // 0: taken from the arrays
   check_box(o.box);
   check_non_additivity(o.non_additivity);
-  if (o.overlap != JAM_OVERLAP_REFUSE && o.overlap != JAM_OVERLAP_SHRINK)
+  if (o.overlap < JAM_OVERLAP_REFUSE || o.overlap > JAM_OVERLAP_ALLOW)
     fail(JAM_E_ARGUMENT, "overlap is %d, not a jam_overlap_policy", o.overlap);
   if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK)
     fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
@@ -185,6 +185,13 @@ void place_at_random(Packing &p) {
   }
 }
 
+void place_uniformly(Packing &p) {
+  settle_overlaps(p, JAM_OVERLAP_ALLOW);
+  p.position.resize(p.n() * static_cast<size_t>(p.dim));
+  Rng rng(p.seed, Stream::rsa_positions);
+  for (double &x : p.position) x = wrap(p.box * rng.uniform(), p.box);
+}
+
 void plant(Packing &p) {
   const int32_t n = static_cast<int32_t>(p.n()), d = p.dim;
   const int32_t most = 2000;
@@ -217,16 +224,30 @@ void plant(Packing &p) {
     }
 }
 
+void refuse_overlaps(const Packing &p, double tolerance) {
+  const ClosestPair worst = closest_pair(p);
+  if (worst.gap >= -tolerance) return;
+  if (p.overlap_allowed)
+    fail(JAM_E_OVERLAP,
+         "spheres %d and %d overlap by %.3g of their contact distance: this call is for hard spheres; jam_decompress "
+         "leads to jamming, jam_scale_diameters(sys, %.17g) to contact",
+         worst.i, worst.j, -worst.gap, (1.0 + worst.gap) * (1.0 - 1e-15));
+  fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+}
+
 void settle_overlaps(Packing &p, int32_t policy) {
   check_diameters(p.diameter, p.box);
+  if (policy == JAM_OVERLAP_ALLOW) {
+    if (diameter_max(p) > p.box) refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
+    return;
+  }
   if (const double factor = fitting_factor(p); factor < 1.0) {
     if (policy == JAM_OVERLAP_REFUSE) refuse_unfitting(p);
     for (double &s : p.diameter) s *= factor;
   }
+  if (policy == JAM_OVERLAP_REFUSE) return refuse_overlaps(p, overlap_tolerance);
   const ClosestPair worst = closest_pair(p);
   if (worst.gap >= -overlap_tolerance) return;
-  if (policy == JAM_OVERLAP_REFUSE)
-    fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
   if (worst.gap <= -1.0 + 1e-12)
     fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
   for (double &s : p.diameter) s *= 1.0 + worst.gap;
@@ -250,6 +271,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   p.mk_zeta = o.mk_zeta;
   p.non_additivity = o.non_additivity;
   p.masses = o.masses;
+  p.overlap_allowed = o.overlap == JAM_OVERLAP_ALLOW;
   p.diameter = take_diameters(n, diameters, diameters_len);
   if (positions_len) {
     p.position.resize(n * o.dim);
@@ -261,7 +283,9 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
     check_diameters(p.diameter, p.box);
-    if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
+    if (p.overlap_allowed)
+      place_uniformly(p);
+    else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)
       plant(p);
     else
       place_at_random(p);

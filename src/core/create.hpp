@@ -13,6 +13,10 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
                      const double *diameters, size_t diameters_len);
 // Throws JAM_E_OVERLAP naming the worst pair, or shrinks all diameters to contact, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
+// Throws JAM_E_OVERLAP naming the worst pair, and how to mend it, where one overlaps by more than the tolerance.
+void refuse_overlaps(const Packing &p, double tolerance);
+// Independent uniform points (JAM_OVERLAP_ALLOW).
+void place_uniformly(Packing &p);
 // Random sequential addition, largest spheres first, at the diameters that p holds. JAM_E_UNPLACEABLE with
 // the fraction reached when many tries find no place for one sphere.
 void place_at_random(Packing &p);

@@ -28,6 +28,7 @@ struct Packing {
   std::vector<double> velocity;       // (n, dim), kT/m = 1; all zero until MD draws them
   double pressure = std::numeric_limits<double>::quiet_NaN();  // last measured by MD
   bool has_velocity = false;
+  bool overlap_allowed = false;  // soft spheres: JAM_OVERLAP_ALLOW at creation
 
   size_t n() const { return diameter.size(); }
 };

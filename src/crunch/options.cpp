@@ -1,6 +1,7 @@
 // Options of jam_crunch: defaults and what is refused.
 #include <limits>
 
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "crunch/crunch.hpp"
@@ -41,9 +42,7 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   if (o.full_lps != 0 && o.full_lps != 1) fail(JAM_E_ARGUMENT, "full_lps is %d, it must be 0 or 1", o.full_lps);
   if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
   if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
-  const ClosestPair worst = closest_pair(p);
-  if (worst.gap < -1e-9)
-    fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+  refuse_overlaps(p, 1e-9);
 }
 
 }  // namespace jam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "dynamics/pressure.hpp"
@@ -74,6 +75,7 @@ Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage),
   growth_ = stage_.growth;
   if (stage_.relative) growth_ *= diameter_mean(p_) / p_.box * std::pow(n_, 1.0 / p_.dim);
   take_limits(stage.limits());
+  if (p_.overlap_allowed) refuse_overlaps(p_, 1e-10);
   engine_ = make_engine(p_, options());
   if (engine_->max_overlap > 1e-10)
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of molecular dynamics", engine_->max_overlap);

@@ -19,7 +19,7 @@ constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '3'};
 struct Header {
   char magic[8];
   int64_t n, seed, redrawn, stage;
-  int32_t dim, model, has_velocity, masses;
+  int32_t dim, model, has_velocity, masses;  // has_velocity: 1, plus 2 where overlaps are allowed
   double box, mk_zeta, pressure, non_additivity;
 };
 
@@ -67,7 +67,7 @@ void write_checkpoint(const Packing &p, const std::string &stage, const char *pa
   h.masses = p.masses;
   h.dim = p.dim;
   h.model = p.model;
-  h.has_velocity = p.has_velocity;
+  h.has_velocity = (p.has_velocity ? 1 : 0) | (p.overlap_allowed ? 2 : 0);
   h.box = p.box;
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
@@ -111,7 +111,8 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   p.mk_zeta = h.mk_zeta;
   p.pressure = h.pressure;
   p.non_additivity = h.non_additivity;
-  p.has_velocity = h.has_velocity != 0;
+  p.has_velocity = (h.has_velocity & 1) != 0;
+  p.overlap_allowed = (h.has_velocity & 2) != 0;
   const char *at = all.data() + sizeof h;
   const size_t n = static_cast<size_t>(h.n), d = static_cast<size_t>(h.dim);
   take(at, p.position, n * d);

@@ -17,20 +17,33 @@ jam_hessian_options default_hessian_options() {
 }
 
 void check_hessian_options(const jam_hessian_options &o) {
-  if (o.stiffness < JAM_STIFFNESS_HARMONIC || o.stiffness > JAM_STIFFNESS_HARD)
+  if (o.stiffness < JAM_STIFFNESS_HARMONIC || o.stiffness > JAM_STIFFNESS_SOFT)
     fail(JAM_E_ARGUMENT, "stiffness is %d, not a jam_stiffness", o.stiffness);
   if (o.stiffness == JAM_STIFFNESS_POWER && !(o.alpha > 1.0 && std::isfinite(o.alpha)))
     fail(JAM_E_ARGUMENT, "alpha is %g, it must be finite and above 1", o.alpha);
-  if (!(o.prestress >= 0.0 && o.prestress < 1.0))
+  if (o.stiffness == JAM_STIFFNESS_SOFT) {
+    if (!(o.prestress >= 0.0 && o.prestress <= 1.0))
+      fail(JAM_E_ARGUMENT, "prestress is %g, of soft spheres it must be in [0, 1]", o.prestress);
+  } else if (!(o.prestress >= 0.0 && o.prestress < 1.0)) {
     fail(JAM_E_ARGUMENT, "prestress is %g, it must be in [0, 1)", o.prestress);
+  }
 }
 
 bool needs_forces(const jam_hessian_options &o) {
+  if (o.stiffness == JAM_STIFFNESS_SOFT) return false;  // it brings its own
   return o.prestress > 0.0 || o.stiffness == JAM_STIFFNESS_HARD ||
          (o.stiffness == JAM_STIFFNESS_POWER && o.alpha != 2.0);
 }
 
 ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const jam_hessian_options &o) {
+  if (o.stiffness == JAM_STIFFNESS_SOFT) {
+    if (g.stiffness.size() != g.contacts() || g.prestress.size() != g.contacts())
+      fail(JAM_E_STATE, "the network is none of soft spheres: call jam_relax or jam_decompress first");
+    ContactWeights soft{g.stiffness, {}};
+    if (o.prestress > 0.0)
+      for (const double t : g.prestress) soft.transverse.push_back(o.prestress * t);
+    return soft;
+  }
   if (needs_forces(o) && g.force.size() != g.contacts())
     fail(JAM_E_STATE, "this stiffness needs contact forces and the network has none");
   const double alpha = o.stiffness == JAM_STIFFNESS_POWER ? o.alpha : 2.0;

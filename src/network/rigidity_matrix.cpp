@@ -27,6 +27,8 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
     for (int c = 0; c < d; ++c) g.normal.push_back(r[c] / g.distance.back());
   }
   g.force = network.force;
+  g.stiffness = network.stiffness;
+  g.prestress = network.prestress;
   return g;
 }
 

@@ -13,13 +13,14 @@ namespace jam {
 struct RigidityMatrix {
   int dim = 3;
   int32_t nodes = 0;
-  std::vector<int32_t> sphere;   // node -> sphere
-  std::vector<int32_t> node;     // sphere -> node, -1 for rattlers
-  std::vector<int32_t> a, b;     // contact -> nodes; a == b when a sphere touches its own image
-  std::vector<double> normal;    // (contacts, dim) unit vector from b to a
-  std::vector<double> distance;  // |r_ij| of each contact
-  std::vector<double> sigma;     // sigma_ij of each contact
-  std::vector<double> force;     // mean 1; empty when it is not known
+  std::vector<int32_t> sphere;               // node -> sphere
+  std::vector<int32_t> node;                 // sphere -> node, -1 for rattlers
+  std::vector<int32_t> a, b;                 // contact -> nodes; a == b when a sphere touches its own image
+  std::vector<double> normal;                // (contacts, dim) unit vector from b to a
+  std::vector<double> distance;              // |r_ij| of each contact
+  std::vector<double> sigma;                 // sigma_ij of each contact
+  std::vector<double> force;                 // mean 1; empty when it is not known
+  std::vector<double> stiffness, prestress;  // of soft spheres, as in ContactNetwork; else empty
   size_t contacts() const { return a.size(); }
   size_t unknowns() const { return static_cast<size_t>(nodes) * dim; }
 };

@@ -38,6 +38,18 @@ SoftRow row_of(const SoftResult &at, const Effort &before, const Effort &after, 
   return row;
 }
 
+// Whether the judge's jammed packing has the same network; notes the verdict.
+bool ask(const std::function<SoftVerdict(const SoftResult &)> &judge, const SoftResult &soft,
+         jam_decompress_report &report) {
+  const SoftVerdict verdict = judge(soft);
+  report.same_network = verdict.same_network;
+  report.common_contacts = verdict.common_contacts;
+  report.crunch_fraction = verdict.packing_fraction;
+  report.force_difference = verdict.force_difference;
+  report.seconds_crunch += verdict.seconds;
+  return verdict.same_network;
+}
+
 }  // namespace
 
 jam_decompress_options default_decompress_options() {
@@ -177,24 +189,13 @@ DecompressionResult decompress(const Packing &start, const jam_decompress_option
       if (!first && factor > o.energy_factor) factor = std::max(factor * factor, o.energy_factor);
       const jam_relax_report &at = out.soft.report;
       effort.packing_fraction = at.packing_fraction, effort.pressure = at.pressure;
-      if (at.pressure <= o.pressure || at.distance <= o.distance) {
-        out.status = JAM_OK, report.stop_reason = at.pressure <= o.pressure ? JAM_STOP_PRESSURE : JAM_STOP_CONVERGED;
-        break;
-      }
       report.isostatic = is_isostatic(state, out.soft, effort.factorisations);
-      if (o.isostatic && report.isostatic) {
-        bool same = true;
-        if (judge) {
-          const SoftVerdict verdict = judge(out.soft);
-          same = verdict.same_network;
-          report.same_network = same;
-          report.common_contacts = verdict.common_contacts;
-          report.crunch_fraction = verdict.packing_fraction;
-          report.force_difference = verdict.force_difference;
-          report.seconds_crunch += verdict.seconds;
-        }
-        if (same) {
-          out.status = JAM_OK, report.stop_reason = JAM_STOP_CONVERGED;
+      const bool target = at.pressure <= o.pressure || at.distance <= o.distance;
+      if (target || (o.isostatic && report.isostatic)) {
+        const bool same = !judge || ask(judge, out.soft, report);
+        if (target || same) {
+          out.status = JAM_OK;
+          report.stop_reason = at.pressure <= o.pressure ? JAM_STOP_PRESSURE : JAM_STOP_CONVERGED;
           break;
         }
       }

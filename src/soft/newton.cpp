@@ -9,13 +9,14 @@
 namespace jam {
 namespace {
 
-constexpr double settled = 1e-4;          // residual of FIRE from which Newton is tried first
-constexpr double next_target = 0.1;       // after Newton has failed: FIRE goes on to this part of the residual
-constexpr double longest_move = 0.05;     // mean diameters in one step
-constexpr double good_factor = 0.2;       // a step that leaves less of the residual needs no new factor
-constexpr double energy_is_blind = 1e-6;  // residual below which the slope is tested in place of the energy
-constexpr double first_shift = 1e-7;      // in units of the mean stiffness of a contact
-constexpr double leaves_saddle = 100.0;   // a residual that has grown so much: the start was near a saddle
+constexpr double settled = 1e-4;            // residual of FIRE from which Newton is tried first
+constexpr double next_target = 0.1;         // after Newton has failed: FIRE goes on to this part of the residual
+constexpr double longest_move = 0.05;       // mean diameters in one step
+constexpr double good_factor = 0.2;         // a step that leaves less of the residual needs no new factor
+constexpr double energy_is_blind = 1e-6;    // residual below which the slope is tested in place of the energy
+constexpr double first_shift = 1e-7;        // in units of the mean stiffness of a contact
+constexpr double leaves_saddle = 100.0;     // a residual that has grown so much: the start was near a saddle
+constexpr double rattlers_balanced = 1e-6;  // forces on rattlers, over the mean: what touches them is done
 constexpr int most_steps = 60;
 
 double dot(const std::vector<double> &a, const std::vector<double> &b) {
@@ -37,7 +38,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     const SoftContacts contacts = state.contacts();
     const std::vector<char> on = stable_contacts(state, contacts);
     const double now = r.stable_residual();
-    if (now < tolerance) return DescentEnd::balanced;
+    if (now < tolerance && r.residual() < std::max(tolerance, rattlers_balanced)) return DescentEnd::balanced;
     if (step == 0) start = now;
     if (now > leaves_saddle * start) return DescentEnd::stalled;
     DescentEnd end;

@@ -32,20 +32,26 @@ void centre_rattlers(SoftState &state) {
     if (rattler[pairs.j[k]]) of[pairs.j[k]].push_back(k);
   }
   const std::vector<double> start = p.position;
-  std::vector<double> best = start, widest(state.n(), -std::numeric_limits<double>::infinity());
-  double step = first_step * mean, r[JAM_MAX_DIM];
+  // Smallest gap of sphere i at the positions in p, and the direction away from that neighbour.
+  const auto nearest = [&](size_t i, double *away) {
+    double least = std::numeric_limits<double>::infinity(), r[JAM_MAX_DIM];
+    for (const size_t k : of[i]) {
+      const double length = std::sqrt(pair_vector(p, pairs, k, r));
+      const double gap = length - contact_distance(p, pairs.i[k], pairs.j[k]);
+      if (!(gap < least) || !(length > 0.0)) continue;
+      least = gap;
+      const double sign = static_cast<size_t>(pairs.i[k]) == i ? 1.0 : -1.0;
+      for (int c = 0; c < d; ++c) away[c] = sign * r[c] / length;
+    }
+    return least;
+  };
+  double away[JAM_MAX_DIM] = {}, step = first_step * mean;
+  std::vector<double> before(state.n()), best = start, widest(state.n(), -std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < state.n(); ++i) before[i] = nearest(i, away);
   for (int sweep = 0; sweep < sweeps; ++sweep, step *= step_factor)
     for (size_t i = 0; i < state.n(); ++i) {
       if (of[i].empty()) continue;
-      double least = std::numeric_limits<double>::infinity(), away[JAM_MAX_DIM] = {};
-      for (const size_t k : of[i]) {
-        const double length = std::sqrt(pair_vector(p, pairs, k, r));
-        const double gap = length - contact_distance(p, pairs.i[k], pairs.j[k]);
-        if (!(gap < least) || !(length > 0.0)) continue;
-        least = gap;
-        const double sign = static_cast<size_t>(pairs.i[k]) == i ? 1.0 : -1.0;
-        for (int c = 0; c < d; ++c) away[c] = sign * r[c] / length;
-      }
+      const double least = nearest(i, away);
       if (least > widest[i]) {
         widest[i] = least;
         std::copy_n(&p.position[i * d], d, &best[i * d]);
@@ -53,6 +59,17 @@ void centre_rattlers(SoftState &state) {
       if (least > wide_gap * mean) continue;
       for (int c = 0; c < d; ++c) p.position[i * d + c] += step * away[c];
     }
+  p.position = best;
+  // Where rattlers share a cage their best places may not fit together: these go back.
+  for (bool again = true; again;) {
+    again = false;
+    for (size_t i = 0; i < state.n(); ++i) {
+      if (of[i].empty() || best[i * d] == start[i * d] || nearest(i, away) >= std::min(0.0, before[i])) continue;
+      std::copy_n(&start[i * d], d, &p.position[i * d]);
+      std::copy_n(&start[i * d], d, &best[i * d]);
+      again = true;
+    }
+  }
   for (size_t k = 0; k < start.size(); ++k) state.displacement()[k] += best[k] - start[k];
 }
 

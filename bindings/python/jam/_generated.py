@@ -51,12 +51,15 @@ class StopReason(IntEnum):
     SOLVER = 10  # crunch: no LP answer passed the checks
     UNJAMMED = 11  # crunch: converged without a rigid network
     TIME = 12  # MD: its simulated time is over
+    EVALUATIONS = 13  # soft spheres: max_evaluations came first
+    STEPS = 14  # soft spheres: max_steps came first
 
 
 class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions. @since 0.1"""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
     SHRINK = 1  # scale all diameters until the worst pair just touches
+    ALLOW = 2  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 
 class Model(IntEnum):
@@ -78,6 +81,8 @@ class Phase(IntEnum):
     CRUNCH = 3  # one LP or re-linearised Newton step done
     POLISH = 4  # refinement of the final network
     ANALYSE = 5  # long analysis calls
+    RELAX = 6  # minimising the energy of soft spheres
+    DECOMPRESS = 7  # soft spheres on their way down to jamming; steps: decompressions so far
     MONTE_CARLO = 8  # Metropolis sweeps
     ISOCONFIGURATIONAL = 9  # runs from one configuration; steps counts those that are done
 
@@ -194,11 +199,47 @@ class HistoryColumn(IntEnum):
     BOUND = 17  # LP: step bound
 
 
+class SoftScale(IntEnum):
+    """Factor c and length l of the energy. @since 0.1"""
+    RELATIVE = 0  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
+    ABSOLUTE = 1  # c = 1 / alpha, l = 1 in the unit of the box
+    BARE = 2  # c = 1, l = 1
+
+
+class Minimiser(IntEnum):
+    """How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1"""
+    NEWTON = 0  # FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
+    FIRE = 1  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
+    LBFGS = 2  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
+
+
+class SoftPrecision(IntEnum):
+    """How the overlap of a pair is computed. @since 0.1"""
+    REFERENCE = 0  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
+    DOUBLE = 1  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
+
+
+class SoftColumn(IntEnum):
+    """Columns of the history of a decompression, a row a minimum. @since 0.1"""
+    PHI = 0  # packing fraction
+    PRESSURE = 1  # epsilon / length^d
+    ENERGY = 2  # U / n
+    COORDINATION = 3  # mean number of contacts of a stable sphere
+    DISTANCE = 4  # alpha U / sum of f r
+    EXCESS = 5  # contacts - (d (stable - 1) + 1)
+    RATTLERS = 6  # spheres left out
+    RESIDUAL = 7  # max |F_i| over the mean force
+    EVALUATIONS = 8  # of the forces, in this step
+    FACTORISATIONS = 9  # in this step
+    SECONDS = 10  # wall time of the step
+
+
 class Stiffness(IntEnum):
     """Stiffness k of a contact, 1 at the mean force. @since 0.1"""
     HARMONIC = 0  # k = 1
     POWER = 1  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
     HARD = 2  # entropic force of hard spheres near jamming: k = f^2
+    SOFT = 3  # after jam_relax or jam_decompress: that of the energy that was minimised, in its units; prestress is then the share of the pre-stress f / r that is kept, 0..1
 
 
 class ModesWhich(IntEnum):
@@ -509,6 +550,101 @@ class Estimate:
 
 
 @dataclass(frozen=True, repr=False)
+class RelaxReport:
+    """What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
+    again and again; stable spheres are the others. @since 0.1
+
+    converged: 1: force_residual is below force_tolerance, or no spheres overlap
+    stop_reason: jam_stop_reason
+    minimiser: jam_minimiser
+    force_residual: max |F_i| of stable spheres over the mean contact force; 0 without contacts
+    energy: U, unit epsilon
+    pressure: sum of f r over d V, unit epsilon / length^d
+    packing_fraction: of the diameters, overlaps counted twice
+    distance: alpha U / sum of f r, an estimate of ln(R / R_J)
+    jammed_fraction: phi (1 - distance)^d, an estimate of phi_J
+    coordination: mean number of contacts of a stable sphere
+    mean_overlap: mean of (sigma - r) / sigma over contacts of stable spheres
+    max_overlap: largest of all pairs
+    contacts: overlapping pairs of stable spheres
+    excess_contacts: contacts - (d (stable - 1) + 1)
+    stable: n - rattlers
+    rattlers: spheres left out
+    evaluations: of the forces
+    factorisations: of the Hessian
+    seconds: wall time"""
+    converged: int
+    stop_reason: StopReason
+    minimiser: Minimiser
+    force_residual: float
+    energy: float
+    pressure: float
+    packing_fraction: float
+    distance: float
+    jammed_fraction: float
+    coordination: float
+    mean_overlap: float
+    max_overlap: float
+    contacts: int
+    excess_contacts: int
+    stable: int
+    rattlers: int
+    evaluations: int
+    factorisations: int
+    seconds: float
+
+
+@dataclass(frozen=True, repr=False)
+class DecompressReport:
+    """What jam_decompress found. @since 0.1
+
+    stop_reason: jam_stop_reason
+    isostatic: 1: contacts of one state of self-stress and d zero modes of the Hessian
+    same_network: 1: crunch ended with the same contacts; -1: crunch was not run
+    force_residual: these as in jam_relax_report, of the last soft packing
+    energy: U
+    pressure: epsilon / length^d
+    packing_fraction: of the soft packing
+    distance: estimate of ln(R / R_J)
+    jammed_fraction: estimate of phi_J
+    crunch_fraction: phi_J by crunch; NaN when it was not run
+    force_difference: largest |f_soft - f_crunch| over the mean force; NaN without the same network
+    coordination: mean number of contacts of a stable sphere
+    contacts: overlapping pairs of stable spheres
+    excess_contacts: contacts - (d (stable - 1) + 1)
+    common_contacts: with crunch; -1 when it was not run
+    rattlers: spheres left out
+    steps: of the decompression
+    restored: steps taken back because they lost the network
+    evaluations: of the forces
+    factorisations: of the Hessian, crunch not counted
+    seconds: wall time
+    seconds_crunch: of it in crunch"""
+    stop_reason: StopReason
+    isostatic: int
+    same_network: int
+    force_residual: float
+    energy: float
+    pressure: float
+    packing_fraction: float
+    distance: float
+    jammed_fraction: float
+    crunch_fraction: float
+    force_difference: float
+    coordination: float
+    contacts: int
+    excess_contacts: int
+    common_contacts: int
+    rattlers: int
+    steps: int
+    restored: int
+    evaluations: int
+    factorisations: int
+    seconds: float
+    seconds_crunch: float
+
+
+@dataclass(frozen=True, repr=False)
 class GeometryReport:
     """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
 
@@ -673,6 +809,30 @@ OPTIONS = {
         "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*. 0, the default'),
         "full_lps": ("int", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
     },
+    "jam_relax_options": {
+        "minimiser": ("Minimiser", 'jam_minimiser, default NEWTON'),
+        "scale": ("SoftScale", 'jam_soft_scale, default RELATIVE'),
+        "precision": ("SoftPrecision", 'jam_soft_precision, default REFERENCE'),
+        "alpha": ("float", 'exponent of the energy, > 1, default 2'),
+        "force_tolerance": ("float", 'on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12'),
+        "max_evaluations": ("int", 'of the forces, >= 1, default 1e6'),
+        "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
+    },
+    "jam_decompress_options": {
+        "minimiser": ("Minimiser", 'jam_minimiser, default NEWTON'),
+        "scale": ("SoftScale", 'jam_soft_scale, default RELATIVE'),
+        "precision": ("SoftPrecision", 'jam_soft_precision, default REFERENCE'),
+        "alpha": ("float", 'exponent of the energy, > 1, default 2'),
+        "force_tolerance": ("float", 'as in jam_relax_options, default 1e-12'),
+        "energy_factor": ("float", 'U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed'),
+        "pressure": ("float", 'target, as jam_relax_report.pressure, >= 0, default 0: none'),
+        "distance": ("float", 'target, as jam_relax_report.distance, >= 0, default 0: none'),
+        "isostatic": ("int", '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes'),
+        "crunch": ("int", '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing'),
+        "max_steps": ("int", '>= 1, default 1000'),
+        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6'),
+        "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
+    },
     "jam_hessian_options": {
         "stiffness": ("Stiffness", 'jam_stiffness, default HARMONIC'),
         "alpha": ("float", 'POWER: > 1, default 2'),
@@ -707,6 +867,8 @@ REPORTS = {
     "jam_isoconf_report": IsoconfReport,
     "jam_crunch_report": CrunchReport,
     "jam_estimate": Estimate,
+    "jam_relax_report": RelaxReport,
+    "jam_decompress_report": DecompressReport,
     "jam_geometry_report": GeometryReport,
     "jam_moduli": Moduli,
     "jam_comparison": Comparison,
@@ -765,6 +927,9 @@ CALLS = {
     "jam_crunch_step_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_duals": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_relax": (True, (("o", "struct_in", "jam_relax_options"), ("report", "struct_out", "jam_relax_report"))),
+    "jam_decompress": (True, (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report"))),
+    "jam_decompress_history": (True, (("column", "scalar", "SoftColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_gaps": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),

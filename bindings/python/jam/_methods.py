@@ -168,6 +168,11 @@ class Methods:
         0.1"""
         return self.call('crunch_step_duals')
 
+    def decompress_history(self, column: int | str) -> np.ndarray:
+        """One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+        JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+        return self.call('decompress_history', column)
+
     def contact_vectors(self) -> np.ndarray:
         """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
         0.1"""

@@ -3,8 +3,10 @@ from __future__ import annotations
 
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
+import numpy as np
+
 from . import _calls, raw
-from ._generated import MdReport, CrunchReport, StatusCode
+from ._generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode
 from ._observe import Observing, Step
 from ._progress import reporter
 
@@ -164,6 +166,33 @@ class Verbs(Observing):
             self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options
         )
 
+    def relax(self, *, progress: Any = None, **options: Any) -> RelaxReport:
+        """Minimises the energy of overlapping spheres (overlap="allow" at creation). Returns a RelaxReport.
+
+        The contact network, its forces and stiffnesses are then as after a crunch: contacts, hessian(stiffness="soft",
+        prestress=1), moduli(...). A report whose status is > 0 did not converge, or says why the minimum is none of a
+        jammed packing.
+        """
+        return self._verb("jam_relax", "jam_relax_options", "jam_relax_report", progress, options or None)
+
+    def decompress(self, *, progress: Any = None, **options: Any) -> DecompressReport:
+        """From overlapping spheres down to jamming, compared with crunch. Returns a DecompressReport.
+
+        The system ends as the jammed packing; with crunch=0 as the soft packing. soft_history has every minimum.
+        """
+        return self._verb(
+            "jam_decompress", "jam_decompress_options", "jam_decompress_report", progress, options or None
+        )
+
+    @property
+    def soft_history(self) -> np.ndarray:
+        """Minima of the last decompression as a structured array: one field for each SoftColumn, in lower case."""
+        columns = [self.call("decompress_history", c) for c in SoftColumn]
+        rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in SoftColumn])
+        for c, values in zip(SoftColumn, columns):
+            rows[c.name.lower()] = values
+        return rows
+
     def cancel(self) -> None:
         """Stops the call that runs on this system in another thread. If none runs, it stops the next call."""
         raw.jam_cancel(self.handle)
@@ -180,6 +209,8 @@ for _verb, _struct in (
     ("compress", "compress"),
     ("crunch", "crunch"),
     ("isoconfigurational", "isoconf"),
+    ("relax", "relax"),
+    ("decompress", "decompress"),
 ):
     getattr(Verbs, _verb).__doc__ += (
         "\n\n        progress: True for a bar, or a callable(Progress). If it returns true the call stops.\n        Options:\n    "

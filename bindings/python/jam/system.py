@@ -51,6 +51,8 @@ class System(State, Verbs, Network):
     ) -> "System":
         """Random sequential start: spheres are placed one by one where they do not overlap.
 
+        With overlap='allow' they are independent uniform points, for soft spheres.
+
         Parameters
         ----------
         n : int
@@ -95,7 +97,8 @@ class System(State, Verbs, Network):
         radii : array_like, shape (n,), or float, optional
             Instead of diameters.
         **options
-            overlap ('refuse', the default, or 'shrink': scales all diameters until no pair overlaps), seed, model,
+            overlap ('refuse', the default, 'shrink': scales all diameters until no pair overlaps, or 'allow': soft
+            spheres), seed, model,
             mk_zeta, masses, non_additivity.
 
         Examples

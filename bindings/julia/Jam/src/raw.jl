@@ -50,10 +50,13 @@ const JAM_STOP_LP_LIMIT = Int32(9)  # crunch: max_lps came first
 const JAM_STOP_SOLVER = Int32(10)  # crunch: no LP answer passed the checks
 const JAM_STOP_UNJAMMED = Int32(11)  # crunch: converged without a rigid network
 const JAM_STOP_TIME = Int32(12)  # MD: its simulated time is over
+const JAM_STOP_EVALUATIONS = Int32(13)  # soft spheres: max_evaluations came first
+const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
 
 # jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
 const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters until the worst pair just touches
+const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 # jam_model: Pair distance. @since 0.1
 const JAM_MODEL_EUCLID = Int32(0)  # |r_i - r_j|, nearest images
@@ -69,6 +72,8 @@ const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
 const JAM_PHASE_CRUNCH = Int32(3)  # one LP or re-linearised Newton step done
 const JAM_PHASE_POLISH = Int32(4)  # refinement of the final network
 const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls
+const JAM_PHASE_RELAX = Int32(6)  # minimising the energy of soft spheres
+const JAM_PHASE_DECOMPRESS = Int32(7)  # soft spheres on their way down to jamming; steps: decompressions so far
 const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
 const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
 
@@ -159,10 +164,38 @@ const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bo
 const JAM_HISTORY_PART = Int32(16)  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
 const JAM_HISTORY_BOUND = Int32(17)  # LP: step bound
 
+# jam_soft_scale: Factor c and length l of the energy. @since 0.1
+const JAM_SOFT_RELATIVE = Int32(0)  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
+const JAM_SOFT_ABSOLUTE = Int32(1)  # c = 1 / alpha, l = 1 in the unit of the box
+const JAM_SOFT_BARE = Int32(2)  # c = 1, l = 1
+
+# jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1
+const JAM_MINIMISER_NEWTON = Int32(0)  # FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
+const JAM_MINIMISER_FIRE = Int32(1)  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
+const JAM_MINIMISER_LBFGS = Int32(2)  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
+
+# jam_soft_precision: How the overlap of a pair is computed. @since 0.1
+const JAM_SOFT_REFERENCE = Int32(0)  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
+const JAM_SOFT_DOUBLE = Int32(1)  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
+
+# jam_soft_column: Columns of the history of a decompression, a row a minimum. @since 0.1
+const JAM_SOFT_PHI = Int32(0)  # packing fraction
+const JAM_SOFT_PRESSURE = Int32(1)  # epsilon / length^d
+const JAM_SOFT_ENERGY = Int32(2)  # U / n
+const JAM_SOFT_COORDINATION = Int32(3)  # mean number of contacts of a stable sphere
+const JAM_SOFT_DISTANCE = Int32(4)  # alpha U / sum of f r
+const JAM_SOFT_EXCESS = Int32(5)  # contacts - (d (stable - 1) + 1)
+const JAM_SOFT_RATTLERS = Int32(6)  # spheres left out
+const JAM_SOFT_RESIDUAL = Int32(7)  # max |F_i| over the mean force
+const JAM_SOFT_EVALUATIONS = Int32(8)  # of the forces, in this step
+const JAM_SOFT_FACTORISATIONS = Int32(9)  # in this step
+const JAM_SOFT_SECONDS = Int32(10)  # wall time of the step
+
 # jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
 const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
 const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
 const JAM_STIFFNESS_HARD = Int32(2)  # entropic force of hard spheres near jamming: k = f^2
+const JAM_STIFFNESS_SOFT = Int32(3)  # after jam_relax or jam_decompress: that of the energy that was minimised, in its units; prestress is then the share of the pre-stress f / r that is kept, 0..1
 
 # jam_modes_which: Which modes. @since 0.1
 const JAM_MODES_LOWEST = Int32(0)  # smallest eigenvalues, the d translations left out
@@ -509,6 +542,101 @@ mutable struct jam_estimate
     step_seconds::Cdouble  # of one factorisation and what goes with it, on this core
     seconds::Cdouble  # the product of both
     jam_estimate() = new(64, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of jam_relax. @since 0.1
+"""
+mutable struct jam_relax_options
+    struct_size::UInt32  # sizeof(jam_relax_options)
+    minimiser::Int32  # jam_minimiser, default NEWTON
+    scale::Int32  # jam_soft_scale, default RELATIVE
+    precision::Int32  # jam_soft_precision, default REFERENCE
+    alpha::Cdouble  # exponent of the energy, > 1, default 2
+    force_tolerance::Cdouble  # on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12
+    max_evaluations::Int64  # of the forces, >= 1, default 1e6
+    wall_time::Cdouble  # limit in seconds, > 0, default infinity
+    jam_relax_options() = new(48, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
+again and again; stable spheres are the others. @since 0.1
+"""
+mutable struct jam_relax_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_relax_report)
+    converged::Int32  # 1: force_residual is below force_tolerance, or no spheres overlap
+    stop_reason::Int32  # jam_stop_reason
+    minimiser::Int32  # jam_minimiser
+    force_residual::Cdouble  # max |F_i| of stable spheres over the mean contact force; 0 without contacts
+    energy::Cdouble  # U, unit epsilon
+    pressure::Cdouble  # sum of f r over d V, unit epsilon / length^d
+    packing_fraction::Cdouble  # of the diameters, overlaps counted twice
+    distance::Cdouble  # alpha U / sum of f r, an estimate of ln(R / R_J)
+    jammed_fraction::Cdouble  # phi (1 - distance)^d, an estimate of phi_J
+    coordination::Cdouble  # mean number of contacts of a stable sphere
+    mean_overlap::Cdouble  # mean of (sigma - r) / sigma over contacts of stable spheres
+    max_overlap::Cdouble  # largest of all pairs
+    contacts::Int64  # overlapping pairs of stable spheres
+    excess_contacts::Int64  # contacts - (d (stable - 1) + 1)
+    stable::Int64  # n - rattlers
+    rattlers::Int64  # spheres left out
+    evaluations::Int64  # of the forces
+    factorisations::Int64  # of the Hessian
+    seconds::Cdouble  # wall time
+    jam_relax_report() = new(144, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1
+"""
+mutable struct jam_decompress_options
+    struct_size::UInt32  # sizeof(jam_decompress_options)
+    minimiser::Int32  # jam_minimiser, default NEWTON
+    scale::Int32  # jam_soft_scale, default RELATIVE
+    precision::Int32  # jam_soft_precision, default REFERENCE
+    alpha::Cdouble  # exponent of the energy, > 1, default 2
+    force_tolerance::Cdouble  # as in jam_relax_options, default 1e-12
+    energy_factor::Cdouble  # U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed
+    pressure::Cdouble  # target, as jam_relax_report.pressure, >= 0, default 0: none
+    distance::Cdouble  # target, as jam_relax_report.distance, >= 0, default 0: none
+    isostatic::Int32  # 1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes
+    crunch::Int32  # 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
+    max_steps::Int32  # >= 1, default 1000
+    reserved::Int32  # 0
+    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6
+    wall_time::Cdouble  # limit in seconds, > 0, default infinity
+    jam_decompress_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What jam_decompress found. @since 0.1
+"""
+mutable struct jam_decompress_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_decompress_report)
+    stop_reason::Int32  # jam_stop_reason
+    isostatic::Int32  # 1: contacts of one state of self-stress and d zero modes of the Hessian
+    same_network::Int32  # 1: crunch ended with the same contacts; -1: crunch was not run
+    force_residual::Cdouble  # these as in jam_relax_report, of the last soft packing
+    energy::Cdouble  # U
+    pressure::Cdouble  # epsilon / length^d
+    packing_fraction::Cdouble  # of the soft packing
+    distance::Cdouble  # estimate of ln(R / R_J)
+    jammed_fraction::Cdouble  # estimate of phi_J
+    crunch_fraction::Cdouble  # phi_J by crunch; NaN when it was not run
+    force_difference::Cdouble  # largest |f_soft - f_crunch| over the mean force; NaN without the same network
+    coordination::Cdouble  # mean number of contacts of a stable sphere
+    contacts::Int64  # overlapping pairs of stable spheres
+    excess_contacts::Int64  # contacts - (d (stable - 1) + 1)
+    common_contacts::Int64  # with crunch; -1 when it was not run
+    rattlers::Int64  # spheres left out
+    steps::Int64  # of the decompression
+    restored::Int64  # steps taken back because they lost the network
+    evaluations::Int64  # of the forces
+    factorisations::Int64  # of the Hessian, crunch not counted
+    seconds::Cdouble  # wall time
+    seconds_crunch::Cdouble  # of it in crunch
+    jam_decompress_report() = new(168, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1088,6 +1216,53 @@ sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the ca
 """
 function jam_crunch_step_duals(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_duals, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_relax_options_init(o, size)
+    return ccall((:jam_relax_options_init, libjam), Int32, (Ref{jam_relax_options}, Csize_t), _ref(jam_relax_options, o), size)
+end
+
+"""
+Minimises the energy of overlapping spheres at fixed diameters and box, and keeps the contact network with its forces
+and stiffnesses (jam_contacts, jam_forces, jam_hessian with JAM_STIFFNESS_SOFT, ...). The system must have been made
+with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may
+be NULL. Example: examples/c/soft.c Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps);
+JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT,
+JAM_CANCELLED: the state is the best so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made
+without JAM_OVERLAP_ALLOW), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_relax(sys, o, report)
+    return ccall((:jam_relax, libjam), Int32, (Ptr{Cvoid}, Ref{jam_relax_options}, Ref{jam_relax_report}), sys, _ref(jam_relax_options, o), _ref(jam_relax_report, report))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_decompress_options_init(o, size)
+    return ccall((:jam_decompress_options_init, libjam), Int32, (Ref{jam_decompress_options}, Csize_t), _ref(jam_decompress_options, o), size)
+end
+
+"""
+From overlapping spheres down to jamming: minimises, shrinks all diameters by one factor so that the energy falls by
+energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
+taken back and its square root is tried. report may be NULL. Status: JAM_OK a target was reached (with isostatic and
+crunch: one network by both ways); JAM_NOT_JAMMED the start has no overlaps at its minimum; JAM_PRECISION overlaps
+came down to the rounding of positions before; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
+Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1
+"""
+function jam_decompress(sys, o, report)
+    return ccall((:jam_decompress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_decompress_options}, Ref{jam_decompress_report}), sys, _ref(jam_decompress_options, o), _ref(jam_decompress_report, report))
+end
+
+"""
+One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
+JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+"""
+function jam_decompress_history(sys, column, out, out_len, needed)
+    return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """

@@ -1,0 +1,43 @@
+/* Soft spheres from random points to an energy minimum, its moduli, and down to jamming, checked by a crunch. */
+#include <jam/jam.h>
+#include <stdio.h>
+
+static int failed(jam_system *sys) {
+  fprintf(stderr, "%s\n", jam_last_error());
+  jam_destroy(sys);
+  return 1;
+}
+
+int main(void) {
+  jam_create_options o;
+  jam_relax_report minimum;
+  jam_hessian_options stiffness;
+  jam_moduli moduli;
+  jam_decompress_report down;
+  jam_system *sys = NULL;
+
+  jam_create_options_init(&o, sizeof o);
+  o.n = 100;
+  o.packing_fraction = 0.72;     /* above jamming */
+  o.overlap = JAM_OVERLAP_ALLOW; /* independent uniform points */
+  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0) return failed(sys);
+
+  minimum.struct_size = sizeof minimum;
+  if (jam_relax(sys, NULL, &minimum) < 0) return failed(sys); /* NULL: harmonic, forces balanced to 1e-12 */
+  printf("energy %.6g, pressure %.6g, %.3f contacts a sphere, residual %.1e\n", minimum.energy, minimum.pressure,
+         minimum.coordination, minimum.force_residual);
+
+  jam_hessian_options_init(&stiffness, sizeof stiffness);
+  stiffness.stiffness = JAM_STIFFNESS_SOFT; /* of the energy that was minimised */
+  stiffness.prestress = 1.0;                /* all of its pre-stress */
+  moduli.struct_size = sizeof moduli;
+  if (jam_moduli_get(sys, &stiffness, &moduli) < 0) return failed(sys);
+  printf("bulk modulus %.4g, shear modulus %.4g\n", moduli.bulk, moduli.shear);
+
+  down.struct_size = sizeof down;
+  if (jam_decompress(sys, NULL, &down) < 0) return failed(sys);
+  printf("phi_J %.9f from above, %.9f by crunch; %lld of %lld contacts in common\n", down.jammed_fraction,
+         down.crunch_fraction, (long long)down.common_contacts, (long long)down.contacts);
+  jam_destroy(sys);
+  return minimum.converged && down.same_network == 1 ? 0 : 1;
+}

@@ -1,0 +1,17 @@
+"""Soft spheres from random points to an energy minimum, its moduli, and down to jamming, checked by a crunch."""
+import jam
+
+packing = jam.System.random(n=100, packing_fraction=0.72, overlap="allow")  # independent uniform points above jamming
+
+minimum = packing.relax()  # harmonic; alpha=2.5, minimiser="fire", ... are options
+print(f"energy {minimum.energy:.6g}, pressure {minimum.pressure:.6g}, residual {minimum.force_residual:.1e}")
+assert minimum.converged
+
+moduli = packing.moduli(stiffness="soft", prestress=1.0)  # of the energy that was minimised
+print(f"bulk modulus {moduli.bulk:.4g}, shear modulus {moduli.shear:.4g}")
+
+down = packing.decompress()
+print(f"phi_J {down.jammed_fraction:.9f} from above, {down.crunch_fraction:.9f} by crunch")
+for row in packing.soft_history:
+    print(f"  distance {row['distance']:.2e}  pressure {row['pressure']:.3e}  z {row['coordination']:.4f}")
+assert down.same_network == 1 and packing.report.jammed

@@ -1,0 +1,139 @@
+// Header section "soft spheres": jam_relax, jam_decompress.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "capi/guard.hpp"
+#include "crunch/crunch.hpp"
+#include "network/certificate.hpp"
+#include "soft/decompression.hpp"
+
+using namespace jam;
+
+namespace {
+
+void need_soft(const jam_system *sys) {
+  if (!sys->packing.overlap_allowed)
+    fail(JAM_E_STATE, "the system does not allow overlaps: make it with overlap = JAM_OVERLAP_ALLOW");
+}
+
+// The handle shows the soft packing and its network.
+void show_soft(jam_system *sys, SoftResult &&soft, double seconds) {
+  const double nan = std::nan("");
+  jam_crunch_report r{};
+  certify(soft.packing, soft.contacts, r);
+  r.jammed = 0;
+  r.stop_reason = JAM_STOP_NONE;
+  r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
+  r.seconds = seconds;
+  sys->commit(soft.packing);
+  sys->contacts = std::move(soft.contacts);
+  sys->report = r;
+  sys->has_report = true;
+  sys->has_history = false;
+}
+
+// Contacts that both networks have, and the largest difference of their forces where all are the same.
+SoftVerdict compare(const ContactNetwork &soft, const CrunchResult &hard) {
+  SoftVerdict v;
+  v.packing_fraction = hard.report.packing_fraction;
+  v.force_difference = std::nan("");
+  std::multimap<std::pair<int32_t, int32_t>, double> left;
+  for (size_t k = 0; k < soft.size(); ++k)
+    left.emplace(std::make_pair(soft.pairs.i[k], soft.pairs.j[k]), soft.force[k]);
+  v.common_contacts = 0;
+  double most = 0.0;
+  for (size_t k = 0; k < hard.contacts.size(); ++k) {
+    const auto at = left.find({hard.contacts.pairs.i[k], hard.contacts.pairs.j[k]});
+    if (at == left.end()) continue;
+    most = std::max(most, std::fabs(at->second - hard.contacts.force[k]));
+    left.erase(at);
+    ++v.common_contacts;
+  }
+  v.same_network = hard.report.jammed == 1 && left.empty() && hard.contacts.size() == soft.size();
+  if (v.same_network) v.force_difference = most;
+  return v;
+}
+
+// Crunch from the largest diameters at which no pair of the soft packing overlaps.
+SoftVerdict judge_by_crunch(const SoftResult &soft, Monitor &monitor, CrunchResult &hard) {
+  const double begun = monitor.seconds();
+  Packing p = soft.packing;
+  const double factor = (1.0 - soft.report.max_overlap) * (1.0 - 1e-13);
+  for (double &s : p.diameter) s *= factor;
+  jam_crunch_options options = default_crunch_options();
+  options.wall_time = monitor.wall_time;
+  hard = crunch(p, options, monitor);
+  if (hard.status < 0)
+    fail(hard.status, "crunch from below: %s", hard.text.empty() ? "out of memory" : hard.text.c_str());
+  SoftVerdict v = compare(soft.contacts, hard);
+  v.seconds = monitor.seconds() - begun;
+  return v;
+}
+
+}  // namespace
+
+extern "C" {
+
+jam_status jam_relax_options_init(jam_relax_options *o, size_t size) {
+  return init_options(o, size, default_relax_options());
+}
+
+jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report) {
+  return guard_verb(sys, [&]() -> jam_status {
+    check_out_struct(report, "report");
+    jam_relax_options full = default_relax_options();
+    take_options(o, full);
+    need_soft(sys);
+    SoftResult result = relax(sys->packing, full, sys->monitor);
+    const jam_relax_report made = result.report;
+    const jam_status status = result.status;
+    show_soft(sys, std::move(result), made.seconds);
+    give_struct(made, report);
+    return status;
+  });
+}
+
+jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size) {
+  return init_options(o, size, default_decompress_options());
+}
+
+jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report) {
+  return guard_verb(sys, [&]() -> jam_status {
+    check_out_struct(report, "report");
+    jam_decompress_options full = default_decompress_options();
+    take_options(o, full);
+    need_soft(sys);
+    CrunchResult hard;
+    std::function<SoftVerdict(const SoftResult &)> judge;
+    if (full.crunch == 1) judge = [&](const SoftResult &soft) { return judge_by_crunch(soft, sys->monitor, hard); };
+    DecompressionResult result = decompress(sys->packing, full, sys->monitor, judge);
+    const jam_decompress_report made = result.report;
+    if (made.same_network == 1) {
+      sys->commit(hard.packing);
+      sys->contacts = std::move(hard.contacts);
+      sys->report = hard.report;
+      sys->has_report = true;
+      sys->has_history = false;
+    } else {
+      show_soft(sys, std::move(result.soft), made.seconds);
+    }
+    sys->soft_history = std::move(result.history);
+    give_struct(made, report);
+    return result.status;
+  });
+}
+
+jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: call jam_decompress first");
+    if (column < 0 || column >= static_cast<int32_t>(soft_columns))
+      fail(JAM_E_ARGUMENT, "column is %d, not a jam_soft_column", column);
+    std::vector<double> values;
+    for (const SoftRow &row : sys->soft_history) values.push_back(row[static_cast<size_t>(column)]);
+    return give_array(values.data(), values.size(), out, out_len, needed);
+  });
+}
+
+}  // extern "C"

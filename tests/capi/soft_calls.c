@@ -1,0 +1,225 @@
+/* Soft spheres by the C header: which calls take overlaps, what is refused, what comes back. */
+#include "test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "jam/jam.h"
+
+static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static void expect_overlap(jam_status status) {
+  assert_int_equal(status, JAM_E_OVERLAP);
+  assert_non_null(strstr(jam_last_error(), "overlap by"));
+  assert_non_null(strstr(jam_last_error(), "jam_decompress"));
+}
+
+static void hard_verbs_refuse_overlaps(void **state) {
+  (void)state;
+  jam_system *sys = soft_start(60, 0.7, 1), *copy = NULL;
+  jam_estimate e = {.struct_size = sizeof e};
+  expect_overlap(jam_run(sys, NULL, NULL));
+  expect_overlap(jam_compress(sys, NULL, NULL));
+  expect_overlap(jam_crunch(sys, NULL, NULL));
+  expect_overlap(jam_crunch_estimate(sys, NULL, &e));
+  /* What the text advises mends it. */
+  double factor = 0.0;
+  assert_int_equal(sscanf(strstr(jam_last_error(), "(sys, ") + 6, "%lf", &factor), 1);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_scale_diameters(copy, factor), JAM_OK);
+  jam_run_options run;
+  assert_int_equal(jam_run_options_init(&run, sizeof run), JAM_OK);
+  run.collisions_per_particle = 1.0;
+  assert_int_equal(jam_run(copy, &run, NULL), JAM_OK);
+  jam_destroy(copy);
+  /* Setters take overlaps here, and nowhere else. */
+  const double *x;
+  size_t len;
+  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
+  double *same = malloc(len * sizeof *same);
+  for (size_t k = 0; k < len; ++k) same[k] = 0.5 * x[k];
+  assert_int_equal(jam_set_positions(sys, same, len), JAM_OK);
+  assert_int_equal(jam_scale_diameters(sys, 1.01), JAM_OK);
+  assert_int_equal(jam_scale_diameters(sys, 1e3), JAM_E_OVERLAP); /* wider than the box */
+  jam_system *hard = NULL;
+  assert_int_equal(jam_create(NULL, NULL, 0, NULL, 0, &hard), JAM_E_ARGUMENT);
+  jam_create_options o;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.n = 60;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &hard), JAM_OK);
+  assert_int_equal(jam_relax(hard, NULL, NULL), JAM_E_STATE);
+  assert_non_null(strstr(jam_last_error(), "JAM_OVERLAP_ALLOW"));
+  assert_int_equal(jam_decompress(hard, NULL, NULL), JAM_E_STATE);
+  free(same);
+  jam_destroy(hard);
+  jam_destroy(sys);
+}
+
+static void files_and_checkpoints(void **state) {
+  (void)state;
+  char name[] = "soft_calls_XXXXXX", check[64];
+  jam_system *sys = soft_start(60, 0.7, 2), *back = NULL;
+  jam_create_options o;
+  snprintf(name, sizeof name, "soft_%06d.dat", 17);
+  snprintf(check, sizeof check, "soft_calls.check");
+  assert_int_equal(jam_write(sys, name, JAM_FORMAT_PLAIN), JAM_OK);
+  assert_int_equal(jam_read(name, NULL, &back), JAM_E_OVERLAP);
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.overlap = JAM_OVERLAP_ALLOW;
+  assert_int_equal(jam_read(name, &o, &back), JAM_OK);
+  assert_int_equal(jam_relax(back, NULL, NULL), JAM_OK);
+  jam_destroy(back);
+  assert_int_equal(jam_checkpoint_write(sys, check), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(check, &back), JAM_OK);
+  jam_relax_report a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
+  assert_int_equal(jam_relax(sys, NULL, &a), JAM_OK);
+  assert_int_equal(jam_relax(back, NULL, &b), JAM_OK);
+  assert_true(a.energy == b.energy && a.force_residual == b.force_residual && a.evaluations == b.evaluations);
+  remove(name), remove(check);
+  jam_destroy(back);
+  jam_destroy(sys);
+}
+
+static void options_are_checked(void **state) {
+  (void)state;
+  jam_system *sys = soft_start(30, 0.7, 1);
+  jam_relax_options r;
+  jam_decompress_options d;
+#define REFUSED(member, value)                                           \
+  do {                                                                   \
+    assert_int_equal(jam_relax_options_init(&r, sizeof r), JAM_OK);      \
+    r.member = value;                                                    \
+    assert_int_equal(jam_relax(sys, &r, NULL), JAM_E_ARGUMENT);          \
+    assert_non_null(strstr(jam_last_error(), #member));                  \
+    assert_int_equal(jam_decompress_options_init(&d, sizeof d), JAM_OK); \
+    d.member = value;                                                    \
+    assert_int_equal(jam_decompress(sys, &d, NULL), JAM_E_ARGUMENT);     \
+    assert_non_null(strstr(jam_last_error(), #member));                  \
+  } while (0)
+  REFUSED(alpha, 1.0);
+  REFUSED(alpha, NAN);
+  REFUSED(alpha, INFINITY);
+  REFUSED(minimiser, 3);
+  REFUSED(scale, -1);
+  REFUSED(precision, 2);
+  REFUSED(force_tolerance, 0.0);
+  REFUSED(max_evaluations, 0);
+  REFUSED(wall_time, -1.0);
+#define REFUSED_DOWN(member, value)                                      \
+  do {                                                                   \
+    assert_int_equal(jam_decompress_options_init(&d, sizeof d), JAM_OK); \
+    d.member = value;                                                    \
+    assert_int_equal(jam_decompress(sys, &d, NULL), JAM_E_ARGUMENT);     \
+    assert_non_null(strstr(jam_last_error(), #member));                  \
+  } while (0)
+  REFUSED_DOWN(energy_factor, 1.0);
+  REFUSED_DOWN(energy_factor, 0.0);
+  REFUSED_DOWN(pressure, -1.0);
+  REFUSED_DOWN(distance, NAN);
+  REFUSED_DOWN(isostatic, 2);
+  REFUSED_DOWN(crunch, -1);
+  REFUSED_DOWN(max_steps, 0);
+  REFUSED_DOWN(reserved, 1);
+  assert_int_equal(jam_relax_options_init(&r, sizeof r + 1), JAM_E_STRUCT_SIZE);
+  size_t needed;
+  assert_int_equal(jam_decompress_history(sys, JAM_SOFT_PHI, NULL, 0, &needed), JAM_E_STATE);
+  jam_destroy(sys);
+}
+
+/* The network of a soft packing works in the analysis, with its own stiffness and pre-stress. */
+static void response(void **state) {
+  (void)state;
+  jam_system *sys = soft_start(80, 0.75, 3);
+  jam_relax_report r = {.struct_size = sizeof r};
+  jam_relax_options o;
+  jam_hessian_options h;
+  jam_moduli m = {.struct_size = sizeof m}, bare = {.struct_size = sizeof bare};
+  assert_int_equal(jam_hessian_options_init(&h, sizeof h), JAM_OK);
+  assert_int_equal(jam_relax_options_init(&o, sizeof o), JAM_OK);
+  h.stiffness = JAM_STIFFNESS_SOFT, h.prestress = 1.0;
+  assert_int_equal(jam_moduli_get(sys, &h, &m), JAM_E_STATE);
+  assert_int_equal(jam_relax(sys, &o, &r), JAM_OK);
+  assert_true(r.converged == 1 && r.force_residual < 1e-12 && r.minimiser == JAM_MINIMISER_NEWTON);
+  assert_true(r.energy > 0.0 && r.pressure > 0.0 && r.excess_contacts > 0 && r.stable + r.rattlers == 80);
+  assert_int_equal(jam_moduli_get(sys, &h, &m), JAM_OK);
+  h.prestress = 0.0;
+  assert_int_equal(jam_moduli_get(sys, &h, &bare), JAM_OK);
+  assert_true(m.bulk > 0.0 && m.bulk < m.bulk_affine && m.shear < bare.shear);
+  /* The bulk modulus is -V dP/dV: diameters up by x are lengths down by x, and energies stay. */
+  const double x = 1e-7;
+  jam_relax_report up = {.struct_size = sizeof up};
+  assert_int_equal(jam_scale_diameters(sys, 1.0 + x), JAM_OK);
+  assert_int_equal(jam_relax(sys, &o, &up), JAM_OK);
+  const double change = (up.pressure * pow(1.0 + x, 3.0) - r.pressure) / (3.0 * x);
+  assert_true(fabs(change / m.bulk - 1.0) < 1e-3);
+  h.prestress = 1.5;
+  assert_int_equal(jam_moduli_get(sys, &h, &m), JAM_E_ARGUMENT);
+  jam_destroy(sys);
+}
+
+static int32_t stop_soon(const jam_progress *p, void *user) {
+  assert_true(p->phase == JAM_PHASE_DECOMPRESS || p->phase == JAM_PHASE_RELAX);
+  return ++*(int *)user > 1;
+}
+
+static void down_to_jamming(void **state) {
+  (void)state;
+  jam_system *sys = soft_start(80, 0.72, 5), *copy = NULL;
+  jam_decompress_report d = {.struct_size = sizeof d};
+  jam_crunch_report report = {.struct_size = sizeof report};
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_decompress(sys, NULL, &d), JAM_OK);
+  assert_true(d.isostatic == 1 && d.same_network == 1 && d.excess_contacts == 0 && d.common_contacts == d.contacts);
+  assert_true(fabs(d.jammed_fraction / d.crunch_fraction - 1.0) < 1e-9 && d.force_difference < 0.1);
+  assert_int_equal(jam_crunch_report_get(sys, &report), JAM_OK);
+  assert_true(report.jammed == 1 && report.contacts == d.contacts && report.packing_fraction == d.crunch_fraction);
+  size_t needed = 0;
+  assert_int_equal(jam_decompress_history(sys, JAM_SOFT_PRESSURE, NULL, 0, &needed), JAM_OK);
+  assert_true(needed == (size_t)(d.steps - d.restored) + 1);
+  double *p = malloc(needed * sizeof *p);
+  assert_int_equal(jam_decompress_history(sys, JAM_SOFT_PRESSURE, p, needed, &needed), JAM_OK);
+  for (size_t k = 1; k < needed; ++k) assert_true(p[k] < p[k - 1]);
+  assert_true(p[needed - 1] == d.pressure);
+  free(p);
+  assert_int_equal(jam_decompress_history(sys, 11, NULL, 0, &needed), JAM_E_ARGUMENT);
+  int calls = 0;
+  assert_int_equal(jam_set_progress(copy, stop_soon, &calls), JAM_OK);
+  assert_int_equal(jam_cancel(copy), JAM_OK);
+  assert_int_equal(jam_decompress(copy, NULL, &d), JAM_CANCELLED);
+  assert_int_equal(d.stop_reason, JAM_STOP_CANCELLED);
+  assert_int_equal(jam_decompress(copy, NULL, &d), JAM_OK); /* goes on, to another end: it starts from where it was */
+  jam_destroy(copy);
+  jam_destroy(sys);
+}
+
+static void unjammed_start(void **state) {
+  (void)state;
+  jam_system *sys = soft_start(60, 0.3, 1);
+  jam_decompress_report d = {.struct_size = sizeof d};
+  jam_relax_report r = {.struct_size = sizeof r};
+  assert_int_equal(jam_decompress(sys, NULL, &d), JAM_NOT_JAMMED);
+  assert_true(d.stop_reason == JAM_STOP_UNJAMMED && d.energy == 0.0 && d.same_network == -1 &&
+              isnan(d.crunch_fraction));
+  assert_int_equal(jam_relax(sys, NULL, &r), JAM_NOT_JAMMED);
+  assert_true(r.converged == 1 && r.rattlers == 60 && r.contacts == 0);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(hard_verbs_refuse_overlaps),
+                                     cmocka_unit_test(files_and_checkpoints),
+                                     cmocka_unit_test(options_are_checked),
+                                     cmocka_unit_test(response),
+                                     cmocka_unit_test(down_to_jamming),
+                                     cmocka_unit_test(unjammed_start)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

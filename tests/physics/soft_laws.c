@@ -1,0 +1,72 @@
+/* Soft spheres near jamming: the laws of energy and pressure, and forces by |h|^(alpha-1) and by the null vector. */
+#include "test.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "jam/jam.h"
+
+static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static double *column(const jam_system *sys, int32_t which, size_t *n) {
+  assert_int_equal(jam_decompress_history(sys, which, NULL, 0, n), JAM_OK);
+  double *x = malloc(*n * sizeof *x);
+  assert_int_equal(jam_decompress_history(sys, which, x, *n, n), JAM_OK);
+  return x;
+}
+
+/* Below the last change of contacts U ~ (ln R - ln R_J)^alpha exactly, and the pressure goes with alpha - 1. */
+static void energy_and_pressure(void **state) {
+  (void)state;
+  const double alphas[] = {1.5, 2.0, 2.5};
+  for (int a = 0; a < 3; ++a) {
+    jam_system *sys = soft_start(64, 0.72, 2);
+    jam_decompress_options o;
+    jam_decompress_report r = {.struct_size = sizeof r};
+    assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+    o.alpha = alphas[a], o.isostatic = 0, o.crunch = 0, o.distance = 1e-10;
+    assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
+    assert_true(r.force_residual < 1e-12 && r.excess_contacts == 0 && r.isostatic == 1);
+    size_t n;
+    double *e = column(sys, JAM_SOFT_ENERGY, &n), *p = column(sys, JAM_SOFT_PRESSURE, &n),
+           *phi = column(sys, JAM_SOFT_PHI, &n), *x = column(sys, JAM_SOFT_DISTANCE, &n);
+    const double fraction = pow(r.jammed_fraction, 1.0 / 3.0);
+    /* The last two minima have one network: exact laws, to the order of the distance. */
+    const double decades = log(x[n - 2] / x[n - 1]);
+    assert_true(fabs(log(e[n - 2] / e[n - 1]) / decades - alphas[a]) < 1e-5);
+    assert_true(fabs(log(p[n - 2] / p[n - 1]) / decades - (alphas[a] - 1.0)) < 1e-5);
+    for (size_t k = n - 2; k < n; ++k)
+      assert_true(fabs(pow(phi[k], 1.0 / 3.0) / fraction - 1.0 - x[k]) < 1e-3 * x[k] + 1e-15);
+    free(e), free(p), free(phi), free(x);
+    jam_destroy(sys);
+  }
+}
+
+/* The network from above is crunch's from below; so is phi_J, and far down the forces. */
+static void both_ways_to_jamming(void **state) {
+  (void)state;
+  for (int64_t seed = 1; seed <= 3; ++seed) {
+    jam_system *sys = soft_start(64, 0.70, seed);
+    jam_decompress_options o;
+    jam_decompress_report r = {.struct_size = sizeof r};
+    assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+    o.isostatic = 0, o.distance = 1e-11;
+    assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
+    assert_true(r.same_network == 1 && r.common_contacts == r.contacts);
+    assert_true(fabs(r.jammed_fraction / r.crunch_fraction - 1.0) < 1e-12);
+    assert_true(r.force_difference < 1e-4);
+    jam_destroy(sys);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(energy_and_pressure), cmocka_unit_test(both_ways_to_jamming)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

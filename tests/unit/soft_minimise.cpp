@@ -1,0 +1,173 @@
+// Minimisers: one minimum from one near start, balance beyond the digits of coordinates, rattlers, unjammed starts.
+#include <cmath>
+#include "test.h"
+
+#include "core/rng.hpp"
+#include "soft/decompression.hpp"
+
+using namespace jam;
+
+namespace {
+
+Packing random_packing(int dim, int n, double phi, int64_t seed) {
+  Packing p;
+  p.dim = dim;
+  p.seed = seed;
+  Rng rng(seed, Stream::rsa_positions);
+  p.position.resize(static_cast<size_t>(n) * dim);
+  for (double &x : p.position) x = rng.uniform();
+  p.diameter.assign(n, 1.0);
+  if (dim == 2)
+    for (int i = 0; i < n; i += 2) p.diameter[i] = 1.4;
+  const double scale = std::pow(phi / packing_fraction(p), 1.0 / dim);
+  for (double &s : p.diameter) s *= scale;
+  p.velocity.assign(p.position.size(), 0.0);
+  return p;
+}
+
+SoftResult relaxed(const Packing &p, int32_t minimiser, double alpha = 2.0, double tolerance = 1e-12,
+                   int32_t precision = JAM_SOFT_REFERENCE) {
+  Monitor monitor;
+  monitor.begin();
+  jam_relax_options o = default_relax_options();
+  o.minimiser = minimiser, o.alpha = alpha, o.force_tolerance = tolerance, o.precision = precision;
+  o.max_evaluations = 200000;
+  return relax(p, o, monitor);
+}
+
+// From a minimum that is shaken a little every method leads back to it.
+void one_minimum(void **) {
+  for (int dim = 2; dim <= 3; ++dim)
+    for (const double alpha : {2.0, 2.5}) {
+      const SoftResult start = relaxed(random_packing(dim, 80, dim == 2 ? 0.95 : 0.75, 2), JAM_MINIMISER_NEWTON, alpha);
+      assert_int_equal(start.status, JAM_OK);
+      assert_true(start.report.force_residual < 1e-12 && start.report.excess_contacts > 0);
+      Packing shaken = start.packing;
+      Rng rng(9, Stream::velocities);
+      for (double &x : shaken.position) x = wrap(x + 1e-5 * (rng.uniform() - 0.5), 1.0);
+      for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+        const SoftResult end = relaxed(shaken, m, alpha);
+        assert_int_equal(end.status, JAM_OK);
+        assert_int_equal(end.report.minimiser, m);
+        assert_true(std::fabs(end.report.energy / start.report.energy - 1.0) < 1e-11);
+        assert_true(end.contacts.pairs.i == start.contacts.pairs.i && end.contacts.pairs.j == start.contacts.pairs.j);
+      }
+    }
+}
+
+// Forces balance to 1e-12 where overlaps are 1e-9 of a diameter; in plain doubles they cannot.
+void balance_at_tiny_overlaps(void **) {
+  Monitor monitor;
+  monitor.begin();
+  jam_decompress_options o = default_decompress_options();
+  o.isostatic = o.crunch = 0, o.distance = 1e-9;
+  const DecompressionResult end = decompress(random_packing(3, 80, 0.75, 4), o, monitor, nullptr);
+  assert_int_equal(end.status, JAM_OK);
+  assert_true(end.soft.report.distance <= 1e-9 && end.soft.report.force_residual < 1e-12);
+  assert_true(end.soft.report.excess_contacts >= 0 && end.soft.report.stable > 60);
+  const SoftResult plain = relaxed(end.soft.packing, JAM_MINIMISER_NEWTON, 2.0, 1e-12, JAM_SOFT_DOUBLE);
+  assert_true(plain.status != JAM_OK && plain.report.force_residual > 1e-10);
+  const SoftResult exact = relaxed(end.soft.packing, JAM_MINIMISER_NEWTON);
+  assert_int_equal(exact.status, JAM_OK);
+  assert_true(exact.report.force_residual < 1e-12);
+}
+
+// Stiffnesses and pre-stress of the network are those of the energy: the Hessian times a displacement is the change of
+// the forces.
+void network_has_the_hessian(void **) {
+  const SoftResult at = relaxed(random_packing(3, 60, 0.8, 1), JAM_MINIMISER_NEWTON, 2.5);
+  assert_int_equal(at.report.rattlers, 0);
+  const double step = 1e-7;
+  SoftState state(at.packing, PairEnergy(2.5, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  std::vector<double> f0, f1, y(180, 0.0), u(180);
+  state.evaluate(f0);
+  Rng rng(3, Stream::velocities);
+  for (double &x : u) x = rng.uniform() - 0.5;
+  for (size_t k = 0; k < at.contacts.size(); ++k) {
+    const size_t i = at.contacts.pairs.i[k], j = at.contacts.pairs.j[k];
+    const double *n = &at.contacts.vector[3 * k], t = at.contacts.prestress[k];
+    double along = 0.0;
+    for (int c = 0; c < 3; ++c) along += n[c] * (u[3 * i + c] - u[3 * j + c]);
+    for (int c = 0; c < 3; ++c) {
+      const double x = (at.contacts.stiffness[k] + t) * along * n[c] - t * (u[3 * i + c] - u[3 * j + c]);
+      y[3 * i + c] += x, y[3 * j + c] -= x;
+    }
+  }
+  for (size_t k = 0; k < 180; ++k) state.displacement()[k] += step * u[k];
+  state.evaluate(f1);
+  double worst = 0.0, size = 0.0;
+  for (size_t k = 0; k < 180; ++k) {
+    worst = std::max(worst, std::fabs((f0[k] - f1[k]) / step - y[k]));
+    size = std::max(size, std::fabs(y[k]));
+  }
+  assert_true(worst < 1e-4 * size);
+}
+
+// No overlaps left: energy 0, said so. One sphere, and spheres of which none is held.
+void unjammed(void **) {
+  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+    const SoftResult end = relaxed(random_packing(3, 60, 0.4, 5), m);
+    assert_int_equal(end.status, JAM_NOT_JAMMED);
+    assert_int_equal(end.report.stop_reason, JAM_STOP_UNJAMMED);
+    assert_true(end.report.energy == 0.0 && end.report.converged == 1 && end.report.rattlers == 60);
+    assert_true(end.contacts.size() == 0 && end.report.force_residual == 0.0 && end.report.pressure == 0.0);
+    Packing one = random_packing(3, 1, 0.1, 1);
+    assert_int_equal(relaxed(one, m).status, JAM_NOT_JAMMED);
+    Packing two = random_packing(3, 2, 0.05, 1);
+    two.position = {0.5, 0.5, 0.5, 0.51, 0.5, 0.5};
+    const SoftResult pair = relaxed(two, m);
+    assert_int_equal(pair.status, JAM_NOT_JAMMED);
+  }
+}
+
+// A rattler against its cage goes to where its nearest neighbours are farther.
+void rattlers_are_centred(void **) {
+  Packing p;  // a small sphere inside a cube of eight large ones that overlap along the edges
+  p.dim = 3;
+  for (int k = 0; k < 8; ++k)
+    for (int c = 0; c < 3; ++c) p.position.push_back(0.25 + 0.5 * ((k >> c) & 1));
+  p.diameter.assign(8, 0.51);
+  p.position.insert(p.position.end(), {0.56, 0.5, 0.47});
+  p.diameter.push_back(0.3);
+  p.velocity.assign(27, 0.0);
+  SoftState state(p, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  centre_rattlers(state);
+  state.rebase();
+  const std::vector<double> &x = state.base().position;
+  for (int c = 0; c < 24; ++c) assert_true(x[c] == p.position[c]);
+  double least = 1.0;
+  for (int k = 0; k < 8; ++k) {
+    double r2 = 0.0;
+    for (int c = 0; c < 3; ++c) r2 += std::pow(x[24 + c] - x[3 * k + c], 2);
+    least = std::min(least, std::sqrt(r2) - 0.405);
+  }
+  assert_true(least > 0.02);  // sqrt(3)/4 - 0.405 = 0.028 in the middle; -0.017 before
+}
+
+// A step of the tolerance below what rounding leaves is told, not awaited.
+void limits_are_told(void **) {
+  Monitor monitor;
+  monitor.begin();
+  jam_relax_options o = default_relax_options();
+  o.max_evaluations = 5;
+  const SoftResult few = relax(random_packing(3, 60, 0.75, 1), o, monitor);
+  assert_int_equal(few.status, JAM_LIMIT);
+  assert_int_equal(few.report.stop_reason, JAM_STOP_EVALUATIONS);
+  assert_true(few.report.converged == 0 && few.report.force_residual > 1e-12);
+  monitor.cancel();
+  o.max_evaluations = 1000000;
+  const SoftResult cut = relax(random_packing(3, 60, 0.75, 1), o, monitor);
+  assert_int_equal(cut.status, JAM_CANCELLED);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(one_minimum),
+                              cmocka_unit_test(balance_at_tiny_overlaps),
+                              cmocka_unit_test(network_has_the_hessian),
+                              cmocka_unit_test(unjammed),
+                              cmocka_unit_test(rattlers_are_centred),
+                              cmocka_unit_test(limits_are_told)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -38,18 +38,6 @@ SoftRow row_of(const SoftResult &at, const Effort &before, const Effort &after, 
   return row;
 }
 
-// Whether the judge's jammed packing has the same network; notes the verdict.
-bool ask(const std::function<SoftVerdict(const SoftResult &)> &judge, const SoftResult &soft,
-         jam_decompress_report &report) {
-  const SoftVerdict verdict = judge(soft);
-  report.same_network = verdict.same_network;
-  report.common_contacts = verdict.common_contacts;
-  report.crunch_fraction = verdict.packing_fraction;
-  report.force_difference = verdict.force_difference;
-  report.seconds_crunch += verdict.seconds;
-  return verdict.same_network;
-}
-
 }  // namespace
 
 jam_decompress_options default_decompress_options() {
@@ -129,113 +117,158 @@ void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
   state = best;
 }
 
+namespace {
+
+class Decompression {
+ public:
+  Decompression(const Packing &start, const jam_decompress_options &o, Monitor &monitor,
+                const std::function<SoftVerdict(const SoftResult &)> &judge)
+      : o_(o),
+        monitor_(monitor),
+        judge_(judge),
+        state_(start, PairEnergy(o.alpha, o.scale), o.precision),
+        before_(state_),
+        factor_(o.energy_factor) {
+    effort_.monitor = &monitor;
+    effort_.phase = JAM_PHASE_DECOMPRESS;
+    effort_.packing_fraction = packing_fraction(start);
+    effort_.pressure = std::nan("");
+    report_.same_network = -1, report_.common_contacts = -1;
+    report_.crunch_fraction = report_.force_difference = std::nan("");
+  }
+
+  DecompressionResult run() {
+    bool ended = first_minimum();
+    while (!ended) ended = step();
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  bool end_with(jam_status status, int32_t reason) {
+    out_.status = status, report_.stop_reason = reason;
+    return true;
+  }
+
+  DescentEnd find_minimum(bool near_minimum, SoftResult &now, SoftRow &row) {
+    const Effort spent = effort_;
+    const double seconds = monitor_.seconds();
+    effort_.max_evaluations = effort_.evaluations + o_.max_evaluations;
+    Relaxation r(state_, effort_);
+    const DescentEnd end = minimise(r, o_.minimiser, o_.force_tolerance, near_minimum);
+    now = measure(state_, o_.minimiser);
+    row = row_of(now, spent, effort_, monitor_.seconds() - seconds);
+    monitor_.log(JAM_LOG_INFO,
+                 "decompress: step %lld phi %.9f distance %.3e excess %lld residual %.1e, %lld evaluations",
+                 static_cast<long long>(effort_.steps), now.report.packing_fraction, now.report.distance,
+                 static_cast<long long>(now.report.excess_contacts), now.report.force_residual,
+                 static_cast<long long>(effort_.evaluations - spent.evaluations));
+    return end;
+  }
+
+  bool first_minimum() {
+    SoftRow row;
+    const DescentEnd end = find_minimum(false, out_.soft, row);
+    if (end == DescentEnd::balanced) return keep(row);
+    out_.status = status_of(end, monitor_, report_.stop_reason);
+    return true;
+  }
+
+  // Smaller diameters and the minimum there. One that has lost its contacts, or was not found, is taken back.
+  bool step() {
+    ++effort_.steps;
+    const double fall = out_.soft.report.distance * (1.0 - std::pow(factor_, 1.0 / o_.alpha));
+    if (o_.minimiser == JAM_MINIMISER_NEWTON) {
+      centre_rattlers(state_);
+      state_.moved();
+      follow_growth(state_, -fall, effort_.factorisations);
+    } else {
+      state_.scale_diameters(std::exp(-fall));
+    }
+    SoftResult now;
+    SoftRow row;
+    const DescentEnd end = find_minimum(true, now, row);
+    if (end == DescentEnd::interrupted) {
+      out_.status = status_of(end, monitor_, report_.stop_reason);
+      return true;
+    }
+    if (end == DescentEnd::balanced && now.report.stable > 0 && now.report.excess_contacts >= 0) {
+      out_.soft = std::move(now);
+      factor_ = std::max(factor_ * factor_, o_.energy_factor);
+      return keep(row);
+    }
+    ++report_.restored;
+    state_ = before_;
+    factor_ = std::sqrt(factor_);
+    if (factor_ <= last_factor) return false;
+    if (end == DescentEnd::limit) return end_with(JAM_LIMIT, JAM_STOP_EVALUATIONS);
+    return end_with(JAM_NOT_CONVERGED, JAM_STOP_STALLED);
+  }
+
+  // Notes a minimum; true when it is the end.
+  bool keep(const SoftRow &row) {
+    out_.history.push_back(row);
+    before_ = state_;
+    const jam_relax_report &at = out_.soft.report;
+    effort_.packing_fraction = at.packing_fraction, effort_.pressure = at.pressure;
+    report_.isostatic = is_isostatic(state_, out_.soft, effort_.factorisations);
+    const bool target = at.pressure <= o_.pressure || at.distance <= o_.distance;
+    if (target || (o_.isostatic && report_.isostatic)) {
+      const bool same = !judge_ || ask();
+      if (target || same) return end_with(JAM_OK, at.pressure <= o_.pressure ? JAM_STOP_PRESSURE : JAM_STOP_CONVERGED);
+    }
+    if (at.mean_overlap < overlap_resolution(out_.soft.packing)) return end_with(JAM_PRECISION, JAM_STOP_PRECISION);
+    if (effort_.steps >= o_.max_steps) return end_with(JAM_LIMIT, JAM_STOP_STEPS);
+    return false;
+  }
+
+  // Whether the judge's jammed packing has the same network; notes the verdict.
+  bool ask() {
+    const SoftVerdict verdict = judge_(out_.soft);
+    report_.same_network = verdict.same_network;
+    report_.common_contacts = verdict.common_contacts;
+    report_.crunch_fraction = verdict.packing_fraction;
+    report_.force_difference = verdict.force_difference;
+    report_.seconds_crunch += verdict.seconds;
+    return verdict.same_network;
+  }
+
+  void finish() {
+    const jam_relax_report &at = out_.soft.report;
+    report_.force_residual = at.force_residual;
+    report_.energy = at.energy;
+    report_.pressure = at.pressure;
+    report_.packing_fraction = at.packing_fraction;
+    report_.distance = at.distance;
+    report_.jammed_fraction = at.jammed_fraction;
+    report_.coordination = at.coordination;
+    report_.contacts = at.contacts;
+    report_.excess_contacts = at.excess_contacts;
+    report_.rattlers = at.rattlers;
+    report_.steps = effort_.steps;
+    report_.evaluations = effort_.evaluations;
+    report_.factorisations = effort_.factorisations;
+    report_.seconds = monitor_.seconds();
+    out_.report = report_;
+  }
+
+  const jam_decompress_options &o_;
+  Monitor &monitor_;
+  const std::function<SoftVerdict(const SoftResult &)> &judge_;
+  SoftState state_, before_;  // now, and at the last minimum
+  double factor_;             // of the energy in the next step
+  Effort effort_;
+  DecompressionResult out_;
+  jam_decompress_report report_{};
+};
+
+}  // namespace
+
 DecompressionResult decompress(const Packing &start, const jam_decompress_options &o, Monitor &monitor,
                                const std::function<SoftVerdict(const SoftResult &)> &judge) {
   check_decompress_options(o);
   monitor.wall_time = o.wall_time;
-  Effort effort;
-  effort.monitor = &monitor;
-  effort.phase = JAM_PHASE_DECOMPRESS;
-  effort.packing_fraction = packing_fraction(start);
-  effort.pressure = std::nan("");
-  DecompressionResult out;
-  jam_decompress_report &report = out.report;
-  report.same_network = -1, report.common_contacts = -1;
-  report.crunch_fraction = report.force_difference = std::nan("");
-  SoftState state(start, PairEnergy(o.alpha, o.scale), o.precision), before = state;
-  double factor = o.energy_factor;
-  DescentEnd end = DescentEnd::balanced;
-  bool first = true;
-  out.status = JAM_NOT_CONVERGED, report.stop_reason = JAM_STOP_STALLED;
-  for (;;) {
-    const Effort spent = effort;
-    const double seconds = monitor.seconds();
-    effort.max_evaluations = effort.evaluations + o.max_evaluations;
-    SoftResult now;
-    {
-      Relaxation r(state, effort);
-      end = minimise(r, o.minimiser, o.force_tolerance, !first);
-      now = measure(state, o.minimiser);
-    }
-    monitor.log(JAM_LOG_INFO,
-                "decompress: step %lld phi %.9f distance %.3e excess %lld residual %.1e, %lld evaluations",
-                static_cast<long long>(effort.steps), now.report.packing_fraction, now.report.distance,
-                static_cast<long long>(now.report.excess_contacts), now.report.force_residual,
-                static_cast<long long>(effort.evaluations - spent.evaluations));
-    if (first && end != DescentEnd::balanced) {
-      out.soft = std::move(now);
-      out.status = status_of(end, monitor, report.stop_reason);
-      break;
-    }
-    if (end == DescentEnd::interrupted) {
-      if (effort.steps == 0) out.soft = std::move(now);
-      out.status = status_of(end, monitor, report.stop_reason);
-      break;
-    }
-    const bool lost = end != DescentEnd::balanced || now.report.stable == 0 || now.report.excess_contacts < 0;
-    if (lost && !first) {
-      ++report.restored;
-      state = before;
-      factor = std::sqrt(factor);
-      if (factor > last_factor) {
-        if (end != DescentEnd::balanced) out.status = status_of(end, monitor, report.stop_reason);
-        if (end == DescentEnd::no_overlaps || end == DescentEnd::balanced)
-          out.status = JAM_NOT_CONVERGED, report.stop_reason = JAM_STOP_STALLED;
-        break;
-      }
-    } else {
-      out.soft = std::move(now);
-      out.history.push_back(row_of(out.soft, spent, effort, monitor.seconds() - seconds));
-      if (!first && factor > o.energy_factor) factor = std::max(factor * factor, o.energy_factor);
-      const jam_relax_report &at = out.soft.report;
-      effort.packing_fraction = at.packing_fraction, effort.pressure = at.pressure;
-      report.isostatic = is_isostatic(state, out.soft, effort.factorisations);
-      const bool target = at.pressure <= o.pressure || at.distance <= o.distance;
-      if (target || (o.isostatic && report.isostatic)) {
-        const bool same = !judge || ask(judge, out.soft, report);
-        if (target || same) {
-          out.status = JAM_OK;
-          report.stop_reason = at.pressure <= o.pressure ? JAM_STOP_PRESSURE : JAM_STOP_CONVERGED;
-          break;
-        }
-      }
-      if (at.mean_overlap < overlap_resolution(out.soft.packing)) {
-        out.status = JAM_PRECISION, report.stop_reason = JAM_STOP_PRECISION;
-        break;
-      }
-      if (effort.steps >= o.max_steps) {
-        out.status = JAM_LIMIT, report.stop_reason = JAM_STOP_STEPS;
-        break;
-      }
-      before = state;
-    }
-    first = false;
-    ++effort.steps;
-    const double fall = out.soft.report.distance * (1.0 - std::pow(factor, 1.0 / o.alpha));
-    if (o.minimiser == JAM_MINIMISER_NEWTON) {
-      centre_rattlers(state);
-      state.moved();
-      follow_growth(state, -fall, effort.factorisations);
-    } else {
-      state.scale_diameters(std::exp(-fall));
-    }
-  }
-  const jam_relax_report &at = out.soft.report;
-  report.force_residual = at.force_residual;
-  report.energy = at.energy;
-  report.pressure = at.pressure;
-  report.packing_fraction = at.packing_fraction;
-  report.distance = at.distance;
-  report.jammed_fraction = at.jammed_fraction;
-  report.coordination = at.coordination;
-  report.contacts = at.contacts;
-  report.excess_contacts = at.excess_contacts;
-  report.rattlers = at.rattlers;
-  report.steps = effort.steps;
-  report.evaluations = effort.evaluations;
-  report.factorisations = effort.factorisations;
-  report.seconds = monitor.seconds();
-  return out;
+  return Decompression(start, o, monitor, judge).run();
 }
 
 }  // namespace jam

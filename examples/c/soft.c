@@ -15,12 +15,15 @@ int main(void) {
   jam_moduli moduli;
   jam_decompress_report down;
   jam_system *sys = NULL;
+  double size[100];
+  int k;
 
+  for (k = 0; k < 100; ++k) size[k] = k % 2 ? 1.4 : 1.0; /* so few equal spheres would order */
   jam_create_options_init(&o, sizeof o);
   o.n = 100;
   o.packing_fraction = 0.72;     /* above jamming */
   o.overlap = JAM_OVERLAP_ALLOW; /* independent uniform points */
-  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0) return failed(sys);
+  if (jam_create(&o, NULL, 0, size, 100, &sys) < 0) return failed(sys);
 
   minimum.struct_size = sizeof minimum;
   if (jam_relax(sys, NULL, &minimum) < 0) return failed(sys); /* NULL: harmonic, forces balanced to 1e-12 */

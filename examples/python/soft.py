@@ -1,7 +1,8 @@
 """Soft spheres from random points to an energy minimum, its moduli, and down to jamming, checked by a crunch."""
 import jam
 
-packing = jam.System.random(n=100, packing_fraction=0.72, overlap="allow")  # independent uniform points above jamming
+sizes = [1.0, 1.4] * 50  # so few equal spheres would order
+packing = jam.System.random(n=100, packing_fraction=0.72, diameters=sizes, overlap="allow")  # uniform points
 
 minimum = packing.relax()  # harmonic; alpha=2.5, minimiser="fire", ... are options
 print(f"energy {minimum.energy:.6g}, pressure {minimum.pressure:.6g}, residual {minimum.force_residual:.1e}")

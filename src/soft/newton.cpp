@@ -42,7 +42,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     if (step == 0) start = now;
     if (now > leaves_saddle * start) return DescentEnd::stalled;
     DescentEnd end;
-    if (r.must_stop(end)) return end;
+    if (r.must_stop(end, true)) return end;
     if (std::find(on.begin(), on.end(), 1) == on.end()) return DescentEnd::stalled;
     if (!(fresh && now < good_factor * last && hessian.has_contacts(state, contacts))) {
       if (!hessian.factorise(state, contacts, on, shift, r.effort.factorisations)) return DescentEnd::stalled;

@@ -40,12 +40,12 @@ double Relaxation::stable_residual() const {
   return largest(force, state.dim(), &stable) * static_cast<double>(count) / sum;
 }
 
-bool Relaxation::must_stop(DescentEnd &end) const {
+bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {
   if (effort.evaluations >= effort.max_evaluations) {
     end = DescentEnd::limit;
     return true;
   }
-  if (effort.monitor && effort.evaluations % 64 == 0) {
+  if (effort.monitor && (long_steps || effort.evaluations % 64 == 1)) {
     jam_progress p{};
     p.phase = effort.phase;
     p.packing_fraction = effort.packing_fraction;

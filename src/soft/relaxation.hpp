@@ -42,8 +42,9 @@ class Relaxation {
   // Largest |F_i| over the mean force: of all spheres, and of stable ones.
   double residual() const;
   double stable_residual() const;
-  // Called once an evaluation: true when the descent must end, with the reason in `end`.
-  bool must_stop(DescentEnd &end) const;
+  // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
+  // then, or where steps are long at every one.
+  bool must_stop(DescentEnd &end, bool long_steps = false) const;
 
   SoftState &state;
   Effort &effort;

@@ -6,12 +6,16 @@
 
 #include "jam/jam.h"
 
+/* Spheres of two sizes, 1 : 1.4: so few equal ones would order, and end with more contacts than isostatic. */
 static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
   jam_create_options o;
   jam_system *sys = NULL;
+  double *size = malloc((size_t)n * sizeof *size);
+  for (int64_t k = 0; k < n; ++k) size[k] = k % 2 ? 1.4 : 1.0;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, 0, size, (size_t)n, &sys), JAM_OK);
+  free(size);
   return sys;
 }
 
@@ -25,8 +29,8 @@ static double *column(const jam_system *sys, int32_t which, size_t *n) {
 /* Below the last change of contacts U ~ (ln R - ln R_J)^alpha exactly, and the pressure goes with alpha - 1. */
 static void energy_and_pressure(void **state) {
   (void)state;
-  const double alphas[] = {1.5, 2.0, 2.5};
-  for (int a = 0; a < 3; ++a) {
+  const double alphas[] = {2.0, 2.5};
+  for (int a = 0; a < 2; ++a) {
     jam_system *sys = soft_start(64, 0.72, 2);
     jam_decompress_options o;
     jam_decompress_report r = {.struct_size = sizeof r};

@@ -1669,13 +1669,16 @@ module jam
       integer(c_int32_t) :: status
     end function jam_relax_options_init
 
-    ! Minimises the energy of overlapping spheres at fixed diameters and box, and keeps the contact network with its forces
-    ! and stiffnesses (jam_contacts, jam_forces, jam_hessian with JAM_STIFFNESS_SOFT, ...). The system must have been made
-    ! with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond. report may
-    ! be NULL. Example: examples/c/soft.c Status: JAM_OK converged; JAM_NOT_JAMMED converged to energy 0 (no overlaps);
-    ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions; JAM_NOT_CONVERGED, JAM_LIMIT,
-    ! JAM_CANCELLED: the state is the best so far. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made
-    ! without JAM_OVERLAP_ALLOW), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! Minimises the energy of overlapping spheres at fixed diameters and box. Keeps the contact network with its forces and
+    ! stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. The system must have been
+    ! made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond.
+    ! report may be NULL. Example: examples/c/soft.c
+    ! Status: JAM_OK converged.
+    ! JAM_NOT_JAMMED converged to energy 0: no overlaps.
+    ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
+    ! JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.
+    ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW), JAM_E_MEMORY,
+    ! JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_relax(sys, o, report) &
         bind(c, name="jam_relax") result(status)
       import
@@ -1694,11 +1697,13 @@ module jam
       integer(c_int32_t) :: status
     end function jam_decompress_options_init
 
-    ! From overlapping spheres down to jamming: minimises, shrinks all diameters by one factor so that the energy falls by
+    ! From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
     ! energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
-    ! taken back and its square root is tried. report may be NULL. Status: JAM_OK a target was reached (with isostatic and
-    ! crunch: one network by both ways); JAM_NOT_JAMMED the start has no overlaps at its minimum; JAM_PRECISION overlaps
-    ! came down to the rounding of positions before; JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
+    ! taken back and its square root is tried. report may be NULL.
+    ! Status: JAM_OK a target was reached; with isostatic and crunch, both ways lead to one network.
+    ! JAM_NOT_JAMMED the start has no overlaps at its minimum.
+    ! JAM_PRECISION overlaps came down to the rounding of positions before a target.
+    ! JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
     ! Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1
     function jam_decompress(sys, o, report) &
         bind(c, name="jam_decompress") result(status)

@@ -20,7 +20,7 @@ struct jam_system {
   std::vector<jam::HistoryRow> history;  // valid when has_history
   bool has_history = false;
   std::vector<jam::SoftRow> soft_history;  // of the last decompression; empty without one
-  const jam::CrunchStep *step = nullptr;  // of the crunch that runs
+  const jam::CrunchStep *step = nullptr;   // of the crunch that runs
   jam::Monitor monitor;
   std::atomic<bool> busy{false};
   std::unique_ptr<jam::Dynamics> paused;               // was stopped early and can be resumed

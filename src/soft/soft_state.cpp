@@ -19,7 +19,7 @@ constexpr int64_t few_evaluations = 25, many_evaluations = 250;
 
 }  // namespace
 
-SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precision)
+SoftState::SoftState(const Packing &p, const SoftEnergy &energy, int32_t precision)
     : base_(p),
       energy_(energy),
       precision_(precision),

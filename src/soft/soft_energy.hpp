@@ -11,10 +11,10 @@ namespace jam {
 //   JAM_SOFT_RELATIVE  c = 1 / alpha, l = sigma     (O'Hern et al., Phys. Rev. E 68, 011306 (2003))
 //   JAM_SOFT_ABSOLUTE  c = 1 / alpha, l = 1
 //   JAM_SOFT_BARE      c = 1,         l = 1
-class PairEnergy {
+class SoftEnergy {
  public:
-  PairEnergy() = default;
-  PairEnergy(double alpha, int32_t scale)
+  SoftEnergy() = default;
+  SoftEnergy(double alpha, int32_t scale)
       : alpha_(alpha),
         factor_(scale == JAM_SOFT_BARE ? alpha : 1.0),
         relative_(scale == JAM_SOFT_RELATIVE),

@@ -137,7 +137,7 @@ static void hard_fluids_have_the_pressure_of_molecular_dynamics(void **state) {
     jam_compress_options grow;
     jam_run_options nve;
     jam_md_report md;
-    jam_monte_carlo_options o = options(0.0, 1.0, 4000);
+    jam_monte_carlo_options o = options(0.0, 1.0, 12000);
     jam_monte_carlo_report r;
     jam_system *sys = NULL;
     double exact;

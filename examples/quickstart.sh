@@ -8,7 +8,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 picture=${1:-packing.png}
 case $picture in /*) ;; *) picture=$start/$picture ;; esac
 . "$root/tests/debian.sh"
-need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev libmetis-dev \
+need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev \
   libopenblas-dev python3-numpy python3-matplotlib
 
 echo "== build"

@@ -67,7 +67,7 @@ jam_status jam_create(const jam_create_options *o, const double *positions, size
 
 jam_status jam_copy(const jam_system *src, jam_system **out) {
   return guard([&]() -> jam_status {
-    need(src, "src");
+    const Reading reading(src, "src");
     need(out, "out");
     auto sys = std::make_unique<jam_system>();
     sys->packing = src->packing;

@@ -31,23 +31,42 @@ jam_status guard(F &&f) noexcept {
   }
 }
 
+// A const call that runs on a handle. No gate is needed inside a callback of the call that has the handle alone.
+class Reading {
+ public:
+  explicit Reading(const jam_system *sys, const char *name = "sys") {
+    if (!sys) fail(JAM_E_NULL, "%s is NULL", name);
+    if (sys->gate.owned()) return;
+    if (!sys->gate.enter_const()) fail(JAM_E_BUSY, "another thread runs a call on this handle");
+    gate_ = &sys->gate;
+  }
+  ~Reading() {
+    if (gate_) gate_->leave_const();
+  }
+  Reading(const Reading &) = delete;
+  Reading &operator=(const Reading &) = delete;
+
+ private:
+  CallGate *gate_ = nullptr;
+};
+
 // A const call on a handle: checks the handle inside the try.
 template <class F>
 jam_status guard_const(const jam_system *sys, F &&f) noexcept {
   return guard([&] {
-    if (!sys) fail(JAM_E_NULL, "sys is NULL");
+    const Reading reading(sys);
     return f();
   });
 }
 
-// Holds a handle's busy flag.
+// A call that has the handle alone.
 class Busy {
  public:
   explicit Busy(jam_system *sys) : sys_(sys) {
     if (!sys) fail(JAM_E_NULL, "sys is NULL");
-    if (sys->busy.exchange(true)) fail(JAM_E_BUSY, "another call is running on this handle");
+    if (!sys->gate.enter_alone()) fail(JAM_E_BUSY, "another call is running on this handle");
   }
-  ~Busy() { sys_->busy.store(false); }
+  ~Busy() { sys_->gate.leave_alone(); }
   Busy(const Busy &) = delete;
   Busy &operator=(const Busy &) = delete;
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include "capi/call_gate.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
@@ -22,7 +23,7 @@ struct jam_system {
   std::vector<jam::SoftRow> soft_history;  // of the last decompression; empty without one
   const jam::CrunchStep *step = nullptr;   // of the crunch that runs
   jam::Monitor monitor;
-  std::atomic<bool> busy{false};
+  mutable jam::CallGate gate;
   std::unique_ptr<jam::Dynamics> paused;               // was stopped early and can be resumed
   const jam::Dynamics *live = nullptr;                 // runs now, while callbacks are called
   std::unique_ptr<jam::Isoconfigurational> runs;       // the last ones from one configuration, complete or not

@@ -13,9 +13,9 @@ namespace jam {
 class BlockCholesky {
  public:
   // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees
-  // and large fronts side by side.
+  // and large fronts side by side. order[k] is the node that is eliminated k-th; empty: nested dissection.
   void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1,
-               Ordering ordering = Ordering::metis);
+               std::vector<int32_t> order = {});
   // The same with the elimination order of the last call, for a graph that changed little; analyse() when n is another.
   void analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1);
   // A pivot at or below max(relative * its diagonal entry in A, floor) counts as lost. Default 1e-16 and 0.

@@ -192,8 +192,8 @@ void BlockCholesky::place_entries(const int32_t *ei, const int32_t *ej, size_t e
 }
 
 void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads,
-                            Ordering ordering) {
-  order_ = order_nodes(make_rigidity_matrix(n, ei, ej, edges), ordering);
+                            std::vector<int32_t> order) {
+  order_ = order.empty() ? nested_dissection(make_graph(n, ei, ej, edges)) : std::move(order);
   analyse_keep_order(dim, n, ei, ej, edges, threads);
 }
 
@@ -203,7 +203,7 @@ void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, co
   if (dim < 1 || dim > 8)
     fail(JAM_E_INTERNAL, "blocks of %d x %d in BlockCholesky", dim, dim);  // extend_add has a kernel for each
   dim_ = dim, n_ = n, threads_ = threads;
-  const Graph graph = make_rigidity_matrix(n, ei, ej, edges);
+  const Graph graph = make_graph(n, ei, ej, edges);
   std::vector<int32_t> order = order_, place(n);
   const auto invert = [&] {
     for (int32_t k = 0; k < n; ++k) place[order[k]] = k;

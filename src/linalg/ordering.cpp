@@ -1,56 +1,96 @@
+// Nested dissection: two sides first, each dissected in turn, their separator last. Small parts: minimum degree.
 #include "linalg/ordering.hpp"
 
-#include <metis.h>
-
-#include <mutex>
-#include <new>
+#include <algorithm>
 #include <numeric>
 
-#include "core/error.hpp"
+#include "linalg/minimum_degree.hpp"
+#include "linalg/vertex_separator.hpp"
 
 namespace jam {
+namespace {
 
-Graph make_rigidity_matrix(int32_t n, const int32_t *ei, const int32_t *ej, size_t edges) {
-  Graph g;
-  g.start.assign(static_cast<size_t>(n) + 1, 0);
-  for (size_t k = 0; k < edges; ++k) ++g.start[ei[k] + 1], ++g.start[ej[k] + 1];
-  for (int32_t v = 0; v < n; ++v) g.start[v + 1] += g.start[v];
-  g.adjacency.resize(2 * edges);
-  std::vector<int32_t> fill(g.start.begin(), g.start.end() - 1);
-  for (size_t k = 0; k < edges; ++k) {
-    g.adjacency[fill[ei[k]]++] = ej[k];
-    g.adjacency[fill[ej[k]]++] = ei[k];
+constexpr int32_t kLeaf = 100;  // parts of at most so many nodes are ordered by minimum degree
+
+class Dissection {
+ public:
+  explicit Dissection(const Graph &graph) : g_(graph), order_(graph.size()), local_(graph.size(), -1) {}
+  std::vector<int32_t> run();
+
+ private:
+  struct Part {
+    std::vector<int32_t> nodes;
+    int32_t end;  // one past its last place in the order
+  };
+  void order_leaf(const Part &part);
+  WeightedGraph subgraph(const std::vector<int32_t> &nodes);
+
+  const Graph &g_;
+  std::vector<int32_t> order_, local_;
+  std::vector<Part> parts_;
+};
+
+WeightedGraph Dissection::subgraph(const std::vector<int32_t> &nodes) {
+  for (size_t k = 0; k < nodes.size(); ++k) local_[nodes[k]] = static_cast<int32_t>(k);
+  WeightedGraph out;
+  out.start.reserve(nodes.size() + 1);
+  out.start.push_back(0);
+  for (const int32_t v : nodes) {
+    for (int32_t e = g_.start[v]; e < g_.start[v + 1]; ++e)
+      if (local_[g_.adjacency[e]] >= 0) out.adjacency.push_back(local_[g_.adjacency[e]]);
+    out.start.push_back(static_cast<int32_t>(out.adjacency.size()));
   }
-  return g;
+  for (const int32_t v : nodes) local_[v] = -1;
+  out.weight.assign(nodes.size(), 1);
+  out.edge_weight.assign(out.adjacency.size(), 1);
+  return out;
 }
 
-std::vector<int32_t> nested_dissection(const Graph &graph) {
-  static_assert(sizeof(idx_t) == sizeof(int32_t), "METIS with 32-bit indices is expected");
-  idx_t n = graph.size();
-  std::vector<int32_t> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  if (n < 3 || graph.adjacency.empty()) return order;
-  std::vector<idx_t> start(graph.start.begin(), graph.start.end()),
-      adjacency(graph.adjacency.begin(), graph.adjacency.end());
-  std::vector<idx_t> inverse(n);
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_NUMBERING] = 0;
-  static std::mutex lock;
-  const std::lock_guard<std::mutex> hold(lock);
-  const int status = METIS_NodeND(&n, start.data(), adjacency.data(), nullptr, options, order.data(), inverse.data());
-  if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
-  if (status != METIS_OK) fail(JAM_E_INTERNAL, "METIS_NodeND returned %d", status);
-  return order;
+// The part and the nodes around it, which belong to separators and come later.
+void Dissection::order_leaf(const Part &part) {
+  std::vector<int32_t> nodes = part.nodes;
+  for (size_t k = 0; k < nodes.size(); ++k) local_[nodes[k]] = static_cast<int32_t>(k);
+  const auto inner = static_cast<int32_t>(part.nodes.size());
+  for (int32_t k = 0; k < inner; ++k)
+    for (int32_t e = g_.start[nodes[k]]; e < g_.start[nodes[k] + 1]; ++e) {
+      const int32_t u = g_.adjacency[e];
+      if (local_[u] < 0) local_[u] = static_cast<int32_t>(nodes.size()), nodes.push_back(u);
+    }
+  for (const int32_t v : nodes) local_[v] = -1;
+  const std::vector<int32_t> places = minimum_degree(subgraph(nodes), inner);
+  for (int32_t k = 0; k < inner; ++k) order_[part.end - inner + k] = nodes[places[k]];
 }
 
-std::vector<int32_t> order_nodes(const Graph &graph, Ordering which) {
-  if (which == Ordering::metis) return nested_dissection(graph);
-  if (which == Ordering::dissection) return order_by_dissection(graph);
-  std::vector<int32_t> order(graph.size());
-  std::iota(order.begin(), order.end(), 0);
-  return order;
+std::vector<int32_t> Dissection::run() {
+  Rng rng(g_.size(), Stream::analysis_start);
+  std::vector<int32_t> all(g_.size());
+  std::iota(all.begin(), all.end(), 0);
+  parts_.push_back({std::move(all), g_.size()});
+  while (!parts_.empty()) {
+    const Part part = std::move(parts_.back());
+    parts_.pop_back();
+    const auto size = static_cast<int32_t>(part.nodes.size());
+    if (size <= kLeaf) {
+      order_leaf(part);
+      continue;
+    }
+    const Bisection b = bisect(subgraph(part.nodes), rng);
+    std::vector<int32_t> list[3];
+    for (int32_t k = 0; k < size; ++k) list[static_cast<int>(b.side[k])].push_back(part.nodes[k]);
+    if (list[0].empty() || list[1].empty()) {  // nearly complete: nothing to separate
+      std::copy(part.nodes.begin(), part.nodes.end(), order_.begin() + (part.end - size));
+      continue;
+    }
+    const auto separator = static_cast<int32_t>(list[2].size()), right = static_cast<int32_t>(list[1].size());
+    std::copy(list[2].begin(), list[2].end(), order_.begin() + (part.end - separator));
+    parts_.push_back({std::move(list[0]), part.end - separator - right});
+    parts_.push_back({std::move(list[1]), part.end - separator});
+  }
+  return std::move(order_);
 }
+
+}  // namespace
+
+std::vector<int32_t> nested_dissection(const Graph &graph) { return Dissection(graph).run(); }
 
 }  // namespace jam

@@ -13,10 +13,9 @@ with open(sys.argv[1]) as source:
 runs = [run for run in result["runs"] if run["graph"] == "relaxed"]
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4))
 for key, label in (
-    ("metis_1", "libjam, METIS"),
-    ("own_1", "libjam, own order"),
-    ("metis_2", "libjam, METIS, 2 threads"),
-    ("mumps", "MUMPS, METIS"),
+    ("jam_1", "libjam"),
+    ("jam_2", "libjam, 2 threads"),
+    ("mumps", "MUMPS"),
 ):
     rows = [(run["n"], run[key]) for run in runs if key in run]
     if not rows:

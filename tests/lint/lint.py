@@ -25,7 +25,6 @@ LAYERS = {
 GUESTS = {
     r"(Clp|Coin|coin/|Osi)\w*": ["src/lp/clp_backend.cpp"],
     r"Spectra/": ["src/analysis/modes.cpp"],
-    r"metis\.h": ["src/linalg/"],
     r"(cblas|lapacke|openblas|f77blas)\w*": ["src/linalg/"],
     r"[ds]mumps_c\.h": ["src/linalg/"],
     r"Eigen/": ["src/lp/", "src/network/", "src/analysis/", "src/crunch/"],

@@ -166,18 +166,24 @@ std::vector<double> local_fractions(const Packing &p) {
 #ifdef JAM_HAVE_VORO
   if (p.dim != 3)
     fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
+  if (p.model == JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no cells of their own");
+  // In the unit box: voro++ has absolute tolerances, and ends the process when it loses track of a cell.
   const int cells = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(p.n()) / 6.0)));
-  voro::container_periodic_poly box(p.box, 0, p.box, 0, 0, p.box, cells, cells, cells, 8);
-  for (size_t i = 0; i < p.n(); ++i)
-    box.put(static_cast<int>(i), p.position[3 * i], p.position[3 * i + 1], p.position[3 * i + 2], 0.5 * p.diameter[i]);
-  std::vector<double> phi(p.n(), std::numeric_limits<double>::quiet_NaN());
+  voro::container_periodic_poly box(1.0, 0.0, 1.0, 0.0, 0.0, 1.0, cells, cells, cells, 8);
+  for (size_t i = 0; i < p.n(); ++i) {
+    const double *x = &p.position[3 * i];
+    box.put(static_cast<int>(i), x[0] / p.box, x[1] / p.box, x[2] / p.box, 0.5 * p.diameter[i] / p.box);
+  }
+  std::vector<double> phi(p.n(), 0.0);
   voro::c_loop_all_periodic loop(box);
   voro::voronoicell cell;
   if (loop.start()) do {
       if (!box.compute_cell(cell, loop)) continue;
       const auto i = static_cast<size_t>(loop.pid());
-      phi[i] = unit_sphere_volume(3) * std::pow(p.diameter[i], 3) / cell.volume();
+      phi[i] = unit_sphere_volume(3) * std::pow(p.diameter[i] / p.box, 3) / cell.volume();
     } while (loop.inc());
+  for (size_t i = 0; i < p.n(); ++i)
+    if (!(phi[i] > 0.0 && phi[i] <= 1.0 + 1e-9)) fail(JAM_E_SOLVER, "the Voronoi cell of sphere %zu was not found", i);
   return phi;
 #else
   (void)p;

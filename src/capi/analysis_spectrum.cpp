@@ -86,7 +86,7 @@ jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_mod
 jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
                        size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    need(other, "other");
+    const Reading reading(other, "other");
     if (!comparison && !out && !needed) fail(JAM_E_NULL, "comparison, out and needed are all NULL");
     check_out_struct(comparison, "comparison");
     check_output(out, out_len, sys->packing.position.size(), "out");

@@ -1,10 +1,13 @@
 // Pair lists by cells, and by brute force over all images for small boxes.
 #include "core/pairs.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
@@ -17,12 +20,29 @@ struct Candidate {
   std::array<double, JAM_MAX_DIM> offset;
 };
 
+// One list of pairs may take this part of the machine's memory. What is made from it takes about ten times as much.
+constexpr double kShareOfMemory = 1.0 / 16.0;
+
+double list_bytes_max() {
+  static const double bytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) * kShareOfMemory;
+  return bytes;
+}
+
+void check_list_size(double pairs, int dim) {
+  const double bytes = pairs * static_cast<double>(2 * sizeof(int32_t) + dim * sizeof(double));
+  if (bytes > list_bytes_max())
+    fail(JAM_E_MEMORY, "%.3g pairs of spheres within the cutoff need %.3g GB, a list may have %.3g GB", pairs,
+         1e-9 * bytes, 1e-9 * list_bytes_max());
+}
+
 void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &found) {
   std::sort(found.begin(), found.end(), [dim](const Candidate &a, const Candidate &b) {
     if (a.j != b.j) return a.j < b.j;
     return std::lexicographical_compare(a.offset.begin(), a.offset.begin() + dim, b.offset.begin(),
                                         b.offset.begin() + dim);
   });
+  check_list_size(static_cast<double>(list.size() + found.size()), dim);
   for (const Candidate &c : found) {
     list.i.push_back(i);
     list.j.push_back(c.j);
@@ -96,6 +116,20 @@ Cutoff own_cutoff(const Packing &p, const std::vector<double> &reach, double slo
   return {p, *std::max_element(reach.begin(), reach.end()), slope, reach.data()};
 }
 
+// Pairs of randomly placed spheres that a cutoff takes in: at least so many, as a mean power exceeds the power of a
+// mean.
+double expected_pairs(const Cutoff &cutoff) {
+  const Packing &p = cutoff.p;
+  const double n = static_cast<double>(p.n());
+  double reach = cutoff.reach, diameter = 0.0;
+  for (const double s : p.diameter) diameter += s / n;
+  if (cutoff.own) reach = std::accumulate(cutoff.own, cutoff.own + p.n(), 0.0) / n;
+  const double shrunk = 1.0 + std::min(0.0, p.non_additivity);  // a bound for every pair
+  const double radius = reach + cutoff.slope * shrunk * diameter;
+  const double ball = std::pow(M_PI, 0.5 * p.dim) / std::tgamma(0.5 * p.dim + 1.0);
+  return 0.5 * n * n * ball * std::pow(radius / p.box, p.dim);
+}
+
 // Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
 class CellGrid {
  public:
@@ -152,6 +186,7 @@ class CellGrid {
 
 PairList by_brute_force(const Cutoff &cutoff) {
   const Packing &p = cutoff.p;
+  check_list_size(expected_pairs(cutoff), p.dim);
   PairList list;
   std::vector<Candidate> found;
   ImageScan images(p, cutoff.most());
@@ -167,6 +202,7 @@ PairList by_cells(const Cutoff &cutoff) {
   const Packing &p = cutoff.p;
   // As many cells as spheres are enough; a side is never shorter than the cutoff.
   const double fit = p.box / cutoff.most(), enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
+  check_list_size(expected_pairs(cutoff), p.dim);
   const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
   // Nearest images are enough from three cells on: two cells in a row would already need a second image.
   if (side < 4 || p.model != JAM_MODEL_EUCLID) return by_brute_force(cutoff);
@@ -236,7 +272,12 @@ void wrap_positions(Packing &p, PairList &pairs) {
 }
 
 ClosestPair closest_pair(const Packing &p) {
-  for (const double slope : {1.1, 2.0}) {
+  // Spheres that overlap massively have many pairs at their contact distance: the closest are found within a part of
+  // it.
+  const double many = 100.0 * static_cast<double>(p.n()), expected = expected_pairs({p, 0.0, 1.1});
+  double slope = expected > many ? std::max(1e-30, 1.1 * std::pow(many / expected, 1.0 / p.dim)) : 1.1;
+  for (bool last = false; !last; slope = std::min(2.0, 2.0 * slope)) {
+    last = slope >= 2.0;
     const PairList pairs = find_pairs(p, 0.0, slope);
     ClosestPair best{std::numeric_limits<double>::infinity(), -1, -1};
     double r[JAM_MAX_DIM];

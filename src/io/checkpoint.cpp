@@ -44,12 +44,16 @@ void take(const char *&at, std::vector<T> &v, size_t count) {
   at += count * sizeof(T);
 }
 
+// The whole file. What does not begin as a checkpoint is read no further: it may be a device without an end.
 std::string slurp(const char *path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path, "rb"), std::fclose);
   if (!file) fail(JAM_E_IO, "cannot open %s: %s", path, std::strerror(errno));
   std::string all;
   char part[65536];
-  for (size_t got; (got = std::fread(part, 1, sizeof part, file.get())) > 0;) all.append(part, got);
+  for (size_t got; (got = std::fread(part, 1, sizeof part, file.get())) > 0;) {
+    all.append(part, got);
+    if (all.size() < sizeof magic || std::memcmp(all.data(), magic, sizeof magic) != 0) return all;
+  }
   if (std::ferror(file.get())) fail(JAM_E_IO, "cannot read %s: %s", path, std::strerror(errno));
   return all;
 }

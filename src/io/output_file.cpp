@@ -30,6 +30,16 @@ std::string follow_links(std::string path) {
   return path;
 }
 
+// Makes a rename outlive a crash of the machine. The new file is whole either way, so what fails here is no error.
+void sync_folder(const std::string &file) {
+  const size_t slash = file.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : file.substr(0, slash + 1);
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  (void)::fsync(fd);
+  ::close(fd);
+}
+
 }  // namespace
 
 void OutputFile::fail_errno(const char *what) const {
@@ -97,6 +107,7 @@ void OutputFile::commit() {
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_errno("rename onto");
   temporary_.clear();
+  sync_folder(target_);
 }
 
 }  // namespace jam

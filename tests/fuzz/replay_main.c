@@ -1,5 +1,5 @@
-/* Runs a fuzz target over files and folders of files, without libFuzzer. Each file is also cut at every byte of its
- * first 300 and has each of them changed, so that the small corpus goes a long way. */
+/* replay COUNT PATH...: runs a fuzz target over files and folders of files, without libFuzzer. Each file is also cut at
+ * every one of its first COUNT bytes and has each of them changed. */
 #include <dirent.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static long replay(const char *path) {
+static long replay(const char *path, size_t changed) {
   static const uint8_t changes[] = {0, '\n', '9', '-', '=', 255};
   FILE *f = fopen(path, "rb");
   uint8_t *data = malloc(1 << 16);
@@ -19,7 +19,7 @@ static long replay(const char *path) {
   size = fread(data, 1, 1 << 16, f);
   fclose(f);
   LLVMFuzzerTestOneInput(data, size);
-  for (k = 0; k < size && k < 300; ++k) {
+  for (k = 0; k < size && k < changed; ++k) {
     const uint8_t kept = data[k];
     LLVMFuzzerTestOneInput(data, k);
     for (c = 0; c < sizeof changes; ++c) {
@@ -35,21 +35,22 @@ static long replay(const char *path) {
 
 int main(int argc, char **argv) {
   long files = 0, runs = 0;
+  const size_t changed = argc > 1 ? (size_t)atol(argv[1]) : 0;
   int k;
-  for (k = 1; k < argc; ++k) {
+  for (k = 2; k < argc; ++k) {
     struct dirent *entry;
     DIR *folder = opendir(argv[k]);
     char path[4096];
     if (!folder) {
       ++files;
-      runs += replay(argv[k]);
+      runs += replay(argv[k], changed);
       continue;
     }
     while ((entry = readdir(folder)) != NULL) {
       if (entry->d_name[0] == '.') continue;
       snprintf(path, sizeof path, "%s/%s", argv[k], entry->d_name);
       ++files;
-      runs += replay(path);
+      runs += replay(path, changed);
     }
     closedir(folder);
   }

@@ -1,0 +1,98 @@
+// Numbers in the wrong unit: diameters of the box in place of small ones, radii of boxes in place of diameters. Each
+// call ends at once, with an error that says why or with a valid state.
+#include <jam/jam.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+extern "C" {
+#include "test.h"
+}
+
+namespace {
+
+std::vector<double> many_points(size_t n) {
+  std::vector<double> x(3 * n);
+  uint64_t state = 1;
+  for (double &v : x) {
+    state = state * 6364136223846793005ull + 1442695040888963407ull;
+    v = static_cast<double>(state >> 11) * 0x1.0p-53;
+  }
+  return x;
+}
+
+jam_status create(const std::vector<double> &x, double diameter, int32_t overlap, int32_t model, jam_system **out) {
+  jam_create_options o;
+  jam_create_options_init(&o, sizeof o);
+  o.n = static_cast<int64_t>(x.size() / 3), o.overlap = overlap, o.model = model;
+  return jam_create(&o, x.data(), x.size(), &diameter, 1, out);
+}
+
+void diameters_of_the_box(void **) {
+  const std::vector<double> x = many_points(20000);
+  for (const double diameter : {0.3, 0.99}) {
+    jam_system *sys = nullptr;
+    assert_int_equal(create(x, diameter, JAM_OVERLAP_REFUSE, JAM_MODEL_EUCLID, &sys), JAM_E_OVERLAP);
+    assert_non_null(strstr(jam_last_error(), "overlap"));
+    // Shrunk until the closest pair touches: as from small diameters.
+    jam_system *small = nullptr;
+    assert_int_equal(create(x, diameter, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &sys), JAM_OK);
+    assert_int_equal(create(x, 0.01, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &small), JAM_OK);
+    const double *a = nullptr, *b = nullptr;
+    size_t len = 0;
+    jam_diameters_view(sys, &a, &len), jam_diameters_view(small, &b, &len);
+    assert_true(std::fabs(a[0] - b[0]) < 1e-12 * b[0]);
+    jam_destroy(sys), jam_destroy(small);
+  }
+}
+
+void radii_of_boxes(void **) {
+  jam_create_options o;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 20000, o.packing_fraction = 0.2;
+  jam_system *sys = nullptr;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  size_t needed = 0;
+  assert_int_equal(jam_gaps(sys, 900.0, 0, nullptr, 0, nullptr, 0, &needed), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "pairs of spheres"));
+  jam_destroy(sys);
+}
+
+void fractions_in_any_box(void **) {
+  const std::vector<double> unit = many_points(40);
+  std::vector<double> expected(40);
+  for (const double box : {1.0, 1e-5, 1e-7, 1e-20, 1e20}) {
+    std::vector<double> x = unit;
+    for (double &v : x) v *= box;
+    jam_create_options o;
+    jam_create_options_init(&o, sizeof o);
+    o.n = 40, o.box = box, o.overlap = JAM_OVERLAP_SHRINK;
+    const double diameter = 0.1 * box;
+    jam_system *sys = nullptr;
+    assert_int_equal(jam_create(&o, x.data(), x.size(), &diameter, 1, &sys), JAM_OK);
+    std::vector<double> phi(40);
+    size_t needed = 0;
+    const jam_status status = jam_local_fraction(sys, phi.data(), phi.size(), &needed);
+    jam_destroy(sys);
+    if (status == JAM_E_UNSUPPORTED) skip();  // built without voro++
+    assert_int_equal(status, JAM_OK);
+    if (box == 1.0) expected = phi;
+    for (size_t i = 0; i < 40; ++i) assert_true(std::fabs(phi[i] - expected[i]) < 1e-9 * expected[i]);
+  }
+}
+
+// A device without an end is no checkpoint.
+void endless_file(void **) {
+  jam_system *sys = nullptr;
+  assert_int_equal(jam_checkpoint_read("/dev/zero", &sys), JAM_E_FORMAT);
+  assert_null(sys);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(diameters_of_the_box), cmocka_unit_test(radii_of_boxes),
+                              cmocka_unit_test(fractions_in_any_box), cmocka_unit_test(endless_file)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

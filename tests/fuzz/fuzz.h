@@ -1,0 +1,41 @@
+/* What every fuzz target demands of libjam. */
+#ifndef JAM_FUZZ_H
+#define JAM_FUZZ_H
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "jam/jam.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static inline void demand(int truth, const char *what) {
+  if (truth) return;
+  fprintf(stderr, "broken: %s (%s)\n", what, jam_last_error());
+  abort();
+}
+
+/* A known status; an error has a text, and is never a bug that libjam found in itself. */
+static inline void check_status(jam_status status) {
+  demand(strcmp(jam_status_string(status), "unknown status") != 0, "the status is known");
+  demand(status >= 0 || jam_last_error()[0] != '\0', "an error has a text");
+  demand(status != JAM_E_INTERNAL, "no internal error");
+}
+
+/* Positions in the box, diameters positive and finite, velocities finite. */
+static inline void check_state(const jam_system *sys) {
+  const double *x;
+  size_t len, k;
+  jam_info info;
+  memset(&info, 0, sizeof info);
+  info.struct_size = sizeof info;
+  demand(jam_info_get(sys, &info) == JAM_OK && info.n > 0 && info.box > 0.0 && isfinite(info.box), "info");
+  demand(jam_positions_view(sys, &x, &len) == JAM_OK && len == (size_t)info.n * (size_t)info.dim, "positions");
+  for (k = 0; k < len; ++k) demand(x[k] >= 0.0 && x[k] < info.box, "positions in the box");
+  demand(jam_diameters_view(sys, &x, &len) == JAM_OK && len == (size_t)info.n, "diameters");
+  for (k = 0; k < len; ++k) demand(x[k] > 0.0 && isfinite(x[k]), "diameters are positive");
+  demand(jam_velocities_view(sys, &x, &len) == JAM_OK, "velocities");
+  for (k = 0; k < len; ++k) demand(isfinite(x[k]), "velocities are finite");
+}
+#endif

@@ -1,5 +1,7 @@
 #include "linalg/shifted_factor.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 
@@ -27,6 +29,7 @@ bool ShiftedFactor::factorise(double shift) {
 
 void ShiftedFactor::factorise_from(double start) {
   const double bound = 2.0 * m_.norm_bound() + start;
+  if (!std::isfinite(bound)) fail(JAM_E_SOLVER, "the matrix has entries that are not finite");
   for (double shift = start; shift < 10.0 * bound; shift *= 10.0)
     if (factorise(shift)) return;
   fail(JAM_E_SOLVER, "the matrix is not positive definite even with a shift of %g", bound);

@@ -124,7 +124,8 @@ typedef enum jam_stop_reason {
   JAM_STOP_UNJAMMED = 11,        /* crunch: converged without a rigid network */
   JAM_STOP_TIME = 12,            /* MD: its simulated time is over */
   JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
-  JAM_STOP_STEPS = 14            /* soft spheres: max_steps came first */
+  JAM_STOP_STEPS = 14,           /* soft spheres: max_steps came first */
+  JAM_STOP_SADDLE = 15 /* crunch: forces balance, but a flex opens contacts, and kicks along it lead nowhere */
 } jam_stop_reason;
 
 /* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
@@ -689,36 +690,44 @@ typedef struct jam_crunch_options {
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
 typedef struct jam_crunch_report {
   uint32_t struct_size; /* set by the caller: sizeof(jam_crunch_report) */
-  int32_t jammed;       /* 1: converged to a rigid network with balanced forces */
+  int32_t jammed;       /* 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested */
   int32_t stop_reason;  /* jam_stop_reason */
   int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
-  int32_t method;   /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs
-                       ran */
-  int32_t reserved; /* 0 */
+  int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs
+                     ran */
+  int32_t stationary;         /* 1: non-negative contact forces balance, so no small motion lets the diameters grow */
+  int32_t strictly_jammed;    /* jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
+  int32_t reserved;           /* 0 */
   double packing_fraction;    /* phi_J when jammed */
   double diameter_mean;       /* unit of box */
   int64_t contacts;           /* pairs with a force, rattlers left out */
-  int64_t rattlers;           /* spheres removed until every sphere left has at least d + 1 contacts */
+  int64_t rattlers;           /* spheres that no force-carrying contact touches */
   int64_t stable;             /* n - rattlers = N' */
   int64_t bucklers;           /* stable spheres with exactly d+1 contacts */
   int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
   int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
-  int64_t lp_solves;          /* LPs solved in full */
-  int64_t factorisations;     /* Cholesky factorisations */
-  double gain;                /* sqrt(Gamma) - 1 of the last LP */
-  double max_step;            /* largest |s_i| of a stable sphere in the last LP, mean diameters */
-  double max_overlap;         /* largest -h over all pairs, >= 0 */
-  double force_residual;      /* largest |sum_j f_ij n_ij| over mean force */
-  double gamma_residual;      /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
-  double min_force;           /* smallest contact force over the mean */
-  double min_gap;             /* smallest h of a pair of stable spheres that is no contact */
-  double max_contact_gap;     /* largest |h| of a contact */
-  double duality_gap;         /* of the last LP, relative to Gamma */
-  double force_scale;         /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
-  double seconds;             /* wall time of crunch */
-  double seconds_factor;      /* of it in factorisations */
-  double seconds_assemble;    /* of it in neighbour lists and assembly */
-  double seconds_solve;       /* of it in triangular solves */
+  int64_t flexes;        /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
+  int64_t idle_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
+  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list */
+  int64_t bridges;                /* stable spheres with d force-carrying contacts or fewer */
+  int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
+  double rigidity_margin;         /* smallest eigenvalue of S^T S on force-carrying contacts that is no translation */
+  int64_t lp_solves;              /* LPs solved in full */
+  int64_t factorisations;         /* Cholesky factorisations */
+  double gain;                    /* sqrt(Gamma) - 1 of the last LP */
+  double max_step;                /* largest |s_i| of a stable sphere in the last LP, mean diameters */
+  double max_overlap;             /* largest -h over all pairs, >= 0 */
+  double force_residual;          /* largest |sum_j f_ij n_ij| over mean force */
+  double gamma_residual;          /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
+  double min_force;               /* smallest contact force over the mean */
+  double min_gap;                 /* smallest h of a pair of stable spheres that is no contact */
+  double max_contact_gap;         /* largest |h| of a contact */
+  double duality_gap;             /* of the last LP, relative to Gamma */
+  double force_scale;             /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
+  double seconds;                 /* wall time of crunch */
+  double seconds_factor;          /* of it in factorisations */
+  double seconds_assemble;        /* of it in neighbour lists and assembly */
+  double seconds_solve;           /* of it in triangular solves */
 } jam_crunch_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -1077,12 +1086,13 @@ typedef struct jam_geometry_report {
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 /* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
- * moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
- * until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
- * JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
- * candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
- * norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
- * JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+ * are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
+ * stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
+ * network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+ * JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
+ * leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
+ * JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. @since 0.1 */
@@ -1100,10 +1110,62 @@ JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, 
                                           size_t *needed);
 /* States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
  * space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
- * NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+ * NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
  * JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *rows);
+
+/* ------------- jammed or not */
+/* Which motions must not open contacts. @since 0.1 */
+typedef enum jam_rigidity_kind {
+  JAM_RIGIDITY_COLLECTIVE = 0, /* all motions of the spheres in a fixed cell */
+  JAM_RIGIDITY_STRICT = 1      /* and all symmetric strains of the cell that do not enlarge its volume */
+} jam_rigidity_kind;
+
+/* Answer of a test. @since 0.1 */
+typedef enum jam_verdict {
+  JAM_VERDICT_UNTESTED = -1, /* the test has not run */
+  JAM_VERDICT_NO = 0,        /* not jammed, with a proof: no balanced forces, or a flex */
+  JAM_VERDICT_YES = 1,       /* jammed, with a proof: positive forces that balance, and full rank */
+  JAM_VERDICT_UNDECIDED = 2  /* double precision does not tell */
+} jam_verdict;
+
+/* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
+ * that they touch, N' their number. @since 0.1 */
+typedef struct jam_rigidity_report {
+  uint32_t struct_size;       /* set by the caller: sizeof(jam_rigidity_report) */
+  int32_t kind;               /* jam_rigidity_kind that was tested */
+  int32_t jammed;             /* jam_verdict */
+  int32_t stationary;         /* jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
+  int64_t stable;             /* N' */
+  int64_t contacts;           /* |K+| */
+  int64_t contacts_needed;    /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
+  int64_t self_stresses;      /* independent balances of forces on K+, signs free */
+  int64_t flexes;             /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
+  int64_t bridges;            /* spheres of B with d contacts of K+ or fewer */
+  int64_t idle_contacts;      /* closed pairs that are not in K+ */
+  int64_t undecided_contacts; /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list */
+  double rigidity_margin;     /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex */
+  double force_residual;      /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
+} jam_rigidity_report;
+
+/* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
+ * pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+ * Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
+ * for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+ * Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+ * arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
+ * be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+ * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
+ * 0.1 */
+JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
+/* A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
+ * collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
+ * contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
+ * Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
+ * 0.1 */
+JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
+                            size_t strain_len, size_t *needed);
 
 /* ------------- gaps, classes and angles of contacts */
 /* Flags of a contact. @since 0.1 */

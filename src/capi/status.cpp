@@ -81,6 +81,8 @@ const char *jam_stop_string(int32_t reason) {
       return "evaluations";
     case JAM_STOP_STEPS:
       return "steps";
+    case JAM_STOP_SADDLE:
+      return "saddle";
     default:
       return "unknown";
   }

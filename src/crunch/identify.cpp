@@ -139,12 +139,16 @@ Phase judge(CrunchState &s) {
       s.out.contacts.force_scale = scale;
     }
     s.jammed = true;
+    report_verdict(verdict, s.out.packing.dim, s.out.report);
     return s.stop(JAM_STOP_CONVERGED, JAM_OK), Phase::done;
   }
   if (leave_saddle(s, verdict)) return Phase::approach;
   if (++s.stalled < s.tuning.max_stalled_lps) return one_more_lp(s);
+  report_verdict(verdict, s.out.packing.dim, s.out.report);
   if (verdict.result.jammed != Verdict::no)
     s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+  else if (verdict.result.flexes > 0)
+    s.stop(JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
   else if (verdict.result.stressed == Verdict::yes)
     s.stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
   else

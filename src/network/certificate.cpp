@@ -11,25 +11,6 @@
 namespace jam {
 namespace {
 
-// Largest |sum_j f_ij n_ij| over all spheres, in units of the mean force (which is 1).
-double force_residual(const Packing &p, const ContactNetwork &net) {
-  const int d = p.dim;
-  std::vector<double> total(p.position.size(), 0.0);
-  for (size_t k = 0; k < net.size(); ++k)
-    for (int c = 0; c < d; ++c) {
-      const double f = net.force[k] * net.vector[k * d + c];
-      total[static_cast<size_t>(net.pairs.i[k]) * d + c] += f;
-      total[static_cast<size_t>(net.pairs.j[k]) * d + c] -= f;
-    }
-  double worst = 0.0;
-  for (size_t k = 0; k < total.size(); k += d) {
-    double f2 = 0.0;
-    for (int c = 0; c < d; ++c) f2 += total[k + c] * total[k + c];
-    worst = std::max(worst, f2);
-  }
-  return std::sqrt(worst);
-}
-
 // Smallest gap of two stable spheres that are no contact: the pairs of `net` are skipped image by image.
 void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &report) {
   const int d = p.dim;
@@ -73,12 +54,35 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
   report.stable = static_cast<int64_t>(p.n()) - report.rattlers;
   report.isostatic_contacts = report.stable > 0 ? d * (report.stable - 1) + 1 : 0;
   report.excess_contacts = report.contacts - report.isostatic_contacts;
-  report.force_residual = force_residual(p, net);
+  report.force_residual = balance_residual(p.dim, p.n(), net);
   report.min_force = net.size() ? *std::min_element(net.force.begin(), net.force.end()) : 0.0;
   report.max_contact_gap = 0.0;
   for (const double h : net.gap) report.max_contact_gap = std::max(report.max_contact_gap, std::fabs(h));
   report.force_scale = net.force_scale;
   scan_gaps(p, net, report);
+  report.strictly_jammed = JAM_VERDICT_UNTESTED;
+  report.strict_contacts_needed = report.stable > 0 ? d * (report.stable - 1) + d * (d + 1) / 2 : 0;
+}
+
+int32_t verdict_code(Verdict verdict) {
+  return verdict == Verdict::yes ? JAM_VERDICT_YES : verdict == Verdict::no ? JAM_VERDICT_NO : JAM_VERDICT_UNDECIDED;
+}
+
+void report_verdict(const PackingVerdict &v, int d, jam_crunch_report &report) {
+  report.jammed = v.result.jammed == Verdict::yes;
+  report.stationary = v.result.stressed == Verdict::yes;
+  report.strictly_jammed = JAM_VERDICT_UNTESTED;
+  report.flexes = v.result.flexes;
+  report.idle_contacts = v.result.idle_contacts;
+  report.undecided_contacts = v.undecided_contacts;
+  report.bridges = v.result.bridges;
+  report.strict_contacts_needed = v.result.spheres > 0 ? d * (v.result.spheres - 1) + d * (d + 1) / 2 : 0;
+  report.rigidity_margin = v.result.margin;
+}
+
+void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,
+                     const CancellationPoint &cancel_point) {
+  report_verdict(test_packing(p, &contacts, Jamming::collective, cancel_point), p.dim, report);
 }
 
 }  // namespace jam

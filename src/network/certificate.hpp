@@ -3,9 +3,18 @@
 #include "core/packing.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
+#include "network/rigidity_test.hpp"
 
 namespace jam {
 
 void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report);
+
+// jam_verdict of a Verdict.
+int32_t verdict_code(Verdict verdict);
+// What the test of collective jamming says, put into the report; strictly_jammed stays untested.
+void report_verdict(const PackingVerdict &verdict, int dim, jam_crunch_report &report);
+// Both in one: tests the packing with these contacts and puts the answer into the report.
+void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,
+                     const CancellationPoint &cancel_point = CancellationPoint());
 
 }  // namespace jam

@@ -52,83 +52,24 @@ ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) 
     for (double x : r) net.vector.push_back(x / length);
     net.gap.push_back(g.gap[k]);
   }
-  remove_rattlers(p, net);
-  return net;
+  net.force.assign(net.size(), 0.0);
+  net.coordination.assign(p.n(), 0);
+  std::vector<char> on(net.size());  // contacts of a sphere with its own image constrain nothing
+  for (size_t k = 0; k < net.size(); ++k) on[k] = net.pairs.i[k] != net.pairs.j[k];
+  drop_unbalanced(p.dim, p.n(), net.pairs.i, net.pairs.j, net.vector, on);
+  return subset(net, on, p.dim);
 }
 
-// Rank of the unit vectors of one sphere's live contacts, by elimination with pivoting on their Gram matrix.
-int rank_of(const ContactNetwork &net, const std::vector<size_t> &of, const std::vector<char> &alive, int d) {
-  std::vector<double> a(static_cast<size_t>(d) * d, 0.0);
-  for (size_t k : of)
-    if (alive[k])
-      for (int r = 0; r < d; ++r)
-        for (int c = 0; c < d; ++c) a[r * d + c] += net.vector[k * d + r] * net.vector[k * d + c];
-  int rank = 0;
-  std::vector<char> used(d, 0);
-  for (int step = 0; step < d; ++step) {
-    int best = -1;
-    for (int r = 0; r < d; ++r)
-      if (!used[r] && (best < 0 || a[r * d + r] > a[best * d + best])) best = r;
-    if (a[best * d + best] < 1e-6) break;  // Gram entries are of order 1; a squared sine below 1e-6 counts as flat
-    used[best] = 1;
-    ++rank;
-    for (int r = 0; r < d; ++r)
-      if (!used[r]) {
-        const double factor = a[r * d + best] / a[best * d + best];
-        for (int c = 0; c < d; ++c) a[r * d + c] -= factor * a[best * d + c];
-      }
-  }
-  return rank;
+// The contacts between spheres that carry force, idle ones among them too.
+ContactNetwork between_carrying(const ContactNetwork &net, const std::vector<char> &carrying, int d) {
+  std::vector<char> stable(net.coordination.size(), 0), on(net.size());
+  for (size_t k = 0; k < net.size(); ++k)
+    if (carrying[k]) stable[net.pairs.i[k]] = stable[net.pairs.j[k]] = 1;
+  for (size_t k = 0; k < net.size(); ++k) on[k] = stable[net.pairs.i[k]] && stable[net.pairs.j[k]];
+  return subset(net, on, d);
 }
 
 }  // namespace
-
-void remove_rattlers(const Packing &p, ContactNetwork &net) {
-  const int d = p.dim;
-  const size_t n = p.n(), m = net.size();
-  std::vector<char> alive(m, 1), queued(n, 1), stable(n, 1);
-  std::vector<std::vector<size_t>> of(n);
-  for (size_t k = 0; k < m; ++k) {
-    if (net.pairs.i[k] == net.pairs.j[k]) {
-      alive[k] = 0;
-      continue;
-    }
-    of[net.pairs.i[k]].push_back(k);
-    of[net.pairs.j[k]].push_back(k);
-  }
-  std::vector<size_t> queue(n);
-  std::iota(queue.begin(), queue.end(), size_t{0});
-  while (!queue.empty()) {
-    const size_t i = queue.back();
-    queue.pop_back();
-    queued[i] = 0;
-    if (!stable[i]) continue;
-    int z = 0;
-    for (size_t k : of[i]) z += alive[k];
-    if (z >= d + 1 && rank_of(net, of[i], alive, d) == d) continue;
-    stable[i] = 0;
-    for (size_t k : of[i]) {
-      if (!alive[k]) continue;
-      alive[k] = 0;
-      const size_t j = static_cast<size_t>(net.pairs.i[k]) == i ? net.pairs.j[k] : net.pairs.i[k];
-      if (stable[j] && !queued[j]) queued[j] = 1, queue.push_back(j);
-    }
-  }
-  ContactNetwork out;
-  out.coordination.assign(n, 0);
-  for (size_t k = 0; k < m; ++k) {
-    if (!alive[k]) continue;
-    out.pairs.i.push_back(net.pairs.i[k]);
-    out.pairs.j.push_back(net.pairs.j[k]);
-    out.pairs.offset.insert(out.pairs.offset.end(), &net.pairs.offset[k * d], &net.pairs.offset[k * d] + d);
-    out.vector.insert(out.vector.end(), &net.vector[k * d], &net.vector[k * d] + d);
-    out.gap.push_back(net.gap[k]);
-    if (!net.force.empty()) out.force.push_back(net.force[k]);
-    ++out.coordination[net.pairs.i[k]];
-    ++out.coordination[net.pairs.j[k]];
-  }
-  net = std::move(out);
-}
 
 namespace {
 
@@ -254,8 +195,11 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   }
   if (o.tolerance > 0.0) r.jump = r.gap_above / std::max(r.gap_below, r.resolution);
   if (out.network.coordination.empty()) out.network.coordination.assign(p.n(), 0);
+  // With the contacts of this tolerance taken as closed, whatever their gaps.
+  const RigidityResult closed = test_rigidity(make_rigidity_matrix(p, out.network), Jamming::collective, cancel_point);
+  if (closed.stressed == Verdict::yes) out.network = between_carrying(out.network, closed.carrying, p.dim);
   const RigidityMatrix graph = make_rigidity_matrix(p, out.network);
-  StressStates stress = find_stress(graph, false, cancel_point);
+  const StressStates stress = find_stress(graph, false, cancel_point);
   out.network.force = stress.force;
   r.contacts = static_cast<int64_t>(out.network.size());
   r.self_stresses = stress.dimension;
@@ -268,9 +212,11 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   // hyperstatic.
   clear = clear ||
           (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
-  if (!stress.positive)
+  out.verdict = test_packing(p, &out.network, Jamming::collective, cancel_point);
+  const bool wide_gaps = out.verdict.result.jammed != closed.jammed;
+  if (closed.jammed == Verdict::no)
     out.status = JAM_NOT_JAMMED;
-  else if (stress.dimension > 1 || !clear)
+  else if (stress.dimension > 1 || !clear || closed.jammed == Verdict::undecided || wide_gaps)
     out.status = JAM_AMBIGUOUS;
   // Scale: mean of lambda r with sum lambda sigma^2 = 1 and lambda = c f / r.
   double sum = 0.0;

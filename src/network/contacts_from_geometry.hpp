@@ -1,6 +1,7 @@
 // The contact network from positions, diameters and box alone.
 #pragma once
 #include "network/contact_network.hpp"
+#include "network/rigidity_test.hpp"
 #include "network/self_stress.hpp"
 
 namespace jam {
@@ -10,6 +11,7 @@ jam_geometry_options default_geometry_options();
 struct GeometryResult {
   ContactNetwork network;
   jam_geometry_report report{};
+  PackingVerdict verdict;      // of the packing, with gaps as they are
   jam_status status = JAM_OK;  // JAM_OK, JAM_AMBIGUOUS, JAM_NOT_JAMMED
 };
 
@@ -22,9 +24,5 @@ struct ContactCandidates {
   std::vector<int32_t> contacts, excess;
 };
 ContactCandidates contact_candidates(const Packing &p, double window);
-
-// Takes out, again and again, spheres that touch fewer than d + 1 others or whose contact vectors do not span space.
-// Contacts of a sphere with its own image constrain nothing and are taken out too.
-void remove_rattlers(const Packing &p, ContactNetwork &network);
 
 }  // namespace jam

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "linalg/blas.hpp"
+#include "network/rigidity_test.hpp"
 
 namespace jam {
 namespace {
@@ -41,18 +42,6 @@ void scale_to_mean(std::vector<double> &f) {
   mean /= static_cast<double>(f.size());
   if (mean != 0.0)
     for (double &v : f) v /= mean;
-}
-
-// Where an increasing function that is negative at 0 crosses it: doubling, then halving.
-double zero_of_increasing(const std::function<double(double)> &f) {
-  if (!(f(0.0) < 0.0)) return 0.0;
-  double low = 0.0, high = 1.0;
-  while (high < 1e15 && f(high) < 0.0) low = high, high *= 2.0;
-  for (int k = 0; k < 60 && high - low > 1e-15 * high; ++k) {
-    const double middle = 0.5 * (low + high);
-    (f(middle) < 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -125,51 +114,6 @@ int64_t NullSpace::dimension() const {
   return static_cast<int64_t>(g_.contacts()) - static_cast<int64_t>(g_.unknowns()) + zero_modes();
 }
 
-// Minimises phi(u) = 1/2 sum max(0, 1 - (S u)_k)^2, which is convex; at its minimum f = max(0, 1 - S u) balances and is
-// the point of the cone {f >= 0, S^T f = 0} nearest to (1, 1, ...), which is its direction of least norm at a given
-// mean (Moreau's decomposition; semismooth Newton with an exact line search).
-bool least_force(const RigidityMatrix &g, std::vector<double> &f, const CancellationPoint &cancel_point) {
-  const size_t m = g.contacts(), n = g.unknowns();
-  std::vector<double> u(n, 0.0), su(m, 0.0), gradient(n), step(n), sstep(m);
-  ContactWeights w = unit_weights(g);
-  BlockMatrix h = make_hessian(g, w);
-  const double scale = h.norm_bound(), empty = 1e-8 * std::sqrt(static_cast<double>(m));
-  ShiftedFactor factor(h);
-  f.assign(m, 1.0);
-  auto slope = [&](double t) {
-    double sum = 0.0;
-    for (size_t k = 0; k < m; ++k) sum -= std::max(0.0, 1.0 - su[k] - t * sstep[k]) * sstep[k];
-    return sum;
-  };
-  for (int pass = 0; pass < 60; ++pass) {
-    cancel_point();
-    for (size_t k = 0; k < m; ++k) {
-      f[k] = std::max(0.0, 1.0 - su[k]);
-      w.stiffness[k] = f[k] > 0.0 ? 1.0 : 0.0;
-    }
-    apply_equilibrium(g, f.data(), gradient.data());
-    const double now = norm(gradient);
-    if (now <= 1e-14 * std::sqrt(static_cast<double>(m)) || norm(f) < empty) break;
-    h = make_hessian(g, w);
-    factor.factorise_from(1e-11 * scale);
-    step = gradient;
-    remove_translation(g.dim, g.nodes, step.data());
-    factor.solve(step.data());
-    apply_compatibility(g, step.data(), sstep.data());
-    const double t = zero_of_increasing(slope);
-    if (!(t > 1e-12)) break;
-    for (size_t k = 0; k < n; ++k) u[k] += t * step[k];
-    apply_compatibility(g, u.data(), su.data());
-  }
-  apply_equilibrium(g, f.data(), gradient.data());
-  if (norm(f) < empty || norm(gradient) > 1e-6 * norm(f)) {
-    f.assign(m, 0.0);
-    return false;
-  }
-  scale_to_mean(f);
-  return true;
-}
-
 StressStates find_stress(const RigidityMatrix &g, bool with_basis, const CancellationPoint &cancel_point) {
   const BlasSingleThread single;
   return g.contacts() == 0 ? StressStates() : find_stress(g, NullSpace(g, cancel_point), with_basis, cancel_point);
@@ -216,14 +160,10 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
     return out;
   }
   if (out.dimension > 1) {
-    std::vector<double> least;
-    out.positive =
-        least_force(g, least, cancel_point);  // without one: what (1, 1, ...) projects on, whatever its signs
-    if (out.positive) {
-      out.force = least;
-      space.project(out.force, 1);
-      if (*std::min_element(out.force.begin(), out.force.end()) < -1e-9) out.force = least;
-    }
+    // The middle of the non-negative states; without one what (1, 1, ...) projects on, whatever its signs.
+    const RigidityResult test = test_rigidity(g, Jamming::collective, cancel_point);
+    out.positive = test.stressed == Verdict::yes;
+    if (out.positive) out.force = test.force;
   } else if (norm(out.force) <=
              1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
     out.force = fresh(2);

@@ -29,7 +29,7 @@ class NullSpace {
 struct StressStates {
   int64_t dimension = 0;
   int64_t zero_modes = 0;
-  std::vector<double> force;  // mean 1; of least norm and non-negative when dimension > 1
+  std::vector<double> force;  // mean 1; the centre of the non-negative ones when dimension > 1
   std::vector<double> basis;  // (dimension, contacts) orthonormal, when asked for
   double residual = 0.0;      // largest |sum_j f_ij n_ij| over mean force
   double min_force = 0.0;     // over the mean
@@ -41,9 +41,5 @@ StressStates find_stress(const RigidityMatrix &g, bool with_basis,
                          const CancellationPoint &cancel_point = CancellationPoint());
 StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis,
                          const CancellationPoint &cancel_point = CancellationPoint());
-// The least-norm f >= 0 with S^T f = 0 and mean 1, by projecting (1, 1, ...) on that cone; false when only f = 0 is in
-// it.
-bool least_force(const RigidityMatrix &g, std::vector<double> &f,
-                 const CancellationPoint &cancel_point = CancellationPoint());
 
 }  // namespace jam

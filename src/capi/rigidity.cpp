@@ -1,0 +1,74 @@
+// Header section "jammed or not".
+#include "capi/analysis.hpp"
+#include "network/certificate.hpp"
+#include "network/rigidity_test.hpp"
+
+using namespace jam;
+
+namespace {
+
+Jamming take_kind(int32_t kind) {
+  if (kind != JAM_RIGIDITY_COLLECTIVE && kind != JAM_RIGIDITY_STRICT)
+    fail(JAM_E_ARGUMENT, "kind is %d, not a jam_rigidity_kind", kind);
+  return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
+}
+
+PackingVerdict test(const jam_system *sys, Jamming kind, const CancellationPoint &cancel_point) {
+  return test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind, cancel_point);
+}
+
+}  // namespace
+
+extern "C" {
+
+jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report) {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+    check_out_struct(report, "report");
+    const Jamming jamming = take_kind(kind);
+    const PackingVerdict v = test(sys, jamming, cancel_point);
+    if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);
+    jam_rigidity_report r{};
+    r.kind = kind;
+    r.jammed = verdict_code(v.result.jammed);
+    r.stationary = verdict_code(v.result.stressed);
+    r.stable = v.result.spheres;
+    r.contacts = v.result.contacts;
+    r.contacts_needed = v.result.contacts_needed;
+    r.self_stresses = v.result.self_stresses;
+    r.flexes = v.result.flexes;
+    r.bridges = v.result.bridges;
+    r.idle_contacts = v.result.idle_contacts;
+    r.undecided_contacts = v.undecided_contacts;
+    r.rigidity_margin = v.result.margin;
+    r.force_residual = v.result.force_residual;
+    give_struct(r, report);
+    return v.result.jammed == Verdict::yes ? JAM_OK : v.result.jammed == Verdict::no ? JAM_NOT_JAMMED : JAM_AMBIGUOUS;
+  });
+}
+
+jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain, size_t strain_len,
+                    size_t *needed) {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+    const Jamming jamming = take_kind(kind);
+    const size_t d = static_cast<size_t>(sys->packing.dim), size = sys->packing.position.size();
+    if (!needed && !out && !strain) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    check_output(out, out_len, size, "out");
+    check_output(strain, strain_len, d * d, "strain");
+    if (needed) *needed = size;
+    if (!out && !strain) return JAM_OK;
+    const PackingVerdict v = test(sys, jamming, cancel_point);
+    if (v.contacts.size() > 0 && v.result.flex.empty())
+      fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
+                                                        : "no flex was found; the verdict is undecided");
+    const double unit = sys->diameter_mean;
+    std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
+    for (size_t k = 0; k < v.sphere.size(); ++k)
+      for (size_t c = 0; c < d; ++c) motion[static_cast<size_t>(v.sphere[k]) * d + c] = unit * v.result.flex[k * d + c];
+    for (size_t k = 0; k < v.result.strain.size(); ++k) eps[k] = unit * v.result.strain[k];
+    put_output(motion, out, size);
+    put_output(eps, strain, d * d);
+    return JAM_OK;
+  });
+}
+
+}  // extern "C"

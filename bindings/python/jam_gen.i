@@ -36,6 +36,7 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *force, size_t force_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
+%apply (double *FILL, size_t FILL_LEN) {(double *strain, size_t strain_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *gap, size_t gap_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *c, size_t c_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *s, size_t s_len)};
@@ -260,6 +261,16 @@ again and again; stable spheres are the others. @since 0.1"
   ~jam_geometry_report() { free($self); }
 }
 %feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1"
+%extend jam_rigidity_report {
+  jam_rigidity_report() {
+    jam_rigidity_report *made = (jam_rigidity_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_rigidity_report() { free($self); }
+}
+%feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
+that they touch, N' their number. @since 0.1"
 %extend jam_dos_options {
   jam_dos_options() {
     jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
@@ -484,20 +495,35 @@ is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_geometry_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
-until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
-JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
-norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
+stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
+network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
+leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
+JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
 jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
 as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
 network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
 %feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
 space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
 JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
+%feature("docstring") jam_rigidity "Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
+pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
+for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
+be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
+0.1"
+%feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
+collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
+contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
+Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
+0.1"
 %feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"

@@ -191,12 +191,13 @@ class Methods:
 
     def contacts_from_geometry(self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None) -> GeometryReport:
         """Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-        moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
-        until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
-        JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-        candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
-        norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-        JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+        moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+        are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
+        stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
+        network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+        JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
+        leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
+        JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 
         Options:
         tolerance: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
@@ -213,9 +214,29 @@ class Methods:
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
         """States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
         space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-        NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+        NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
         JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('stress_states', progress=progress)
+
+    def rigidity(self, kind: int | str, *, progress: Progressing = None) -> RigidityReport:
+        """Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
+        pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+        Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
+        for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+        Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+        arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
+        be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+        Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
+        0.1"""
+        return self.call('rigidity', kind, progress=progress)
+
+    def flex(self, kind: int | str, *, progress: Progressing = None) -> FlexResult:
+        """A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
+        collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
+        contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
+        Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
+        0.1"""
+        return self.call('flex', kind, progress=progress)
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
         """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
@@ -393,6 +414,13 @@ class StressStatesResult(NamedTuple):
     force: np.ndarray
     basis: np.ndarray
     residual: float
+
+
+class FlexResult(NamedTuple):
+    """What flex returns."""
+
+    out: np.ndarray
+    strain: np.ndarray
 
 
 class GapsResult(NamedTuple):

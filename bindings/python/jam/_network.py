@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from . import _calls, raw
-from ._generated import HistoryColumn, ModesWhich, CrunchReport, StatusCode
+from ._generated import CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
 from ._handle import Base
-from ._methods import StressStatesResult
+from ._methods import FlexResult, StressStatesResult
 from .results import Contacts, Modes
 
 
@@ -182,3 +182,14 @@ class Network(Base):
             status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
         self.status = StatusCode(status)
         return StressStatesResult(force, basis, residual)
+
+    def rigidity(self, kind: int | str = "collective", *, progress: Any = None) -> RigidityReport:
+        """Tests whether the packing is jammed, collectively or (kind="strict") also when its cell changes shape."""
+        return self.call("rigidity", kind, progress=progress)
+
+    def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
+        """A motion that keeps or opens all contacts, for a packing that is not jammed: out (n, d) and strain (d, d)."""
+        out, strain = np.empty((self.n, self.dim)), np.empty((self.dim, self.dim))
+        with self._reporting(progress):
+            raw.jam_flex(self.handle, _calls.as_enum(kind, "RigidityKind"), out.reshape(-1), strain.reshape(-1))
+        return FlexResult(out, strain)

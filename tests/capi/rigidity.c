@@ -1,0 +1,143 @@
+/* jam_rigidity and jam_flex: packings that are jammed, fluids and lattices that are not, and what flexes look like. */
+#include <jam/jam.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "test.h"
+
+static jam_system *grown(int dim, int64_t n, int64_t seed, double pressure) {
+  jam_create_options o;
+  jam_compress_options c;
+  jam_system *sys = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim, o.n = n, o.seed = seed;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_compress_options_init(&c, sizeof c), JAM_OK);
+  c.pressure = pressure;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  return sys;
+}
+
+static jam_system *square(int side) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  double x[2 * 36];
+  const double sigma = 1.0;
+  assert_true(side <= 6);
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = 2, o.n = side * side, o.box = side;
+  for (int k = 0; k < side * side; ++k) x[2 * k] = k % side, x[2 * k + 1] = k / side;
+  assert_int_equal(jam_create(&o, x, 2 * (size_t)(side * side), &sigma, 1, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_rigidity_report test(jam_system *sys, int32_t kind, jam_status expected) {
+  jam_rigidity_report r;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_rigidity(sys, kind, &r), expected);
+  assert_int_equal(r.kind, kind);
+  return r;
+}
+
+/* Fluids near jamming: no pair touches, and the network from geometry is not taken for a jammed one. */
+static void fluids(void **state) {
+  (void)state;
+  for (int64_t seed = 1; seed <= 10; ++seed) {
+    jam_system *sys = grown(3, 64, seed, 500.0);
+    jam_rigidity_report r = test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+    jam_crunch_report report;
+    assert_int_equal(r.stationary, JAM_VERDICT_NO);
+    assert_int_equal(r.contacts, 0);
+    assert_true(jam_contacts_from_geometry(sys, NULL, NULL) != JAM_OK);
+    report.struct_size = sizeof report;
+    assert_int_equal(jam_crunch_report_get(sys, &report), JAM_OK);
+    assert_int_equal(report.jammed, 0);
+    test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED); /* nor with that network at hand */
+    jam_destroy(sys);
+  }
+}
+
+static void crunched(void **state) {
+  (void)state;
+  jam_system *sys = grown(3, 64, 3, 500.0);
+  jam_crunch_report report;
+  jam_rigidity_report r;
+  double out[3 * 64];
+  size_t needed = 0;
+  report.struct_size = sizeof report;
+  assert_int_equal(jam_crunch(sys, NULL, &report), JAM_OK);
+  assert_int_equal(report.jammed, 1);
+  assert_int_equal(report.stationary, 1);
+  assert_int_equal(report.flexes, 0);
+  assert_int_equal(report.strictly_jammed, JAM_VERDICT_UNTESTED);
+  assert_int_equal(report.strict_contacts_needed, 3 * (report.stable - 1) + 6);
+  assert_true(report.rigidity_margin > 1e-8);
+  r = test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK);
+  assert_int_equal(r.stable, report.stable);
+  assert_int_equal(r.contacts_needed, report.isostatic_contacts);
+  assert_true(r.force_residual < 1e-10);
+  assert_int_equal(jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, out, 3 * 64, NULL, 0, &needed), JAM_E_STATE);
+  /* With one contact more than isostatic at most, a fixed cube cannot be strictly jammed. */
+  test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
+  assert_int_equal(jam_crunch_report_get(sys, &report), JAM_OK);
+  assert_int_equal(report.strictly_jammed, JAM_VERDICT_NO);
+  assert_int_equal(jam_scale_diameters(sys, 1.0 - 1e-3), JAM_OK);
+  test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+  jam_destroy(sys);
+}
+
+/* Following the flex of a square lattice, no pair comes closer than touching. */
+static void flex_of_a_lattice(void **state) {
+  (void)state;
+  for (int32_t kind = JAM_RIGIDITY_COLLECTIVE; kind <= JAM_RIGIDITY_STRICT; ++kind) {
+    jam_system *sys = square(6);
+    const jam_rigidity_report r = test(sys, kind, JAM_NOT_JAMMED);
+    double out[72], strain[4], moved[72], largest = 0.0, trace = 0.0;
+    const double *x = NULL;
+    size_t needed = 0, n = 0;
+    assert_int_equal(r.stationary, JAM_VERDICT_YES);
+    assert_int_equal(r.flexes, kind == JAM_RIGIDITY_STRICT ? 11 : 10);
+    assert_int_equal(r.contacts, 72);
+    assert_int_equal(r.bridges, 0);
+    assert_int_equal(jam_flex(sys, kind, NULL, 0, NULL, 0, &needed), JAM_OK);
+    assert_int_equal(needed, 72);
+    assert_int_equal(jam_flex(sys, kind, out, 71, NULL, 0, &needed), JAM_E_BUFFER);
+    assert_int_equal(jam_flex(sys, kind, out, 72, strain, 4, &needed), JAM_OK);
+    for (int k = 0; k < 36; ++k) largest = fmax(largest, hypot(out[2 * k], out[2 * k + 1]));
+    for (int k = 0; k < 4; ++k) largest = fmax(largest, fabs(strain[k]));
+    trace = strain[0] + strain[3];
+    assert_true(largest > 1e-3 && largest < 1.0 + 1e-9 && trace < 1e-12);
+    if (kind == JAM_RIGIDITY_COLLECTIVE) {
+      assert_int_equal(jam_positions_view(sys, &x, &n), JAM_OK);
+      for (size_t k = 0; k < n; ++k) moved[k] = x[k] + 0.02 * out[k];
+      assert_int_equal(jam_set_positions(sys, moved, n), JAM_OK); /* refused if a pair overlapped */
+    }
+    jam_destroy(sys);
+  }
+}
+
+static void bad_calls(void **state) {
+  (void)state;
+  jam_system *sys = square(3);
+  jam_rigidity_report r;
+  double out[18];
+  size_t needed = 0;
+  assert_int_equal(jam_rigidity(NULL, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_E_NULL);
+  assert_int_equal(jam_rigidity(sys, 2, NULL), JAM_E_ARGUMENT);
+  r.struct_size = 0;
+  assert_int_equal(jam_rigidity(sys, JAM_RIGIDITY_COLLECTIVE, &r), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_rigidity(sys, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_NOT_JAMMED);
+  assert_int_equal(jam_flex(sys, -1, out, 18, NULL, 0, &needed), JAM_E_ARGUMENT);
+  assert_int_equal(jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_cancel(sys), JAM_OK);
+  assert_int_equal(jam_rigidity(sys, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_CANCELLED);
+  assert_int_equal(strcmp(jam_stop_string(JAM_STOP_SADDLE), "saddle"), 0);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(fluids), cmocka_unit_test(crunched),
+                                     cmocka_unit_test(flex_of_a_lattice), cmocka_unit_test(bad_calls)};
+  return cmocka_run_group_tests_name("rigidity", tests, NULL, NULL);
+}

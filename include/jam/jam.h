@@ -1099,7 +1099,7 @@ JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometr
 typedef enum jam_candidate_column {
   JAM_CANDIDATE_LIMIT = 0,    /* tolerance on |h| */
   JAM_CANDIDATE_JUMP = 1,     /* ratio of the gaps above and below it */
-  JAM_CANDIDATE_CONTACTS = 2, /* contacts of stable spheres within it */
+  JAM_CANDIDATE_CONTACTS = 2, /* contacts within it on spheres that can balance */
   JAM_CANDIDATE_EXCESS = 3    /* contacts - (d (N' - 1) + 1) */
 } jam_candidate_column;
 /* Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as

@@ -90,6 +90,7 @@ void judge(const RigidityMatrix &carrying, int strains, const SoftestModes &mode
 
 RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
   const BlasSingleThread single;
+  cancel_point();
   const bool strain = kind == Jamming::strict;
   const size_t m = g.contacts();
   RigidityResult out;

@@ -14,6 +14,8 @@ namespace {
 constexpr double zero_force = 1e-11, sure_force = 1e-9;
 // The same for the opening of a contact, where the largest displacement is 1.
 constexpr double zero_opening = 1e-11, sure_opening = 1e-9;
+// Forces of mean 1 that keep less than this in the projection on the balance were no state of self-stress.
+constexpr double least_projection = 1e-6;
 
 double mean_size(const std::vector<double> &f) {
   double sum = 0.0;
@@ -219,6 +221,8 @@ bool certify_support(const ConstraintRows &rows, const NormalSolver &solver, con
     size_t at = 0;
     for (size_t k = 0; k < m; ++k)
       if (out.carrying[k]) out.force[k] = f[at++] / mean;
+    // A guess that carries nothing loses its forces in the projection.
+    if (!(mean > least_projection)) return false;
     for (const double v : f)
       if (!(v > zero_force * mean)) return false;
   }
@@ -304,7 +308,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   std::vector<double> equal(m, 1.0);
   project_on_balance(rows, solver, equal, cancel_point);
   const double mean = mean_size(equal);
-  if (mean > sure_force && *std::min_element(equal.begin(), equal.end()) > sure_force * mean) {
+  if (mean > least_projection && *std::min_element(equal.begin(), equal.end()) > sure_force * mean) {
     out.decided = true, out.carrying.assign(m, 1), out.force = equal;
     for (double &v : out.force) v /= mean;
     const std::vector<double> f =

@@ -254,7 +254,7 @@ class CandidateColumn(IntEnum):
     """Columns of jam_contact_candidates. @since 0.1"""
     LIMIT = 0  # tolerance on |h|
     JUMP = 1  # ratio of the gaps above and below it
-    CONTACTS = 2  # contacts of stable spheres within it
+    CONTACTS = 2  # contacts within it on spheres that can balance
     EXCESS = 3  # contacts - (d (N' - 1) + 1)
 
 

@@ -404,7 +404,7 @@ class ContactCandidatesResult(NamedTuple):
 
     limit: np.ndarray  # tolerance on |h|
     jump: np.ndarray  # ratio of the gaps above and below it
-    contacts: np.ndarray  # contacts of stable spheres within it
+    contacts: np.ndarray  # contacts within it on spheres that can balance
     excess: np.ndarray  # contacts - (d (N' - 1) + 1)
 
 

@@ -206,7 +206,7 @@ const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (
 # jam_candidate_column: Columns of jam_contact_candidates. @since 0.1
 const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
 const JAM_CANDIDATE_JUMP = Int32(1)  # ratio of the gaps above and below it
-const JAM_CANDIDATE_CONTACTS = Int32(2)  # contacts of stable spheres within it
+const JAM_CANDIDATE_CONTACTS = Int32(2)  # contacts within it on spheres that can balance
 const JAM_CANDIDATE_EXCESS = Int32(3)  # contacts - (d (N' - 1) + 1)
 
 # jam_contact_class: Flags of a contact. @since 0.1

@@ -51,6 +51,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_STOP_TIME = 12
   integer(c_int32_t), parameter :: JAM_STOP_EVALUATIONS = 13
   integer(c_int32_t), parameter :: JAM_STOP_STEPS = 14
+  integer(c_int32_t), parameter :: JAM_STOP_SADDLE = 15
 
   ! jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
   integer(c_int32_t), parameter :: JAM_OVERLAP_REFUSE = 0
@@ -208,6 +209,16 @@ module jam
   integer(c_int32_t), parameter :: JAM_CANDIDATE_JUMP = 1
   integer(c_int32_t), parameter :: JAM_CANDIDATE_CONTACTS = 2
   integer(c_int32_t), parameter :: JAM_CANDIDATE_EXCESS = 3
+
+  ! jam_rigidity_kind: Which motions must not open contacts. @since 0.1
+  integer(c_int32_t), parameter :: JAM_RIGIDITY_COLLECTIVE = 0
+  integer(c_int32_t), parameter :: JAM_RIGIDITY_STRICT = 1
+
+  ! jam_verdict: Answer of a test. @since 0.1
+  integer(c_int32_t), parameter :: JAM_VERDICT_UNTESTED = -1
+  integer(c_int32_t), parameter :: JAM_VERDICT_NO = 0
+  integer(c_int32_t), parameter :: JAM_VERDICT_YES = 1
+  integer(c_int32_t), parameter :: JAM_VERDICT_UNDECIDED = 2
 
   ! jam_contact_class: Flags of a contact. @since 0.1
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
@@ -604,8 +615,8 @@ module jam
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
   type, bind(c) :: jam_crunch_report
     ! set by the caller: sizeof(jam_crunch_report)
-    integer(c_int32_t) :: struct_size = 216
-    ! 1: converged to a rigid network with balanced forces
+    integer(c_int32_t) :: struct_size = 272
+    ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     integer(c_int32_t) :: jammed = 0
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
@@ -613,6 +624,10 @@ module jam
     integer(c_int32_t) :: lp_solver = 0
     ! jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
     integer(c_int32_t) :: method = 0
+    ! 1: non-negative contact forces balance, so no small motion lets the diameters grow
+    integer(c_int32_t) :: stationary = 0
+    ! jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
+    integer(c_int32_t) :: strictly_jammed = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
     ! phi_J when jammed
@@ -621,7 +636,7 @@ module jam
     real(c_double) :: diameter_mean = 0
     ! pairs with a force, rattlers left out
     integer(c_int64_t) :: contacts = 0
-    ! spheres removed until every sphere left has at least d + 1 contacts
+    ! spheres that no force-carrying contact touches
     integer(c_int64_t) :: rattlers = 0
     ! n - rattlers = N'
     integer(c_int64_t) :: stable = 0
@@ -631,6 +646,18 @@ module jam
     integer(c_int64_t) :: isostatic_contacts = 0
     ! contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     integer(c_int64_t) :: excess_contacts = 0
+    ! motions of stable spheres, beyond translations, that keep force-carrying contacts closed
+    integer(c_int64_t) :: flexes = 0
+    ! closed pairs without force in every state of self-stress, those of rattlers too
+    integer(c_int64_t) :: idle_contacts = 0
+    ! pairs with gaps of 1e-10 to 1e-7 that the network does not list
+    integer(c_int64_t) :: undecided_contacts = 0
+    ! stable spheres with d force-carrying contacts or fewer
+    integer(c_int64_t) :: bridges = 0
+    ! d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
+    integer(c_int64_t) :: strict_contacts_needed = 0
+    ! smallest eigenvalue of S^T S on force-carrying contacts that is no translation
+    real(c_double) :: rigidity_margin = 0
     ! LPs solved in full
     integer(c_int64_t) :: lp_solves = 0
     ! Cholesky factorisations
@@ -915,6 +942,39 @@ module jam
     ! connected sets of stable spheres; with more than one, each has its own states
     integer(c_int64_t) :: clusters = 0
   end type jam_geometry_report
+
+  ! What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
+  ! that they touch, N' their number. @since 0.1
+  type, bind(c) :: jam_rigidity_report
+    ! set by the caller: sizeof(jam_rigidity_report)
+    integer(c_int32_t) :: struct_size = 96
+    ! jam_rigidity_kind that was tested
+    integer(c_int32_t) :: kind = 0
+    ! jam_verdict
+    integer(c_int32_t) :: jammed = 0
+    ! jam_verdict: K+ is not empty, so no small motion lets the diameters grow
+    integer(c_int32_t) :: stationary = 0
+    ! N'
+    integer(c_int64_t) :: stable = 0
+    ! |K+|
+    integer(c_int64_t) :: contacts = 0
+    ! collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
+    integer(c_int64_t) :: contacts_needed = 0
+    ! independent balances of forces on K+, signs free
+    integer(c_int64_t) :: self_stresses = 0
+    ! motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+    integer(c_int64_t) :: flexes = 0
+    ! spheres of B with d contacts of K+ or fewer
+    integer(c_int64_t) :: bridges = 0
+    ! closed pairs that are not in K+
+    integer(c_int64_t) :: idle_contacts = 0
+    ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
+    integer(c_int64_t) :: undecided_contacts = 0
+    ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
+    real(c_double) :: rigidity_margin = 0
+    ! largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
+    real(c_double) :: force_residual = 0
+  end type jam_rigidity_report
 
   ! Options of jam_density_of_states. @since 0.1
   type, bind(c) :: jam_dos_options
@@ -1867,12 +1927,13 @@ module jam
     end function jam_geometry_options_init
 
     ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-    ! moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
-    ! until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
-    ! JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-    ! candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
-    ! norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-    ! JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+    ! are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
+    ! stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
+    ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+    ! JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
+    ! leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
+    ! JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)
       import
@@ -1899,7 +1960,7 @@ module jam
 
     ! States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
     ! space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-    ! NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+    ! NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
     ! JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
     function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows) &
         bind(c, name="jam_stress_states") result(status)
@@ -1913,6 +1974,42 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function jam_stress_states
+
+    ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
+    ! pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+    ! Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
+    ! for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+    ! Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+    ! arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
+    ! be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+    ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
+    ! 0.1
+    function jam_rigidity(sys, kind, report) &
+        bind(c, name="jam_rigidity") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: kind
+      type(jam_rigidity_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_rigidity
+
+    ! A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
+    ! collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
+    ! contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
+    ! Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
+    ! 0.1
+    function jam_flex(sys, kind, out, out_len, strain, strain_len, needed) &
+        bind(c, name="jam_flex") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: kind
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      real(c_double), intent(inout), optional :: strain(*)
+      integer(c_size_t), value :: strain_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_flex
 
     ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
     ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
@@ -2520,6 +2617,18 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_stress_states
+    function c_jam_flex(sys, kind, out, out_len, strain, strain_len, needed) &
+        bind(c, name="jam_flex") result(status)
+      import
+      type(c_ptr), value :: sys
+      integer(c_int32_t), value :: kind
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      type(c_ptr), value :: strain
+      integer(c_size_t), value :: strain_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_flex
     function c_jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows) &
         bind(c, name="jam_gaps") result(status)
       import
@@ -2869,6 +2978,11 @@ module jam
     module procedure f_jam_stress_states
   end interface jam_stress_states
 
+  interface jam_flex
+    procedure jam_flex
+    module procedure f_jam_flex
+  end interface jam_flex
+
   interface jam_gaps
     procedure jam_gaps
     module procedure f_jam_gaps
@@ -2982,6 +3096,7 @@ module jam
   private :: c_jam_modes, f_jam_modes
   private :: c_jam_contact_candidates, f_jam_contact_candidates
   private :: c_jam_stress_states, f_jam_stress_states
+  private :: c_jam_flex, f_jam_flex
   private :: c_jam_gaps, f_jam_gaps
   private :: c_jam_contact_classes, f_jam_contact_classes
   private :: c_jam_sphere_structure, f_jam_sphere_structure
@@ -3679,6 +3794,31 @@ contains
     end if
     status = c_jam_stress_states(sys, at_force, count_force, at_basis, count_basis, residual)
   end function f_jam_stress_states
+
+  function f_jam_flex(sys, kind, out, strain) result(status)
+    type(c_ptr), intent(in) :: sys
+    integer(c_int32_t), intent(in) :: kind
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    real(c_double), intent(inout), target, contiguous, optional :: strain(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    type(c_ptr) :: at_strain
+    integer(c_size_t) :: count_strain
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    at_strain = c_null_ptr
+    count_strain = 0
+    if (present(strain)) then
+      at_strain = c_loc(strain)
+      count_strain = size(strain, kind=c_size_t)
+    end if
+    status = c_jam_flex(sys, kind, at_out, count_out, at_strain, count_strain)
+  end function f_jam_flex
 
   function f_jam_gaps(sys, h_max, stable_only, gap, pair) result(status)
     type(c_ptr), intent(in) :: sys

@@ -53,6 +53,7 @@ class StopReason(IntEnum):
     TIME = 12  # MD: its simulated time is over
     EVALUATIONS = 13  # soft spheres: max_evaluations came first
     STEPS = 14  # soft spheres: max_steps came first
+    SADDLE = 15  # crunch: forces balance, but a flex opens contacts, and kicks along it lead nowhere
 
 
 class OverlapPolicy(IntEnum):
@@ -256,6 +257,20 @@ class CandidateColumn(IntEnum):
     JUMP = 1  # ratio of the gaps above and below it
     CONTACTS = 2  # contacts within it on spheres that can balance
     EXCESS = 3  # contacts - (d (N' - 1) + 1)
+
+
+class RigidityKind(IntEnum):
+    """Which motions must not open contacts. @since 0.1"""
+    COLLECTIVE = 0  # all motions of the spheres in a fixed cell
+    STRICT = 1  # and all symmetric strains of the cell that do not enlarge its volume
+
+
+class Verdict(IntEnum):
+    """Answer of a test. @since 0.1"""
+    UNTESTED = -1  # the test has not run
+    NO = 0  # not jammed, with a proof: no balanced forces, or a flex
+    YES = 1  # jammed, with a proof: positive forces that balance, and full rank
+    UNDECIDED = 2  # double precision does not tell
 
 
 class ContactClass(IntEnum):
@@ -471,18 +486,26 @@ class IsoconfReport:
 class CrunchReport:
     """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
 
-    jammed: 1: converged to a rigid network with balanced forces
+    jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     stop_reason: jam_stop_reason
     lp_solver: jam_lp_solver that gave the last LP
     method: jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
+    stationary: 1: non-negative contact forces balance, so no small motion lets the diameters grow
+    strictly_jammed: jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out
-    rattlers: spheres removed until every sphere left has at least d + 1 contacts
+    rattlers: spheres that no force-carrying contact touches
     stable: n - rattlers = N'
     bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts: contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
+    flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
+    idle_contacts: closed pairs without force in every state of self-stress, those of rattlers too
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list
+    bridges: stable spheres with d force-carrying contacts or fewer
+    strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
+    rigidity_margin: smallest eigenvalue of S^T S on force-carrying contacts that is no translation
     lp_solves: LPs solved in full
     factorisations: Cholesky factorisations
     gain: sqrt(Gamma) - 1 of the last LP
@@ -503,6 +526,8 @@ class CrunchReport:
     stop_reason: StopReason
     lp_solver: LpSolver
     method: CrunchMethod
+    stationary: int
+    strictly_jammed: Verdict
     packing_fraction: float
     diameter_mean: float
     contacts: int
@@ -511,6 +536,12 @@ class CrunchReport:
     bucklers: int
     isostatic_contacts: int
     excess_contacts: int
+    flexes: int
+    idle_contacts: int
+    undecided_contacts: int
+    bridges: int
+    strict_contacts_needed: int
+    rigidity_margin: float
     lp_solves: int
     factorisations: int
     gain: float
@@ -682,6 +713,39 @@ class GeometryReport:
     force_residual: float
     min_force: float
     clusters: int
+
+
+@dataclass(frozen=True, repr=False)
+class RigidityReport:
+    """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
+    that they touch, N' their number. @since 0.1
+
+    kind: jam_rigidity_kind that was tested
+    jammed: jam_verdict
+    stationary: jam_verdict: K+ is not empty, so no small motion lets the diameters grow
+    stable: N'
+    contacts: |K+|
+    contacts_needed: collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
+    self_stresses: independent balances of forces on K+, signs free
+    flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+    bridges: spheres of B with d contacts of K+ or fewer
+    idle_contacts: closed pairs that are not in K+
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
+    rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
+    force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
+    kind: RigidityKind
+    jammed: Verdict
+    stationary: Verdict
+    stable: int
+    contacts: int
+    contacts_needed: int
+    self_stresses: int
+    flexes: int
+    bridges: int
+    idle_contacts: int
+    undecided_contacts: int
+    rigidity_margin: float
+    force_residual: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -870,6 +934,7 @@ REPORTS = {
     "jam_relax_report": RelaxReport,
     "jam_decompress_report": DecompressReport,
     "jam_geometry_report": GeometryReport,
+    "jam_rigidity_report": RigidityReport,
     "jam_moduli": Moduli,
     "jam_comparison": Comparison,
 }
@@ -941,6 +1006,8 @@ CALLS = {
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
     "jam_contact_candidates": (True, (("window", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
+    "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
+    "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),

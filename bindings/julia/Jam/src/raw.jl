@@ -52,6 +52,7 @@ const JAM_STOP_UNJAMMED = Int32(11)  # crunch: converged without a rigid network
 const JAM_STOP_TIME = Int32(12)  # MD: its simulated time is over
 const JAM_STOP_EVALUATIONS = Int32(13)  # soft spheres: max_evaluations came first
 const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
+const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, but a flex opens contacts, and kicks along it lead nowhere
 
 # jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
@@ -208,6 +209,16 @@ const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
 const JAM_CANDIDATE_JUMP = Int32(1)  # ratio of the gaps above and below it
 const JAM_CANDIDATE_CONTACTS = Int32(2)  # contacts within it on spheres that can balance
 const JAM_CANDIDATE_EXCESS = Int32(3)  # contacts - (d (N' - 1) + 1)
+
+# jam_rigidity_kind: Which motions must not open contacts. @since 0.1
+const JAM_RIGIDITY_COLLECTIVE = Int32(0)  # all motions of the spheres in a fixed cell
+const JAM_RIGIDITY_STRICT = Int32(1)  # and all symmetric strains of the cell that do not enlarge its volume
+
+# jam_verdict: Answer of a test. @since 0.1
+const JAM_VERDICT_UNTESTED = Int32(-1)  # the test has not run
+const JAM_VERDICT_NO = Int32(0)  # not jammed, with a proof: no balanced forces, or a flex
+const JAM_VERDICT_YES = Int32(1)  # jammed, with a proof: positive forces that balance, and full rank
+const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision does not tell
 
 # jam_contact_class: Flags of a contact. @since 0.1
 const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
@@ -496,19 +507,27 @@ Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to
 """
 mutable struct jam_crunch_report
     struct_size::UInt32  # set by the caller: sizeof(jam_crunch_report)
-    jammed::Int32  # 1: converged to a rigid network with balanced forces
+    jammed::Int32  # 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     stop_reason::Int32  # jam_stop_reason
     lp_solver::Int32  # jam_lp_solver that gave the last LP
     method::Int32  # jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs ran
+    stationary::Int32  # 1: non-negative contact forces balance, so no small motion lets the diameters grow
+    strictly_jammed::Int32  # jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     reserved::Int32  # 0
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
     contacts::Int64  # pairs with a force, rattlers left out
-    rattlers::Int64  # spheres removed until every sphere left has at least d + 1 contacts
+    rattlers::Int64  # spheres that no force-carrying contact touches
     stable::Int64  # n - rattlers = N'
     bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
+    flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
+    idle_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list
+    bridges::Int64  # stable spheres with d force-carrying contacts or fewer
+    strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
+    rigidity_margin::Cdouble  # smallest eigenvalue of S^T S on force-carrying contacts that is no translation
     lp_solves::Int64  # LPs solved in full
     factorisations::Int64  # Cholesky factorisations
     gain::Cdouble  # sqrt(Gamma) - 1 of the last LP
@@ -525,7 +544,7 @@ mutable struct jam_crunch_report
     seconds_factor::Cdouble  # of it in factorisations
     seconds_assemble::Cdouble  # of it in neighbour lists and assembly
     seconds_solve::Cdouble  # of it in triangular solves
-    jam_crunch_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_crunch_report() = new(272, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -697,6 +716,28 @@ mutable struct jam_geometry_report
     min_force::Cdouble  # over the mean
     clusters::Int64  # connected sets of stable spheres; with more than one, each has its own states
     jam_geometry_report() = new(136, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
+that they touch, N' their number. @since 0.1
+"""
+mutable struct jam_rigidity_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_rigidity_report)
+    kind::Int32  # jam_rigidity_kind that was tested
+    jammed::Int32  # jam_verdict
+    stationary::Int32  # jam_verdict: K+ is not empty, so no small motion lets the diameters grow
+    stable::Int64  # N'
+    contacts::Int64  # |K+|
+    contacts_needed::Int64  # collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
+    self_stresses::Int64  # independent balances of forces on K+, signs free
+    flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
+    bridges::Int64  # spheres of B with d contacts of K+ or fewer
+    idle_contacts::Int64  # closed pairs that are not in K+
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
+    rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
+    force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
+    jam_rigidity_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1361,12 +1402,13 @@ end
 
 """
 Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-moves. Rattlers are spheres with fewer than d + 1 contacts, or whose contacts do not span space. They are removed
-until none is left. Forces are the null vector of S^T. report may be NULL. Status, with the network kept each time:
-JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-candidate fits too (see second_*), or there are several states of self-stress; then the non-negative force of least
-norm is kept. JAM_NOT_JAMMED: no balance of repulsive forces, or no contacts. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
+stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
+network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
+leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
+JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
@@ -1385,11 +1427,37 @@ end
 """
 States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
 space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the non-negative one of least norm),
+NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
 JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
 """
 function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
     return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
+end
+
+"""
+Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
+pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
+for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
+be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
+0.1
+"""
+function jam_rigidity(sys, kind, report)
+    return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
+end
+
+"""
+A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
+collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
+contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
+Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
+0.1
+"""
+function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
+    return ccall((:jam_flex, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
 end
 
 """

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Builds the fuzz targets with clang, libFuzzer and the address and undefined-behaviour sanitizers, and runs each one for
-# so many seconds: sh tests/fuzz/run.sh [seconds = 20] [folder for new inputs]. Inputs that break a rule are left in that
-# folder; put them into tests/fuzz/corpus when the defect is mended.
+# Builds the fuzz targets with clang, libFuzzer and the address and undefined-behaviour sanitizers, and runs each
+# one for so many seconds: sh tests/fuzz/run.sh [seconds = 20] [folder for new inputs]. Inputs that break a rule stay
+# in that folder. Put them into tests/fuzz/corpus when the defect is mended.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-20}
@@ -17,7 +17,8 @@ for target in read checkpoint calls; do
   echo "== $target"
   mkdir -p "$found/$target"
   build-fuzz/tests/fuzz/fuzz_$target -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-    -artifact_prefix="$found/$target-" "$found/$target" "tests/fuzz/corpus/$target" >"$found/$target.log" 2>&1 || status=1
+    -artifact_prefix="$found/$target-" "$found/$target" "tests/fuzz/corpus/$target" >"$found/$target.log" 2>&1 ||
+    status=1
   grep -E "SUMMARY|broken:|stat::number_of_executed_units|DONE" "$found/$target.log" || true
 done
 exit $status

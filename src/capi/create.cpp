@@ -184,8 +184,10 @@ jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void
   });
 }
 
+// From any thread at any time, also while a verb runs: that is what it is for.
 jam_status jam_cancel(jam_system *sys) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard([&]() -> jam_status {
+    need(sys, "sys");
     sys->monitor.cancel();
     return JAM_OK;
   });

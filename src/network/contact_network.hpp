@@ -9,10 +9,10 @@
 namespace jam {
 
 struct ContactNetwork {
-  PairList pairs;                     // contacts between stable spheres
-  std::vector<double> vector;         // (contacts, dim) unit n_ij
-  std::vector<double> gap;            // h of each contact
-  std::vector<double> force;          // mean 1
+  PairList pairs;              // contacts between stable spheres
+  std::vector<double> vector;  // (contacts, dim) unit n_ij
+  std::vector<double> gap;     // h of each contact
+  std::vector<double> force;   // mean 1
   // Of soft spheres alone, else empty: d2v / dr2 and force over distance, in units of their energy.
   std::vector<double> stiffness, prestress;
   double force_scale = 0.0;           // mean of lambda |r| with sum lambda sigma^2 = 1

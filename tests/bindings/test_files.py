@@ -130,7 +130,7 @@ class CommandLine(unittest.TestCase):
         theirs = set(re.findall(r"(?<![\w-])--[a-z][\w-]*", said))
         ours = {option for action in jam.cli.parser()._actions for option in action.option_strings}
         self.assertEqual(theirs - ours, set())
-        tables = ("contacts", "gaps", "structure", "spectrum", "output")
+        tables = ("contacts", "gaps", "structure", "spectrum", "output.txt")
         for arguments in (
             ["--n", "80", "--dim", "2", "--diameters-ratio", "1.4", "--growth", "0.1:50", "--nve", "2"],
             ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"],
@@ -139,7 +139,7 @@ class CommandLine(unittest.TestCase):
         ):
             with tempfile.TemporaryDirectory() as folder:
                 for name, program in (("a", [PACK]), ("b", [sys.executable, "-m", "jam"])):
-                    asked = [x for t in tables for x in ("--" + t, f"{folder}/{name}.{t}")]
+                    asked = [x for t in tables for x in ("--" + t.split(".")[0], f"{folder}/{name}.{t}")]
                     done = subprocess.run(
                         [*program, *arguments, *asked, "--report", f"{folder}/{name}.json", "--quiet"],
                         capture_output=True,

@@ -103,11 +103,11 @@ static void series_pairs_and_displacements_agree(void **state) {
     sum_pairs += pair_collisions[k];
   }
   assert_int_equal(sum_pairs, 400 * N);
-  /* p = 1 + sum sigma |dp| / (2 K t): exactly what the two reports say. */
+  /* p = 1 + (N - 1) / N sum sigma |dp| / (2 K t), for d (N - 1) degrees of freedom: what the two reports say. */
   jam_velocities_view(sys, &v, &len);
   for (k = 0; k < len; ++k) twice_kinetic += v[k] * v[k];
   mean = (report.pressure * report.time + second.pressure * second.time) / (report.time + second.time);
-  assert_true(fabs((1.0 + virial / (twice_kinetic * total_time)) / mean - 1.0) < 1e-9);
+  assert_true(fabs((1.0 + (N - 1.0) / N * virial / (twice_kinetic * total_time)) / mean - 1.0) < 1e-9);
   assert_true(fabs(time[79] / total_time - 1.0) < 1e-6);
   free(pair), free(momentum), free(pair_collisions);
   run(bare, 400), run(bare, 400);
@@ -124,7 +124,7 @@ static void series_pairs_and_displacements_agree(void **state) {
 static void histograms_of_gaps_and_distances(void **state) {
   jam_system *sys = fluid(0.3);
   jam_observe_options o;
-  double edge[22], density[21], error[21], r[50], g[50], contact;
+  double edge[22], density[21], error[21], r[50], g[50], contact, once;
   size_t needed, k;
   (void)state;
   jam_observe_options_init(&o, sizeof o);
@@ -136,14 +136,17 @@ static void histograms_of_gaps_and_distances(void **state) {
   o.sample_every = 5.0;
   run(sys, 50);
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
-  contact = (run(sys, 1000).pressure - 1.0) / (4.0 * 0.3);
+  /* p - 1 = 4 phi g(sigma) (N - 1) / N: a sphere has N - 1 others. */
+  contact = (run(sys, 1000).pressure - 1.0) / (4.0 * 0.3) * N / (N - 1.0);
   assert_int_equal(jam_observed_gaps(sys, edge, 22, density, 21, error, 21, &needed), JAM_OK);
   assert_int_equal(needed, 21);
   assert_true(edge[0] == 0.0 && fabs(edge[1] - 0.01) < 1e-15 && fabs(edge[21] - 0.3) < 1e-12);
   print_message("g(sigma) by pressure %.3f, in [0, 0.01] %.3f(%.3f), at 0.3 %.3f\n", contact, density[0], error[0],
                 density[20]);
-  /* g falls by about 2 per cent over the first bin. */
-  assert_true(fabs(density[0] / contact - 0.98) < 0.02 + 3.0 * error[0] / contact);
+  /* g falls by about 2 per cent over the first bin. Samples are taken at collisions, so each holds one pair at contact
+   * beyond the average; the bin holds 4 N phi (1.01^3 - 1) pairs of an ideal gas. */
+  once = 1.0 / (4.0 * N * 0.3 * (1.01 * 1.01 * 1.01 - 1.0));
+  assert_true(fabs((density[0] - once) / contact - 0.98) < 0.02 + 3.0 * error[0] / contact);
   assert_true(density[20] < 0.75 * density[0]);
   assert_int_equal(jam_observed_correlation(sys, r, 50, g, 50, &needed), JAM_OK);
   assert_int_equal(needed, 50);

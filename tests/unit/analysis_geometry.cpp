@@ -152,7 +152,7 @@ void without_a_clear_jump_the_answer_is_ambiguous(void **) {
   assert_int_equal(c.contacts[0], r.report.contacts);
   assert_int_equal(c.excess[0], r.report.excess_contacts);
   assert_true(c.limit[1] == r.report.second_tolerance && c.jump[1] <= c.jump[0]);
-  for (size_t k = 0; k < c.limit.size(); ++k) {  // each is what the tolerance gives
+  for (size_t k = 0; k < c.limit.size(); ++k) {                         // each is what the tolerance gives
     assert_true(look(p, c.limit[k]).report.contacts <= c.contacts[k]);  // forces can balance on fewer
     assert_true(c.excess[k] >= 0);
   }

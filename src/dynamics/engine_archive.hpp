@@ -2,7 +2,9 @@
 // (user_, the shifts of the Mari-Kurchan model) is made anew by the constructor.
 #pragma once
 #include <algorithm>
+#include <cmath>
 
+#include "core/limits.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -77,7 +79,14 @@ void Engine<D, Shift>::check_archive() const {
     Archive::check(sphere(u) && !seen[u]);
     seen[u] = 1;
   }
-  for (const Body<D> &b : body_) Archive::check(b.radius > 0);
+  for (const Body<D> &b : body_) {
+    Archive::check(b.radius > 0 && b.radius <= int64_t{1} << 62 && std::isfinite(b.time));
+    for (const double v : b.v) Archive::check(std::fabs(v) <= limits::velocity_max * 10.0 * scale);
+  }
+  for (const double m : mass_) Archive::check(m > 0.0 && std::isfinite(m));
+  for (const double part : left_over_) Archive::check(std::isfinite(part));
+  for (const double x : {now_, rate_, relative_rate_, twice_kinetic_, sums.time, max_overlap})
+    Archive::check(std::isfinite(x));
   for (const int64_t count :
        {exits_, exits_before_, collisions_before_, events_before_, rebase_at_, sums.events, sums.collisions})
     Archive::check(count >= 0 && count < int64_t{1} << 60);  // differences are taken of them
@@ -85,7 +94,8 @@ void Engine<D, Shift>::check_archive() const {
     Archive::check(neighbours_[i] >= 0 && static_cast<size_t>(neighbours_[i]) <= capacity_);
     for (int32_t e = 0; e < neighbours_[i]; ++e) {
       const int32_t k = neighbour_[i * capacity_ + e];
-      Archive::check(sphere(k) && neighbours_[k] >= 0 && static_cast<size_t>(neighbours_[k]) <= capacity_);
+      Archive::check(sphere(k) && static_cast<size_t>(k) != i && neighbours_[k] >= 0 &&
+                     static_cast<size_t>(neighbours_[k]) <= capacity_);
       const int32_t *list = &neighbour_[static_cast<size_t>(k) * capacity_];
       Archive::check(std::count(list, list + neighbours_[k], static_cast<int32_t>(i)) ==
                      std::count(&neighbour_[i * capacity_], &neighbour_[i * capacity_] + neighbours_[i], k));

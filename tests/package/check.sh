@@ -47,7 +47,8 @@ readme)
   ;;
 symbols)
   # Only jam_* and the version node may be exported, and every function of the header must be.
-  nm -D --defined-only "$libdir/libjam.so" | awk '{print $3}' | sed 's/@.*//' | grep -v '^JAM_[0-9]*$' | sort -u >"$scratch/exported"
+  nm -D --defined-only "$libdir/libjam.so" | awk '{print $3}' | sed 's/@.*//' | grep -v '^JAM_[0-9]*$' | sort -u \
+    >"$scratch/exported"
   if grep -v '^jam_' "$scratch/exported"; then die "the library exports more than jam_*"; fi
   sed -n 's/^JAM_API.*[ *]\(jam_[a-z0-9_]*\)(.*/\1/p' "$prefix/include/jam/jam.h" | sort -u >"$scratch/declared"
   test -s "$scratch/declared" || die "no declaration found in jam.h"

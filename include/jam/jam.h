@@ -37,8 +37,9 @@
  *
  * Threads
  * - Distinct handles are independent. On one handle, calls marked const may run together.
- *   Any other call must be alone; a second one gets JAM_E_BUSY. jam_cancel may be called
- *   from any thread or signal handler at any time.
+ *   Any other call must be alone. While it runs, calls of other threads get JAM_E_BUSY, and
+ *   its callback may use const calls. jam_cancel may be called from any thread or signal
+ *   handler at any time.
  * - The same seed, build, options and processor give the same packing bit for bit on one
  *   thread.
  *

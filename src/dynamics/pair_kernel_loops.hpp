@@ -140,7 +140,10 @@ JAM_SIMD_TARGET uint64_t earliest_collision(const PairBatch<D> &q, Earliest &ear
     const double t = low < high ? low : high;
     if (!(t < earliest.time)) return left_out;
     uint64_t same = 0;
-    for (int32_t e = 0; e < q.count; e += 4) same |= static_cast<uint64_t>(bits_of(load<Double4>(when + e) == t)) << e;
+    for (int32_t e = 0; e < q.count; e += 4) {
+      const Long4 equal = (Long4)(load<Double4>(when + e) == t);
+      same |= static_cast<uint64_t>(bits_of(equal)) << e;
+    }
     const int entry = __builtin_ctzll(same);
     if (q.now + t < q.event_time[q.list[entry]]) {
       earliest.time = t;

@@ -16,7 +16,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   const double unit = diameter_mean(p);
   if (kind_len != 0 && kind_len != p.n())
     fail(JAM_E_ARGUMENT, "kind_len is %zu, it must be 0 or n = %zu", kind_len, p.n());
-  if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.box))
+  if (!(r_max > 0.0 && r_max * unit <= 4.0 * p.cell.side()))
     fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be in (0, 4 boxes]", r_max);
   if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
   check_pair_count(p, r_max * unit);
@@ -35,7 +35,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
     // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
     g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
   }
-  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0, p.dim), density = nb / std::pow(p.box, p.dim);
+  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0, p.dim), density = nb / p.cell.volume();
   for (size_t k = 0; k < bins; ++k) {
     const double lo = r_max * unit * static_cast<double>(k) / static_cast<double>(bins),
                  hi = r_max * unit * static_cast<double>(k + 1) / static_cast<double>(bins);
@@ -48,7 +48,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
 StructureFactor structure_factor(const Packing &p, double q_max, const CancellationPoint &cancel_point,
                                  bool lengths_only) {
   const int d = p.dim;
-  const double unit = diameter_mean(p), step = 2.0 * M_PI / p.box;
+  const double unit = diameter_mean(p), step = 2.0 * M_PI / p.cell.side();
   if (!(q_max > 0.0 && std::isfinite(q_max)))
     fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
   const double reach = q_max / unit / step;
@@ -172,7 +172,8 @@ std::vector<double> local_fractions(const Packing &p) {
   voro::container_periodic_poly box(1.0, 0.0, 1.0, 0.0, 0.0, 1.0, cells, cells, cells, 8);
   for (size_t i = 0; i < p.n(); ++i) {
     const double *x = &p.position[3 * i];
-    box.put(static_cast<int>(i), x[0] / p.box, x[1] / p.box, x[2] / p.box, 0.5 * p.diameter[i] / p.box);
+    box.put(static_cast<int>(i), x[0] / p.cell.side(), x[1] / p.cell.side(), x[2] / p.cell.side(),
+            0.5 * p.diameter[i] / p.cell.side());
   }
   std::vector<double> phi(p.n(), 0.0);
   voro::c_loop_all_periodic loop(box);
@@ -180,7 +181,7 @@ std::vector<double> local_fractions(const Packing &p) {
   if (loop.start()) do {
       if (!box.compute_cell(cell, loop)) continue;
       const auto i = static_cast<size_t>(loop.pid());
-      phi[i] = unit_sphere_volume(3) * std::pow(p.diameter[i] / p.box, 3) / cell.volume();
+      phi[i] = unit_sphere_volume(3) * std::pow(p.diameter[i] / p.cell.side(), 3) / cell.volume();
     } while (loop.inc());
   for (size_t i = 0; i < p.n(); ++i)
     if (!(phi[i] > 0.0 && phi[i] <= 1.0 + 1e-9)) fail(JAM_E_SOLVER, "the Voronoi cell of sphere %zu was not found", i);

@@ -62,7 +62,7 @@ jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const Conta
   jam_moduli m{};
   const int d = p.dim;
   const size_t width = static_cast<size_t>(d);
-  const double volume = std::pow(p.box, d), directions = d * (d - 1);
+  const double volume = p.cell.volume(), directions = d * (d - 1);
   const GroundedSolver solver(g, w);
   if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.hessian().norm_bound())
     fail(JAM_E_STATE,
@@ -102,7 +102,11 @@ jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, cons
                                 std::vector<double> &displacement) {
   if (a.dim != b.dim || a.n() != b.n())
     fail(JAM_E_ARGUMENT, "the packings differ: d = %d and %d, n = %zu and %zu", a.dim, b.dim, a.n(), b.n());
-  if (std::fabs(a.box / b.box - 1.0) > 1e-12) fail(JAM_E_ARGUMENT, "the boxes differ: %.17g and %.17g", a.box, b.box);
+  for (int c = 0; c < a.dim; ++c)
+    for (int k = 0; k <= c; ++k)
+      if (std::fabs(a.cell.row(c)[k] - b.cell.row(c)[k]) > 1e-12 * a.cell.side())
+        fail(JAM_E_ARGUMENT, "the cells differ: component %d of vector %d is %.17g and %.17g", k, c, a.cell.row(c)[k],
+             b.cell.row(c)[k]);
   jam_comparison c{};
   const size_t n = a.n(), d = static_cast<size_t>(a.dim);
   std::vector<char> stable(n, 1);
@@ -116,13 +120,13 @@ jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, cons
   std::vector<double> shift(d, 0.0);
   for (int pass = 0; pass < 5; ++pass) {
     std::vector<double> mean(d, 0.0);
-    for (size_t i = 0; i < n; ++i)
-      for (size_t x = 0; x < d; ++x) {
-        double u = b.position[i * d + x] - a.position[i * d + x] - shift[x];
-        u -= a.box * std::nearbyint(u / a.box);
-        displacement[i * d + x] = u;
-        if (stable[i]) mean[x] += u / weight;
-      }
+    for (size_t i = 0; i < n; ++i) {
+      double *u = &displacement[i * d];
+      for (size_t x = 0; x < d; ++x) u[x] = b.position[i * d + x] - a.position[i * d + x] - shift[x];
+      a.cell.nearest(u);
+      for (size_t x = 0; x < d; ++x)
+        if (stable[i]) mean[x] += u[x] / weight;
+    }
     for (size_t x = 0; x < d; ++x) shift[x] += mean[x];
   }
   const double unit = diameter_mean(a);

@@ -19,7 +19,7 @@ bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNe
   for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j; ++q) {
     bool same = true;
     for (int c = 0; c < p.dim; ++c)
-      same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < 0.5 * p.box;
+      same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < 0.5 * p.cell.side();
     if (same) return true;
   }
   return false;
@@ -28,7 +28,8 @@ bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNe
 }  // namespace
 
 void check_pair_count(const Packing &p, double reach) {
-  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.box, p.dim), n = static_cast<double>(p.n());
+  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.cell.side(), p.dim),
+               n = static_cast<double>(p.n());
   const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + 48.0);
   if (bytes > 8e9)
     fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than 8e9", pairs, reach,

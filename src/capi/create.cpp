@@ -97,7 +97,7 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
     full.dim = p.dim;
     full.n = static_cast<int64_t>(p.n());
     full.seed = p.seed;
-    full.box = p.box;
+    full.box = p.cell.side();
     full.packing_fraction = sys->packing_fraction;
     full.diameter_mean = sys->diameter_mean;
     full.pressure = p.pressure;
@@ -128,7 +128,8 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
     if (positions_len != p.position.size())
       fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
     check_array_in(positions, positions_len, "positions");
-    for (size_t k = 0; k < positions_len; ++k) p.position[k] = wrap(positions[k], p.box);
+    p.position.assign(positions, positions + positions_len);
+    wrap_positions(p);
     settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     sys->drop_results();
@@ -158,7 +159,7 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
       fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
-    check_diameters(p.diameter, p.box);
+    check_diameters(p.diameter, p.cell.side());
     if (factor > 1.0) settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     sys->drop_results();

@@ -93,7 +93,7 @@ jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size
     check_room("displacement", o.travelled().size(), displacement, displacement_len);
     give(o.collisions(), collisions, collisions_len);
     std::vector<double> way = o.travelled();
-    for (double &x : way) x *= sys->packing.box;
+    for (double &x : way) x *= sys->packing.cell.side();
     give(way, displacement, displacement_len);
     return JAM_OK;
   });

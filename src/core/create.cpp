@@ -55,7 +55,8 @@ std::vector<double> take_diameters(size_t n, const double *diameters, size_t len
 class GrowingCells {
  public:
   GrowingCells(const Packing &p, double cutoff) : p_(p) {
-    const double fit = p.box / cutoff, enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim));
+    const double fit = p.cell.height_min() / cutoff,
+                 enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim));
     side_ = std::max<int64_t>(1, static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough)));
     if (side_ < 3) side_ = 1;
     int64_t cells = 1;
@@ -68,34 +69,39 @@ class GrowingCells {
     next_[i] = head_[cell];
     head_[cell] = i;
   }
-  // True when sphere i at x would overlap a sphere that is already placed (nearest images).
-  bool blocked(const double *x, int32_t i) const { return side_ == 1 ? in_cell(0, x, i) : visit(p_.dim - 1, 0, x, i); }
+  // True when sphere i at x would overlap a sphere that is already placed.
+  bool blocked(const double *x, int32_t i) const {
+    if (side_ == 1) return in_cell(0, x, i);
+    Cell::Vector s{};
+    p_.cell.fraction(x, s.data());
+    return visit(p_.dim - 1, 0, s.data(), x, i);
+  }
 
  private:
-  int64_t index(double x) const {
-    return std::min(static_cast<int64_t>(x / p_.box * static_cast<double>(side_)), side_ - 1);
+  int64_t index(double s) const {
+    return std::min(static_cast<int64_t>(wrap(s, 1.0) * static_cast<double>(side_)), side_ - 1);
   }
   int64_t cell_of(const double *x) const {
+    Cell::Vector s{};
+    p_.cell.fraction(x, s.data());
     int64_t cell = 0;
-    for (int c = p_.dim - 1; c >= 0; --c) cell = cell * side_ + index(x[c]);
+    for (int c = p_.dim - 1; c >= 0; --c) cell = cell * side_ + index(s[c]);
     return cell;
   }
-  bool visit(int c, int64_t cell, const double *x, int32_t i) const {
+  bool visit(int c, int64_t cell, const double *s, const double *x, int32_t i) const {
     if (c < 0) return in_cell(cell, x, i);
     for (int64_t step = -1; step <= 1; ++step)
-      if (visit(c - 1, cell * side_ + (index(x[c]) + step + side_) % side_, x, i)) return true;
+      if (visit(c - 1, cell * side_ + (index(s[c]) + step + side_) % side_, s, x, i)) return true;
     return false;
   }
   bool in_cell(int64_t cell, const double *x, int32_t i) const {
     for (int32_t j = head_[cell]; j >= 0; j = next_[j]) {
       const double touch = contact_distance(p_, i, j);
-      double r2 = 0.0;
-      for (int c = 0; c < p_.dim; ++c) {
-        double dx = x[c] - p_.position[static_cast<size_t>(j) * p_.dim + c];
-        dx -= p_.box * std::nearbyint(dx / p_.box);
-        r2 += dx * dx;
-      }
-      if (r2 < touch * touch) return true;
+      Cell::Vector dx{};
+      for (int c = 0; c < p_.dim; ++c) dx[c] = x[c] - p_.position[static_cast<size_t>(j) * p_.dim + c];
+      bool near = false;
+      p_.cell.images(dx.data(), touch, [&](const double *) { near = true; });
+      if (near) return true;
     }
     return false;
   }
@@ -117,24 +123,24 @@ double fitting_factor(const Packing &p) {
     else if (s < widest && s > other)
       other = s;
   }
-  double scale = widest / p.box;
+  double scale = widest / p.cell.shortest();
   const double unlike = 0.5 * (1.0 + p.non_additivity) * (widest + other);
-  if (other > 0.0) scale = std::max(scale, unlike / (0.5 * std::sqrt(static_cast<double>(p.dim)) * p.box));
+  if (other > 0.0) scale = std::max(scale, unlike / p.cell.half_diagonal());
   if (p.model == JAM_MODEL_EUCLID) {
     double volume = 0.0;  // of the spheres, in units of widest^d: no overflow whatever the diameters are
     for (double s : p.diameter) volume += unit_sphere_volume(p.dim) * std::pow(s / widest, p.dim);
     const double core = 1.0 + std::min(0.0, p.non_additivity);
-    scale = std::max(scale, core * std::pow(volume, 1.0 / p.dim) * widest / p.box);
+    scale = std::max(scale, core * std::pow(volume, 1.0 / p.dim) * widest / p.cell.side());
   }
   return scale > 1.0 + overlap_tolerance ? 1.0 / scale : 1.0;
 }
 
 [[noreturn]] void refuse_unfitting(const Packing &p) {
   const auto widest = std::max_element(p.diameter.begin(), p.diameter.end());
-  if (*widest > p.box)
+  if (*widest > p.cell.shortest())
     fail(JAM_E_OVERLAP, "sphere %td of diameter %g overlaps its own image in a box of %g", widest - p.diameter.begin(),
-         *widest, p.box);
-  fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", p.box,
+         *widest, p.cell.side());
+  fail(JAM_E_OVERLAP, "the spheres cannot fit into the box %g: largest diameter %g, packing fraction %g", p.cell.side(),
        *widest, packing_fraction(p));
 }
 
@@ -153,6 +159,11 @@ jam_create_options default_create_options() {
   return o;
 }
 
+// The brick of the cell repeats as the cell does, so a uniform point of it will do.
+static void random_point(const Cell &cell, Rng &rng, double *x) {
+  for (int c = 0; c < cell.dim(); ++c) x[c] = wrap(cell.edge(c) * rng.uniform(), cell.edge(c));
+}
+
 void place_at_random(Packing &p) {
   const size_t n = p.n();
   const int d = p.dim;
@@ -161,7 +172,7 @@ void place_at_random(Packing &p) {
     fail(JAM_E_UNPLACEABLE,
          "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: "
          "0",
-         packing_fraction(p), diameter_max(p), p.box);
+         packing_fraction(p), diameter_max(p), p.cell.side());
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
@@ -178,10 +189,10 @@ void place_at_random(Packing &p) {
       if (++tries > most_tries || ++total > most_total)
         fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f",
              placed, packing_fraction(p));
-      for (int c = 0; c < d; ++c) x[c] = wrap(p.box * rng.uniform(), p.box);
+      random_point(p.cell, rng, x);
     } while (cells.blocked(x, i));
     cells.add(i);
-    placed += unit_sphere_volume(d) * std::pow(p.diameter[i] / p.box, d);
+    placed += unit_sphere_volume(d) * std::pow(p.diameter[i] / p.cell.side(), d);
   }
 }
 
@@ -189,7 +200,7 @@ void place_uniformly(Packing &p) {
   settle_overlaps(p, JAM_OVERLAP_ALLOW);
   p.position.resize(p.n() * static_cast<size_t>(p.dim));
   Rng rng(p.seed, Stream::rsa_positions);
-  for (double &x : p.position) x = wrap(p.box * rng.uniform(), p.box);
+  for (size_t i = 0; i < p.n(); ++i) random_point(p.cell, rng, &p.position[i * static_cast<size_t>(p.dim)]);
 }
 
 void plant(Packing &p) {
@@ -197,28 +208,27 @@ void plant(Packing &p) {
   const int32_t most = 2000;
   p.position.resize(p.n() * static_cast<size_t>(d));
   Rng rng(p.seed, Stream::rsa_positions);
-  for (double &x : p.position) x = wrap(p.box * rng.uniform(), p.box);
+  for (size_t i = 0; i < p.n(); ++i) random_point(p.cell, rng, &p.position[i * static_cast<size_t>(p.dim)]);
   p.mk_redrawn.clear();
   const MkShifts quenched(p);
   double shift[JAM_MAX_DIM];
   for (int32_t i = 0; i < n; ++i)
     for (int32_t j = i + 1; j < n; ++j) {
-      const double touch = contact_distance(p, i, j) / p.box;
+      const double touch = contact_distance(p, i, j);
       int32_t attempt = 0;
       for (;; ++attempt) {
         if (attempt == most)
           fail(JAM_E_UNPLACEABLE,
                "planting found no shift for spheres %d and %d: %g of the box, packing fraction %g, mk_zeta %g", i, j,
-               touch, packing_fraction(p), p.mk_zeta);
+               touch / p.cell.side(), packing_fraction(p), p.mk_zeta);
         quenched.draw(i, j, attempt, 1.0, shift);
-        double r2 = 0.0;
-        for (int c = 0; c < d; ++c) {
-          double x = (p.position[static_cast<size_t>(i) * d + c] - p.position[static_cast<size_t>(j) * d + c]) / p.box +
-                     shift[c];
-          x -= std::nearbyint(x);
-          r2 += x * x;
-        }
-        if (r2 >= touch * touch) break;
+        Cell::Vector x{};
+        p.cell.combine(shift, x.data());
+        for (int c = 0; c < d; ++c)
+          x[c] += p.position[static_cast<size_t>(i) * d + c] - p.position[static_cast<size_t>(j) * d + c];
+        bool near = false;
+        p.cell.images(x.data(), touch, [&](const double *) { near = true; });
+        if (!near) break;
       }
       if (attempt > 0) p.mk_redrawn.push_back({i, j, attempt});
     }
@@ -236,9 +246,10 @@ void refuse_overlaps(const Packing &p, double tolerance) {
 }
 
 void settle_overlaps(Packing &p, int32_t policy) {
-  check_diameters(p.diameter, p.box);
+  check_diameters(p.diameter, p.cell.side());
   if (policy == JAM_OVERLAP_ALLOW) {
-    if (diameter_max(p) > p.box) refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
+    if (diameter_max(p) > p.cell.shortest())
+      refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
     return;
   }
   if (const double factor = fitting_factor(p); factor < 1.0) {
@@ -251,7 +262,7 @@ void settle_overlaps(Packing &p, int32_t policy) {
   if (worst.gap <= -1.0 + 1e-12)
     fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
   for (double &s : p.diameter) s *= 1.0 + worst.gap;
-  check_diameters(p.diameter, p.box);
+  check_diameters(p.diameter, p.cell.side());
 }
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
@@ -264,8 +275,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     if (!std::isfinite(positions[k]))
       fail(JAM_E_NONFINITE, "positions[%zu] is %g (sphere %zu, component %zu)", k, positions[k], k / o.dim, k % o.dim);
   Packing p;
-  p.dim = o.dim;
-  p.box = o.box;
+  p.set_cube(o.dim, o.box);
   p.seed = o.seed;
   p.model = o.model;
   p.mk_zeta = o.mk_zeta;
@@ -275,14 +285,15 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   p.diameter = take_diameters(n, diameters, diameters_len);
   if (positions_len) {
     p.position.resize(n * o.dim);
-    for (size_t k = 0; k < n * o.dim; ++k) p.position[k] = wrap(positions[k], p.box);
+    p.position.assign(positions, positions + positions_len);
+    wrap_positions(p);
     settle_overlaps(p, o.overlap);
   } else {
     if (!(o.packing_fraction > 0.0) || !std::isfinite(o.packing_fraction))
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
     const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
-    check_diameters(p.diameter, p.box);
+    check_diameters(p.diameter, p.cell.side());
     if (p.overlap_allowed)
       place_uniformly(p);
     else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)

@@ -26,7 +26,7 @@ double sum_over(const std::vector<double> &x, const Term &term) {
 }  // namespace
 
 double packing_fraction(const Packing &p) {
-  return unit_sphere_volume(p.dim) * sum_over(p.diameter, [&](double s) { return std::pow(s / p.box, p.dim); });
+  return unit_sphere_volume(p.dim) * sum_over(p.diameter, [&](double s) { return std::pow(s / p.cell.side(), p.dim); });
 }
 
 double diameter_mean(const Packing &p) {
@@ -39,15 +39,13 @@ std::vector<double> sphere_masses(const Packing &p) {
   std::vector<double> mass;
   if (p.masses != JAM_MASSES_VOLUME) return mass;
   double sum = 0.0;
-  for (double s : p.diameter) mass.push_back(std::pow(s / p.box, p.dim)), sum += mass.back();
+  for (double s : p.diameter) mass.push_back(std::pow(s / p.cell.side(), p.dim)), sum += mass.back();
   for (double &m : mass) m *= static_cast<double>(p.n()) / sum;
   return mass;
 }
 
-double wrap(double x, double box) {
-  if (x >= 0.0 && x < box) return x;
-  x -= box * std::floor(x / box);
-  return x < box ? x : 0.0;
+void wrap_positions(Packing &p) {
+  for (size_t i = 0; i < p.n(); ++i) p.cell.wrap(&p.position[i * static_cast<size_t>(p.dim)]);
 }
 
 }  // namespace jam

@@ -1,10 +1,11 @@
-// The state that every layer works on: spheres in a periodic cube.
+// The state that every layer works on: spheres in a periodic cell.
 #pragma once
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
+#include "core/cell.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -16,14 +17,14 @@ struct MkRedrawn {
 
 struct Packing {
   int dim = 3;
-  double box = 1.0;
+  Cell cell;
   int64_t seed = 1;
   int32_t model = JAM_MODEL_EUCLID;
   int32_t masses = JAM_MASSES_EQUAL;
   double mk_zeta = std::numeric_limits<double>::infinity();
   double non_additivity = 0.0;        // Delta of a non-additive mixture (core/pair_rule.hpp)
   std::vector<MkRedrawn> mk_redrawn;  // sorted; all other pairs have attempt 0 (core/pair_rule.hpp)
-  std::vector<double> position;       // (n, dim), in [0, box)
+  std::vector<double> position;       // (n, dim), in the brick of the cell
   std::vector<double> diameter;       // n
   std::vector<double> velocity;       // (n, dim), kT/m = 1; all zero until MD draws them
   double pressure = std::numeric_limits<double>::quiet_NaN();  // last measured by MD
@@ -31,6 +32,7 @@ struct Packing {
   bool overlap_allowed = false;  // soft spheres: JAM_OVERLAP_ALLOW at creation
 
   size_t n() const { return diameter.size(); }
+  void set_cube(int d, double side) { dim = d, cell = Cell(d, side); }
 };
 
 // Volume of a sphere of unit diameter: pi^(d/2) (1/2)^d / Gamma(1 + d/2).
@@ -40,7 +42,7 @@ double diameter_mean(const Packing &p);
 double diameter_max(const Packing &p);
 // Mass of each sphere, mean 1; empty when all are equal.
 std::vector<double> sphere_masses(const Packing &p);
-// Wraps x into [0, box). Also right for values like -1e-20, where x + box rounds to box.
-double wrap(double x, double box);
+// Puts every sphere back into the brick of the cell.
+void wrap_positions(Packing &p);
 
 }  // namespace jam

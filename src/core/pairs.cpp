@@ -17,7 +17,7 @@ namespace {
 
 struct Candidate {
   int32_t j;
-  std::array<double, JAM_MAX_DIM> offset;
+  Cell::Vector offset;
 };
 
 // One list of pairs may take this part of the machine's memory. What is made from it takes about ten times as much.
@@ -51,53 +51,31 @@ void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &f
   found.clear();
 }
 
-// All images of one pair within `cutoff`, by depth-first choice of one shift a component.
+// All images of one pair within a cutoff. Of the images of a sphere with itself one of each pair +-r is kept.
 class ImageScan {
  public:
-  ImageScan(const Packing &p, double cutoff_max)
-      : p_(p), reach_(static_cast<int>(std::floor(cutoff_max / p.box + 0.5))), quenched_(p) {}
+  explicit ImageScan(const Packing &p) : p_(p), quenched_(p) {}
 
-  void scan(int32_t i, int32_t j, double cutoff, std::vector<Candidate> &found) {
-    i_ = i, j_ = j, cutoff2_ = cutoff * cutoff, found_ = &found;
+  void scan(int32_t i, int32_t j, double cutoff, std::vector<Candidate> &found) const {
+    const int d = p_.dim;
+    Cell::Vector shift{}, dx{};
     if (p_.model == JAM_MODEL_MK && i != j) {
-      quenched_.get(i, j, shift_.data());
-      for (double &x : shift_) x *= p_.box;
-    } else {
-      shift_.fill(0.0);
+      quenched_.get(i, j, shift.data());
+      p_.cell.combine(shift.data(), shift.data());
     }
-    descend(0, 0.0, 0);
+    for (int c = 0; c < d; ++c)
+      dx[c] = p_.position[static_cast<size_t>(i) * d + c] - p_.position[static_cast<size_t>(j) * d + c] + shift[c];
+    p_.cell.images(dx.data(), cutoff, [&](const double *image) {
+      Candidate now{j, {}};
+      for (int c = 0; c < d; ++c) now.offset[c] = shift[c] + image[c];
+      const double *first = std::find_if(image, image + d, [](double x) { return x != 0.0; });
+      if (i != j || (first != image + d && *first > 0.0)) found.push_back(now);
+    });
   }
 
  private:
-  // sign: that of the first non-zero shift so far; of the images of a sphere with itself one of each +- pair is kept.
-  void descend(int c, double r2, int sign) {
-    const int d = p_.dim;
-    if (c == d) {
-      if (i_ == j_ && sign <= 0) return;
-      now_.j = j_;
-      found_->push_back(now_);
-      return;
-    }
-    const double dx =
-        p_.position[static_cast<size_t>(i_) * d + c] - p_.position[static_cast<size_t>(j_) * d + c] + shift_[c];
-    const double nearest = -std::nearbyint(dx / p_.box);
-    for (int m = -reach_; m <= reach_; ++m) {
-      const double shift = (nearest + m) * p_.box;
-      const double x = dx + shift;
-      if (r2 + x * x >= cutoff2_) continue;
-      now_.offset[c] = shift_[c] + shift;
-      descend(c + 1, r2 + x * x, sign != 0 || i_ != j_ ? sign : m);
-    }
-  }
-
   const Packing &p_;
-  const int reach_;
   const MkShifts quenched_;
-  std::array<double, JAM_MAX_DIM> shift_{};
-  int32_t i_ = 0, j_ = 0;
-  double cutoff2_ = 0.0;
-  Candidate now_{};
-  std::vector<Candidate> *found_ = nullptr;
 };
 
 // Pairs farther apart are left out. `own`: NULL, or a reach for each sphere, of which `reach` is the longest.
@@ -127,7 +105,7 @@ double expected_pairs(const Cutoff &cutoff) {
   const double shrunk = 1.0 + std::min(0.0, p.non_additivity);  // a bound for every pair
   const double radius = reach + cutoff.slope * shrunk * diameter;
   const double ball = std::pow(M_PI, 0.5 * p.dim) / std::tgamma(0.5 * p.dim + 1.0);
-  return 0.5 * n * n * ball * std::pow(radius / p.box, p.dim);
+  return 0.5 * n * n * ball * std::pow(radius / p.cell.side(), p.dim);
 }
 
 // Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
@@ -141,9 +119,10 @@ class CellGrid {
     home_.resize(n);
     for (int32_t i = 0; i < n; ++i) {
       int64_t cell = 0;
+      Cell::Vector s{};
+      p.cell.fraction(&p.position[static_cast<size_t>(i) * dim_], s.data());
       for (int c = dim_ - 1; c >= 0; --c) {
-        const auto k =
-            static_cast<int64_t>(p.position[static_cast<size_t>(i) * dim_ + c] / p.box * static_cast<double>(side_));
+        const auto k = static_cast<int64_t>(wrap(s[c], 1.0) * static_cast<double>(side_));
         cell = cell * side_ + std::min(std::max<int64_t>(k, 0), side_ - 1);
       }
       home_[i] = cell;
@@ -189,7 +168,7 @@ PairList by_brute_force(const Cutoff &cutoff) {
   check_list_size(expected_pairs(cutoff), p.dim);
   PairList list;
   std::vector<Candidate> found;
-  ImageScan images(p, cutoff.most());
+  const ImageScan images(p);
   const int32_t n = static_cast<int32_t>(p.n());
   for (int32_t i = 0; i < n; ++i) {
     for (int32_t j = i; j < n; ++j) images.scan(i, j, cutoff.of(i, j), found);
@@ -201,7 +180,8 @@ PairList by_brute_force(const Cutoff &cutoff) {
 PairList by_cells(const Cutoff &cutoff) {
   const Packing &p = cutoff.p;
   // As many cells as spheres are enough; a side is never shorter than the cutoff.
-  const double fit = p.box / cutoff.most(), enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
+  const double fit = p.cell.height_min() / cutoff.most(),
+               enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
   check_list_size(expected_pairs(cutoff), p.dim);
   const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
   // Nearest images are enough from three cells on: two cells in a row would already need a second image.
@@ -217,12 +197,10 @@ PairList by_cells(const Cutoff &cutoff) {
       if (j <= i) return;
       const double *b = &p.position[static_cast<size_t>(j) * d];
       double r2 = 0.0;
-      for (int c = 0; c < d; ++c) {
-        const double dx = a[c] - b[c];
-        now.offset[c] = dx > 0.5 * p.box ? -p.box : dx < -0.5 * p.box ? p.box : 0.0;
-        const double x = dx + now.offset[c];
-        r2 += x * x;
-      }
+      Cell::Vector dx;
+      for (int c = 0; c < d; ++c) dx[c] = a[c] - b[c];
+      p.cell.nearest_shift(dx.data(), now.offset.data());
+      for (int c = 0; c < d; ++c) r2 += (dx[c] + now.offset[c]) * (dx[c] + now.offset[c]);
       const double rc = cutoff.of(i, j);
       if (r2 >= rc * rc) return;
       now.j = j;
@@ -257,16 +235,8 @@ std::vector<double> carry_over(const PairList &from, const std::vector<double> &
 
 void wrap_positions(Packing &p, PairList &pairs) {
   const size_t d = p.dim;
-  std::vector<double> shift(p.position.size(), 0.0);
-  bool any = false;
-  for (size_t k = 0; k < shift.size(); ++k) {
-    const double x = p.position[k], inside = wrap(x, p.box);
-    if (inside == x) continue;
-    shift[k] = std::nearbyint((x - inside) / p.box) * p.box;
-    p.position[k] = inside;
-    any = true;
-  }
-  if (!any) return;
+  std::vector<double> shift(p.position.size());
+  for (size_t i = 0; i < p.n(); ++i) p.cell.wrap(&p.position[i * d], &shift[i * d]);
   for (size_t k = 0; k < pairs.size(); ++k)
     for (size_t c = 0; c < d; ++c) pairs.offset[k * d + c] += shift[pairs.i[k] * d + c] - shift[pairs.j[k] * d + c];
 }

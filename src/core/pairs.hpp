@@ -41,7 +41,7 @@ struct ClosestPair {
 };
 ClosestPair closest_pair(const Packing &p);
 
-// Puts every sphere back into [0, box) and changes the offsets so that every r_ij stays as it is.
+// Puts every sphere back into the brick of the cell and changes the offsets so that every r_ij stays as it is.
 void wrap_positions(Packing &p, PairList &pairs);
 
 // Squared length of r_ij of pair k.

@@ -41,11 +41,9 @@ void History::begin(const Packing &start, bool details) {
 
 HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                            const double *displacement) {
-  for (size_t k = 0; k < last_.size(); ++k) {
-    const double dx = now.position[k] - position_[k];
-    last_[k] = displacement ? displacement[k] : dx - now.box * std::nearbyint(dx / now.box);
-    total_[k] += last_[k];
-  }
+  for (size_t k = 0; k < last_.size(); ++k) last_[k] = displacement ? displacement[k] : now.position[k] - position_[k];
+  for (size_t i = 0; !displacement && i < now.n(); ++i) now.cell.nearest(&last_[i * static_cast<size_t>(now.dim)]);
+  for (size_t k = 0; k < last_.size(); ++k) total_[k] += last_[k];
   HistoryRow row;
   row.fill(std::numeric_limits<double>::quiet_NaN());
   const double unit = diameter_mean(now);

@@ -100,7 +100,8 @@ bool leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
   s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along one of them", now,
                 static_cast<long long>(verdict.result.flexes), length / unit);
   if (length < 1e-6 * unit) return --s.kicks, false;
-  for (size_t k = 0; k < v.size(); ++k) p.position[k] = wrap(p.position[k] + length * v[k], p.box);
+  for (size_t k = 0; k < v.size(); ++k) p.position[k] += length * v[k];
+  wrap_positions(p);
   s.bound = first_bound(s);
   s.last_gain = s.moved = 1.0;
   s.stalled = 0;
@@ -185,7 +186,7 @@ void finish(CrunchState &s) {
 
 // Out of memory, or no LP solved: the state is the last good one, without contacts. It allocates only what it must.
 void finish_failed(CrunchState &s) {
-  for (double &x : s.out.packing.position) x = wrap(x, s.out.packing.box);
+  wrap_positions(s.out.packing);
   ContactNetwork &c = s.out.contacts;
   c.pairs.clear(), c.vector.clear(), c.gap.clear(), c.force.clear();
   std::fill(c.coordination.begin(), c.coordination.end(), 0);

@@ -25,7 +25,7 @@ double largest(const std::vector<double> &x) {
 
 // Rounding of closed contacts grows with the box over the diameter.
 double closed_limit(const Packing &p, const Tuning &t) {
-  return t.closed_gap * std::max(1.0, 0.1 * p.box / diameter_mean(p));
+  return t.closed_gap * std::max(1.0, 0.1 * p.cell.side() / diameter_mean(p));
 }
 
 double norm(const std::vector<double> &x) {

@@ -53,7 +53,8 @@ std::vector<int32_t> curve_order(const Packing &p) {
   std::vector<uint64_t> key(n, 0);
   for (size_t i = 0; i < n; ++i)
     for (size_t c = 0; c < d; ++c) {
-      const auto x = static_cast<uint64_t>(wrap(p.position[i * d + c] / p.box, 1.0) * static_cast<double>(1u << bits));
+      const auto x =
+          static_cast<uint64_t>(wrap(p.position[i * d + c] / p.cell.side(), 1.0) * static_cast<double>(1u << bits));
       for (int b = 0; b < bits; ++b) key[i] |= (x >> b & 1u) << (static_cast<size_t>(b) * d + c);
     }
   std::vector<int32_t> order(n);
@@ -63,7 +64,7 @@ std::vector<int32_t> curve_order(const Packing &p) {
 }
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
-  const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(contact_distance_max(p) / p.box);
+  const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(contact_distance_max(p) / p.cell.side());
   return choose(p, o, images, nullptr);
 }
 

@@ -17,7 +17,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     : n_(static_cast<int32_t>(p.n())),
       options_(o),
       kernel_(pair_kernel<D>(o.instruction_set)),
-      box_(p.box),
+      box_(p.cell.side()),
       non_additivity_(p.non_additivity),
       reach_factor_(1.0 + std::max(0.0, p.non_additivity)),
       body_(p.n()),
@@ -45,11 +45,11 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     const size_t u = static_cast<size_t>(user_[i]);
     Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c) {
-      b.x[c] = static_cast<uint64_t>(wrap(p.position[u * D + c] / p.box, 1.0) * scale);
+      b.x[c] = static_cast<uint64_t>(wrap(p.position[u * D + c] / p.cell.side(), 1.0) * scale);
       b.v[c] = p.velocity[u * D + c] * scale;
     }
     b.time = 0.0;
-    b.radius = std::llrint(0.5 * p.diameter[u] / p.box * scale);
+    b.radius = std::llrint(0.5 * p.diameter[u] / p.cell.side() * scale);
   }
   if (!mass_.empty()) {
     std::vector<double> sorted(p.n());

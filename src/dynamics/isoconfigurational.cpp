@@ -59,7 +59,7 @@ void RunSums::archive(Archive &a) {
 
 void take_moments(const RunPlan &plan, size_t m, RunRecord &record) {
   const size_t n = plan.start.n(), d = static_cast<size_t>(plan.start.dim);
-  const double length = diameter_mean(plan.start) / plan.start.box;  // mean diameter, unit of the box side
+  const double length = diameter_mean(plan.start) / plan.start.cell.side();  // mean diameter, unit of the box side
   const double q = plan.options.wave_number / length, reach = plan.options.overlap_length * length;
   const double *x = &record.displacement[m * n * d];
   double msd = 0.0, scattering = 0.0;
@@ -202,7 +202,7 @@ void Isoconfigurational::check_resolution(bool jammed) const {
   constexpr double safety = 100.0;
   const double ratio = plan_.options.density_ratio;
   const double smallest = *std::min_element(plan_.start.diameter.begin(), plan_.start.diameter.end());
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * plan_.start.box / smallest;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * plan_.start.cell.side() / smallest;
   const double opened = (1.0 - ratio) / static_cast<double>(dim());
   if ((jammed || ratio < 1.0) && opened < safety * rounding)
     fail(

@@ -98,7 +98,7 @@ class Isoconfigurational final : public Dynamics {
   RunSums sums(int64_t block) const;
   // Whole displacement sets (runs, n, d) of instant m, which must have been kept.
   const std::vector<double> &kept(int32_t m) const;
-  double box() const { return packing_.box; }
+  double box() const { return packing_.cell.side(); }
 
  private:
   void scale_diameters();

@@ -44,11 +44,12 @@ class MonteCarloOf final : public MonteCarlo {
     energy_.scale = o.energy_scale;
     energy_.relative = o.energy_unit == JAM_ENERGY_RELATIVE;
     for (int32_t i = 0; i < n_; ++i) {
-      for (int c = 0; c < D; ++c) x_[i][c] = static_cast<uint64_t>(wrap(p.position[i * D + c] / p.box, 1.0) * scale);
-      radius_[i] = 0.5 * p.diameter[i] / p.box;
+      for (int c = 0; c < D; ++c)
+        x_[i][c] = static_cast<uint64_t>(wrap(p.position[i * D + c] / p.cell.side(), 1.0) * scale);
+      radius_[i] = 0.5 * p.diameter[i] / p.cell.side();
     }
-    contact_max_ = contact_distance_max(p) / p.box;
-    set_step(o.step * diameter_mean(p) / p.box);
+    contact_max_ = contact_distance_max(p) / p.cell.side();
+    set_step(o.step * diameter_mean(p) / p.cell.side());
   }
 
   void set_step(double step) override {
@@ -90,8 +91,8 @@ class MonteCarloOf final : public MonteCarlo {
       each_pair([&](int32_t i, int32_t k, double r2) {
         const double sigma = contact(i, k), r = std::sqrt(r2);
         if (r >= sigma) return;
-        const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.box;
-        sum += energy_.slope(x) * (energy_.relative ? r / sigma : r * p_.box);
+        const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
+        sum += energy_.slope(x) * (energy_.relative ? r / sigma : r * p_.cell.side());
       });
     return sum;
   }
@@ -107,7 +108,8 @@ class MonteCarloOf final : public MonteCarlo {
 
   void write_state(Packing &p) const override {
     for (int32_t i = 0; i < n_; ++i) {
-      for (int c = 0; c < D; ++c) p.position[i * D + c] = wrap(static_cast<double>(x_[i][c]) * unit * p.box, p.box);
+      for (int c = 0; c < D; ++c)
+        p.position[i * D + c] = wrap(static_cast<double>(x_[i][c]) * unit * p.cell.side(), p.cell.side());
       p.diameter[i] = p_.diameter[i];
     }
   }
@@ -126,9 +128,9 @@ class MonteCarloOf final : public MonteCarlo {
     Archive::check(x_.size() == n && centre_.size() == n && displacement_.size() == n * D && p_.diameter.size() == n);
     Archive::check(first_.size() == n + 1 && first_[0] == 0 && first_[n] == static_cast<int64_t>(neighbour_.size()));
     for (size_t i = 0; i < n; ++i) {
-      Archive::check(p_.diameter[i] > 0.0 && 0.5 * p_.diameter[i] / p_.box <= contact_max_ &&
+      Archive::check(p_.diameter[i] > 0.0 && 0.5 * p_.diameter[i] / p_.cell.side() <= contact_max_ &&
                      first_[i] <= first_[i + 1]);
-      radius_[i] = 0.5 * p_.diameter[i] / p_.box;
+      radius_[i] = 0.5 * p_.diameter[i] / p_.cell.side();
     }
     for (const int32_t k : neighbour_) Archive::check(k >= 0 && k < n_);
   }
@@ -155,7 +157,7 @@ class MonteCarloOf final : public MonteCarlo {
     return r2;
   }
   double pair_energy(double r, double sigma) const {
-    const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.box;
+    const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
     if constexpr (P == Power::three_halves) return energy_.scale * x * std::sqrt(x);
     if constexpr (P == Power::two) return energy_.scale * x * x;
     if constexpr (P == Power::five_halves) return energy_.scale * x * x * std::sqrt(x);
@@ -345,8 +347,8 @@ std::unique_ptr<MonteCarlo> make_of(const Packing &p, const jam_monte_carlo_opti
 }  // namespace
 
 double largest_monte_carlo_step(const Packing &p) {
-  const double reach = contact_distance_max(p) / p.box;
-  return reach < 0.499 ? 0.49 * p.box / diameter_mean(p) : 0.0;
+  const double reach = contact_distance_max(p) / p.cell.side();
+  return reach < 0.499 ? 0.49 * p.cell.side() / diameter_mean(p) : 0.0;
 }
 
 std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {

@@ -50,7 +50,7 @@ void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
   const double largest = largest_monte_carlo_step(p);
   if (!(largest > 0.0))
     fail(JAM_E_UNSUPPORTED, "the largest contact distance, %g, is too near half the box side, %g",
-         contact_distance_max(p), 0.5 * p.box);
+         contact_distance_max(p), 0.5 * p.cell.side());
   if (o.step > largest)
     fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this box the largest is %g", o.step, largest);
 }
@@ -62,7 +62,7 @@ double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
   constexpr double smallest = 1e-12;
   jam_monte_carlo_options o = given;
   check_monte_carlo(p, o);
-  const double largest = largest_monte_carlo_step(p), length = diameter_mean(p) / p.box;
+  const double largest = largest_monte_carlo_step(p), length = diameter_mean(p) / p.cell.side();
   double step = std::min(0.1, largest), mean_log = 0.0;
   o.step = step;
   const std::unique_ptr<MonteCarlo> mc = make_monte_carlo(p, o, -1);  // no run has this number
@@ -330,7 +330,7 @@ jam_monte_carlo_report MonteCarloStage::report() const {
   r.step = options_.step;
   double msd = 0.0;
   for (const double x : engine_->displacement()) msd += x * x;
-  r.msd = msd / static_cast<double>(p_.n()) * p_.box * p_.box;
+  r.msd = msd / static_cast<double>(p_.n()) * p_.cell.side() * p_.cell.side();
   r.sweeps = done_;
   r.next_sweep = options_.first_sweep + done_;
   r.acceptance = share(engine_->counts.moved, engine_->counts.moves);

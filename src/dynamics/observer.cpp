@@ -153,7 +153,7 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   }
   s.error = std::sqrt(spread / (blocks * (blocks - 1)));
   for (double x : displacement) s.displacement2 += x * x;
-  s.displacement2 *= now.box * now.box / n_;
+  s.displacement2 *= now.cell.side() * now.cell.side() / n_;
   samples_.push_back(s);
   block_virial_.clear();
   block_kinetic_integral_.clear();
@@ -176,7 +176,7 @@ void Observer::sample_gaps(const Packing &p) {
   }
   std::vector<double> moment(dim_ + 1, 0.0);
   for (double s : p.diameter)
-    for (size_t m = 0; m <= dim_; ++m) moment[m] += std::pow(s / p.box, static_cast<double>(m)) / n_;
+    for (size_t m = 0; m <= dim_; ++m) moment[m] += std::pow(s / p.cell.side(), static_cast<double>(m)) / n_;
   double mean = 0.0, choose = 1.0;
   for (size_t m = 0; m <= dim_; ++m) {
     mean += choose * moment[m] * moment[dim_ - m] * std::pow(0.5, static_cast<double>(dim_));
@@ -201,7 +201,7 @@ void Observer::sample_correlation(const Packing &p) {
     if (bin < density.size()) density[bin] += 1.0;
   }
   const double d = static_cast<double>(dim_);
-  const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * std::pow(2.0 * sigma / p.box, d);
+  const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * std::pow(2.0 * sigma / p.cell.side(), d);
   for (size_t k = 0; k < density.size(); ++k)
     density[k] /= ideal * (std::pow(correlation_.edge[k + 1], d) - std::pow(correlation_.edge[k], d));
   correlation_.add(density);

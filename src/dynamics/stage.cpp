@@ -73,7 +73,7 @@ Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage),
   const bool scaled = std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12;
   if (growing() && (drawn || !scaled)) scale_velocities(p_);
   growth_ = stage_.growth;
-  if (stage_.relative) growth_ *= diameter_mean(p_) / p_.box * std::pow(n_, 1.0 / p_.dim);
+  if (stage_.relative) growth_ *= diameter_mean(p_) / p_.cell.side() * std::pow(n_, 1.0 / p_.dim);
   take_limits(stage.limits());
   if (p_.overlap_allowed) refuse_overlaps(p_, 1e-10);
   engine_ = make_engine(p_, options());

@@ -72,7 +72,7 @@ void write_checkpoint(const Packing &p, const std::string &stage, const char *pa
   h.dim = p.dim;
   h.model = p.model;
   h.has_velocity = (p.has_velocity ? 1 : 0) | (p.overlap_allowed ? 2 : 0);
-  h.box = p.box;
+  h.box = p.cell.side();
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
   h.non_additivity = p.non_additivity;
@@ -107,8 +107,7 @@ Packing read_checkpoint(const char *path, std::string &stage) {
     fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(),
          static_cast<long long>(h.n));
   Packing p;
-  p.dim = h.dim;
-  p.box = h.box;
+  p.set_cube(h.dim, h.box);
   p.seed = h.seed;
   p.model = h.model;
   p.masses = h.masses;
@@ -131,7 +130,7 @@ Packing read_checkpoint(const char *path, std::string &stage) {
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
   for (double x : p.position) good = good && x >= 0.0 && x < h.box;
   for (double s : p.diameter) good = good && s > 0.0 && s <= h.box;
-  if (good) check_diameters(p.diameter, p.box);
+  if (good) check_diameters(p.diameter, p.cell.side());
   for (double v : p.velocity) good = good && std::isfinite(v);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {

@@ -17,9 +17,9 @@ void write_plain(const Packing &p, OutputFile &file) {
     out += "diameters";
   else
     append_number(out, p.diameter[0]);
-  if (p.box != 1.0) {
+  if (p.cell.side() != 1.0) {
     out += " box ";
-    append_number(out, p.box);
+    append_number(out, p.cell.side());
   }
   out += '\n';
   for (size_t i = 0; i < p.n(); ++i) {
@@ -44,7 +44,7 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
       if (row == column)
-        append_number(out, p.box);
+        append_number(out, p.cell.side());
       else
         out += '0';
       if (row + column < 4) out += ' ';

@@ -114,7 +114,8 @@ bool can_be_rigid(const ContactNetwork &net, int d) {
 
 // Gaps carry the rounding of coordinates that are as large as the box.
 double gap_resolution(const Packing &p) {
-  return 8.0 * std::numeric_limits<double>::epsilon() * p.box / *std::min_element(p.diameter.begin(), p.diameter.end());
+  return 8.0 * std::numeric_limits<double>::epsilon() * p.cell.side() /
+         *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 void check_window(double window) {
   if (!(window > 0.0 && window <= 1.0)) fail(JAM_E_ARGUMENT, "window is %g, it must be in (0, 1]", window);

@@ -60,7 +60,7 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   r.excess_contacts = r.stable > 0 ? r.contacts - (d * (r.stable - 1) + 1) : 0;
   r.force_residual = r.contacts > 0 ? std::sqrt(worst) * count / mean : 0.0;
   r.energy = sums.energy;
-  r.pressure = sums.virial / (d * std::pow(state.base().box, d));
+  r.pressure = sums.virial / (d * state.base().cell.volume());
   r.packing_fraction = packing_fraction(state.base());
   r.distance = sums.distance(state.energy().alpha());
   r.jammed_fraction = r.packing_fraction * std::pow(1.0 - r.distance, d);

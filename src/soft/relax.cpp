@@ -68,7 +68,8 @@ jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reaso
 }
 
 double overlap_resolution(const Packing &p) {
-  return 8.0 * std::numeric_limits<double>::epsilon() * p.box / *std::min_element(p.diameter.begin(), p.diameter.end());
+  return 8.0 * std::numeric_limits<double>::epsilon() * p.cell.side() /
+         *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {

@@ -1,6 +1,7 @@
 #include "soft/soft_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/pair_rule.hpp"
@@ -30,21 +31,29 @@ SoftState::SoftState(const Packing &p, const SoftEnergy &energy, int32_t precisi
 }
 
 void SoftState::rebase() {
-  for (size_t k = 0; k < displacement_.size(); ++k) {
-    DoubleDouble x = two_sum(base_.position[k], displacement_[k]);
-    const double inside = wrap(x.high, base_.box);
-    if (inside != x.high) {  // by whole boxes, and nothing of the low part is lost
-      const double boxes = std::nearbyint((x.high - inside) / base_.box);
-      x = x - two_product(boxes, base_.box);
-      if (!(x.high >= 0.0 && x.high < base_.box)) x = wrap(x.high, base_.box);
-    }
-    base_.position[k] = x.high;
-    displacement_[k] = precision_ == JAM_SOFT_DOUBLE ? 0.0 : x.low;
-  }
+  for (size_t i = 0; i < base_.n(); ++i) wrap_sphere(i * static_cast<size_t>(base_.dim));
   diameter_mean_ = jam::diameter_mean(base_);
   pairs_ = find_pairs(base_, skin_, 1.0);
   uses_ = 0;
   take_references();
+}
+
+// As Cell::wrap, by whole cell vectors, so that nothing of the low parts is lost.
+void SoftState::wrap_sphere(size_t at) {
+  const Cell &cell = base_.cell;
+  std::array<DoubleDouble, JAM_MAX_DIM> x;
+  for (int c = 0; c < base_.dim; ++c) x[c] = two_sum(base_.position[at + c], displacement_[at + c]);
+  for (int c = base_.dim - 1; c >= 0; --c) {
+    const double edge = cell.edge(c), inside = wrap(x[c].high, edge);
+    if (inside == x[c].high) continue;
+    const double m = std::nearbyint((x[c].high - inside) / edge);
+    for (int k = 0; k <= c; ++k) x[k] = x[k] - two_product(m, cell.row(c)[k]);
+    if (!(x[c].high >= 0.0 && x[c].high < edge)) x[c] = wrap(x[c].high, edge);
+  }
+  for (int c = 0; c < base_.dim; ++c) {
+    base_.position[at + c] = x[c].high;
+    displacement_[at + c] = precision_ == JAM_SOFT_DOUBLE ? 0.0 : x[c].low;
+  }
 }
 
 void SoftState::take_references() {
@@ -90,7 +99,8 @@ void SoftState::scale_diameters(double factor) {
 
 Packing SoftState::packing() const {
   Packing p = base_;
-  for (size_t k = 0; k < p.position.size(); ++k) p.position[k] = wrap(p.position[k] + displacement_[k], p.box);
+  for (size_t k = 0; k < p.position.size(); ++k) p.position[k] += displacement_[k];
+  wrap_positions(p);
   return p;
 }
 

@@ -66,6 +66,7 @@ class SoftState {
  private:
   template <int D>
   SoftSums evaluate_in(std::vector<double> &force) const;
+  void wrap_sphere(size_t at);
   void take_references();
 
   Packing base_;

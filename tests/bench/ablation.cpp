@@ -33,7 +33,7 @@ Packing packing_of(jam_system *sys) {
   jam_info_get(sys, &info);
   jam_positions_view(sys, &x, &nx);
   jam_diameters_view(sys, &s, &ns);
-  p.dim = info.dim, p.box = info.box;
+  p.set_cube(info.dim, info.box);
   p.position.assign(x, x + nx);
   p.diameter.assign(s, s + ns);
   p.velocity.assign(nx, 0.0);

@@ -73,7 +73,7 @@ void tile(const Packing &p, const ContactNetwork &net, Packing &q, ContactNetwor
   auto cell = [&](int c, int k) { return k == d - 1 ? c >> (d - 1) : (c >> k) & 1; };
   for (int c = 0; c < total; ++c)
     for (size_t i = 0; i < p.n(); ++i) {
-      for (int k = 0; k < d; ++k) q.position.push_back(p.position[i * d + k] + cell(c, k) * p.box);
+      for (int k = 0; k < d; ++k) q.position.push_back(p.position[i * d + k] + cell(c, k) * p.cell.side());
       q.diameter.push_back(p.diameter[i]);
     }
   for (int c = 0; c < total; ++c)
@@ -81,9 +81,9 @@ void tile(const Packing &p, const ContactNetwork &net, Packing &q, ContactNetwor
       // r = x_i - x_j + offset: j stands offset / box cells before i's cell
       int to = 0;
       for (int k = 0; k < d; ++k) {
-        const int m = cell(c, k) - static_cast<int>(std::lround(net.pairs.offset[e * d + k] / p.box));
+        const int m = cell(c, k) - static_cast<int>(std::lround(net.pairs.offset[e * d + k] / p.cell.side()));
         const int wrapped = (m % copies[k] + copies[k]) % copies[k];
-        out.pairs.offset.push_back((wrapped - m) * p.box);
+        out.pairs.offset.push_back((wrapped - m) * p.cell.side());
         to += wrapped << k;
       }
       out.pairs.i.push_back(static_cast<int32_t>(c * p.n() + net.pairs.i[e]));

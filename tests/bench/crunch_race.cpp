@@ -37,7 +37,7 @@ Packing load(const char *path) {
   jam_info_get(sys, &info);
   jam_positions_view(sys, &x, &nx);
   jam_diameters_view(sys, &s, &ns);
-  p.dim = info.dim, p.box = info.box;
+  p.set_cube(info.dim, info.box);
   p.position.assign(x, x + nx);
   p.diameter.assign(s, s + ns);
   p.velocity.assign(nx, 0.0);

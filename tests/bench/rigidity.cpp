@@ -23,7 +23,7 @@ double cpu_now() {
 Packing fcc(int cells) {
   const double site[4][3] = {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}};
   Packing p;
-  p.box = cells * std::sqrt(2.0);
+  p.set_cube(p.dim, cells * std::sqrt(2.0));
   for (int x = 0; x < cells; ++x)
     for (int y = 0; y < cells; ++y)
       for (int z = 0; z < cells; ++z)

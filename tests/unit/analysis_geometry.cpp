@@ -54,8 +54,7 @@ void fcc(void **) {
 
 void square_lattice(void **) {
   Packing p;
-  p.dim = 2;
-  p.box = 5.0;
+  p.set_cube(2, 5.0);
   for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0});
   p.diameter.assign(25, 1.0);
   const GeometryResult r = look(p);
@@ -74,7 +73,7 @@ void one_cell_with_many_images(void **) {
 
 void own_image(void **) {
   Packing p;
-  p.dim = 3;
+  p.set_cube(3, 1.0);
   p.position = {0.1, 0.2, 0.3};
   p.diameter = {1.0};
   const GeometryResult r = look(p);
@@ -95,8 +94,7 @@ void fluid_is_not_jammed(void **) {
 void sheets_and_rows_flex(void **) {
   // A square layer in d = 3 and a row in d = 2 carry force across the box, but nothing holds them sideways.
   Packing p;
-  p.dim = 3;
-  p.box = 5.0;
+  p.set_cube(3, 5.0);
   for (int i = 0; i < 25; ++i) p.position.insert(p.position.end(), {i % 5 + 0.0, i / 5 + 0.0, 2.0});
   p.diameter.assign(25, 1.0);
   const GeometryResult sheet = look(p, 1e-9);
@@ -104,7 +102,7 @@ void sheets_and_rows_flex(void **) {
   assert_int_equal(sheet.report.contacts, 50);
   assert_int_equal(sheet.verdict.result.flexes, 24 + 8);  // out of the plane, and rows and columns
   assert_int_equal(sheet.verdict.result.bridges, 0);
-  p.dim = 2;
+  p.set_cube(2, 5.0);
   p.position.clear();
   for (int i = 0; i < 5; ++i) p.position.insert(p.position.end(), {i + 0.0, 2.0});
   p.diameter.assign(5, 1.0);
@@ -118,8 +116,7 @@ void sheets_and_rows_flex(void **) {
 void separate_clusters_have_separate_stresses(void **) {
   // Two strips of three triangular rows: only the horizontal lines can carry repulsive forces.
   Packing p;
-  p.dim = 2;
-  p.box = 6.0;
+  p.set_cube(2, 6.0);
   const double h = std::sqrt(0.75);
   for (int strip = 0; strip < 2; ++strip)
     for (int row = 0; row < 3; ++row)
@@ -142,7 +139,7 @@ void without_a_clear_jump_the_answer_is_ambiguous(void **) {
   // A crystal whose spheres are shaken by 1e-3: its gaps have no decade without a pair.
   Packing p = fcc_cube(3);
   Rng rng(1, Stream::analysis_start);
-  for (double &x : p.position) x = wrap(x + 1e-3 * rng.normal(), p.box);
+  for (double &x : p.position) x = wrap(x + 1e-3 * rng.normal(), p.cell.side());
   const GeometryResult r = look(p);
   assert_true(r.status == JAM_AMBIGUOUS || r.status == JAM_NOT_JAMMED);
   assert_true(r.report.jump < 1e3);
@@ -162,8 +159,7 @@ void networks_without_repulsive_balance_are_not_jammed(void **) {
   // Four disks with six bars, sides and diagonals: the self-stress of one such square pulls where it does not push. Two
   // of them have two states, and no combination repels everywhere.
   Case c;
-  c.packing.dim = 2;
-  c.packing.box = 10.0;
+  c.packing.set_cube(2, 10.0);
   for (double shift : {1.0, 5.0})
     for (int k = 0; k < 4; ++k) {
       c.packing.position.insert(c.packing.position.end(), {shift + (k & 1), 2.0 + (k >> 1)});

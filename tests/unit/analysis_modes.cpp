@@ -244,8 +244,7 @@ void spectra_of_both_products(void **) {
 void two_images_and_self_contact(void **) {
   // Two spheres in a box of side 2 on a line of contacts through both images, and one touching its own image.
   Case c;
-  c.packing.dim = 2;
-  c.packing.box = 2.0;
+  c.packing.set_cube(2, 2.0);
   c.packing.diameter = {1.0, 1.0};
   c.packing.position = {0.5, 0.5, 1.5, 0.5};
   add_contact(c, 0, 1, {0.0, 0.0});

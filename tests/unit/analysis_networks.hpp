@@ -35,8 +35,7 @@ using Vectors = std::vector<std::vector<double>>;
 inline Case lattice(const Vectors &basis, const std::vector<std::vector<int>> &bonds, int cells) {
   const int d = static_cast<int>(basis.size());
   Case c;
-  c.packing.dim = d;
-  c.packing.box = cells;
+  c.packing.set_cube(d, cells);
   int n = 1;
   for (int k = 0; k < d; ++k) n *= cells;
   c.packing.diameter.assign(n, 1.0);
@@ -144,7 +143,7 @@ inline std::vector<double> bloch_spectrum(const Vectors &basis, const std::vecto
 inline jam::Packing fcc_cube(int cells) {
   const double a = std::sqrt(2.0), site[4][3] = {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}};
   jam::Packing p;
-  p.box = cells * a;
+  p.set_cube(p.dim, cells * a);
   for (int x = 0; x < cells; ++x)
     for (int y = 0; y < cells; ++y)
       for (int z = 0; z < cells; ++z)

@@ -105,8 +105,8 @@ void prestressed_moduli(void **) {
   Case c = lattice(fcc_basis(), fcc_bonds(), cells);
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   Packing box = c.packing;  // the cell of the lattice is no cube; its volume is what counts
-  box.box = std::cbrt(cells * cells * cells / std::sqrt(2.0));
-  const double volume = std::pow(box.box, 3);
+  box.set_cube(3, std::cbrt(cells * cells * cells / std::sqrt(2.0)));
+  const double volume = std::pow(box.cell.side(), 3);
   const jam_moduli m = elastic_moduli(box, g, contact_weights(g, 1.0, h));
   double shear = 0.0;
   for (int a = 0; a < 3; ++a)
@@ -177,7 +177,7 @@ void relaxed_moduli(void **) {
           total -= dot * dot / modes.lambda[m];
         }
       }
-    const double volume = std::pow(moved.packing.box, 3);
+    const double volume = std::pow(moved.packing.cell.side(), 3);
     const jam_moduli m = elastic_moduli(moved.packing, g, w);
     assert_true(std::fabs(m.shear * 6.0 * volume / total - 1.0) < 1e-9);
     assert_true(m.shear < m.shear_affine && m.shear_min < m.shear_max);
@@ -189,7 +189,7 @@ void moduli_of_triangular(void **) {
   // no non-affine part (every site is a centre of symmetry). The area is not box^2 here: cells^2 sqrt(3)/2.
   const int cells = 8;
   Case c = lattice(triangular_basis(), triangular_bonds(), cells);
-  c.packing.box = std::sqrt(cells * cells * std::sqrt(0.75));
+  c.packing.set_cube(c.packing.dim, std::sqrt(cells * cells * std::sqrt(0.75)));
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const jam_moduli m = elastic_moduli(c.packing, g, contact_weights(g, 1.0, default_hessian_options()));
   assert_true(std::fabs(m.shear - std::sqrt(3.0) / 4.0) < 1e-12);
@@ -201,7 +201,7 @@ void moduli_of_fcc(void **) {
   // Nearest-neighbour springs on FCC, spacing 1: c11 = 2 c12 = 2 c44 = sqrt(2); K = (c11 + 2 c12) / 3.
   const int cells = 4;
   Case c = lattice(fcc_basis(), fcc_bonds(), cells);
-  c.packing.box = std::cbrt(cells * cells * cells / std::sqrt(2.0));
+  c.packing.set_cube(c.packing.dim, std::cbrt(cells * cells * cells / std::sqrt(2.0)));
   const RigidityMatrix g = make_rigidity_matrix(c.packing, c.network);
   const jam_moduli m = elastic_moduli(c.packing, g, contact_weights(g, 1.0, default_hessian_options()));
   assert_true(std::fabs(m.shear - std::sqrt(0.5)) < 1e-12);  // c44 in the cubic axes

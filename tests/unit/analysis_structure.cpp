@@ -42,8 +42,7 @@ void fcc_structure(void **) {
 
 void triangular_bond_order(void **) {
   Packing p;  // a hexagon around one disk
-  p.dim = 2;
-  p.box = 10.0;
+  p.set_cube(2, 10.0);
   p.diameter.assign(7, 1.0);
   p.position = {5.0, 5.0};
   for (int k = 0; k < 6; ++k)
@@ -109,7 +108,7 @@ void gaps_by_brute_force(void **) {
 
 void classes(void **) {
   Case c;  // a buckler (three contacts in d = 2) in the middle of a ring that is held elsewhere
-  c.packing.dim = 2;
+  c.packing.set_cube(2, 1.0);
   c.packing.diameter.assign(4, 1.0);
   c.packing.position = {0, 0, 1, 0, -0.5, 0.8, -0.5, -0.8};
   add_contact(c, 0, 1, {0, 0}, 3.0);
@@ -127,7 +126,7 @@ void classes(void **) {
 void values_by_class(void **) {
   // The same small network: spheres 0, 2 and 3 are bucklers or less, so every number can be counted by hand.
   Case c;
-  c.packing.dim = 2;
+  c.packing.set_cube(2, 1.0);
   c.packing.diameter.assign(6, 1.0);
   c.packing.position = {0, 0, 1, 0, -0.5, 0.8, -0.5, -0.8, 2.0, 0.0, 3.0, 0.0};
   add_contact(c, 0, 1, {0, 0}, 3.0);
@@ -161,7 +160,7 @@ void partial_correlations_add_up(void **) {
   const Packing p = fluid(3, 500, 0.2);
   std::vector<int32_t> kind(500);
   for (int i = 0; i < 500; ++i) kind[i] = i < 200;
-  const double r_max = 1.4 * p.box / diameter_mean(p);  // past half the box: several images count
+  const double r_max = 1.4 * p.cell.side() / diameter_mean(p);  // past half the box: several images count
   const auto all = pair_correlation(p, nullptr, 0, -1, -1, r_max, 60),
              aa = pair_correlation(p, kind.data(), 500, 1, 1, r_max, 60),
              ab = pair_correlation(p, kind.data(), 500, 1, 0, r_max, 60),

@@ -99,7 +99,7 @@ void merit_is_true(void **) {
 // lies.
 void walls_stop(void **) {
   Scene w;
-  w.p.dim = 2, w.p.position = {0.4, 0.5, 0.55, 0.5}, w.p.diameter = {0.1, 0.1}, w.p.velocity.assign(4, 0.0);
+  w.p.set_cube(2, 1.0), w.p.position = {0.4, 0.5, 0.55, 0.5}, w.p.diameter = {0.1, 0.1}, w.p.velocity.assign(4, 0.0);
   w.b.unit = 0.1, w.b.mu = 1e-9;
   w.b.pairs = find_pairs(w.p, 0.1, 1.0);
   assert_true(w.b.measure(w.p) && w.b.pairs.size() == 1);
@@ -143,7 +143,7 @@ PathRun follow(Packing &p, BarrierPathControl control) {
 void saddle_is_left(void **) {
   Packing p;
   const int m = 8;
-  p.dim = 2;
+  p.set_cube(2, 1.0);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> one(-1.0, 1.0);
   for (int i = 0; i < m; ++i)

@@ -16,7 +16,7 @@ void holes_are_covered(void **) {
   for (int dim = 2; dim <= 4; ++dim)
     for (const double off : {0.0, 0.05}) {
       Packing p;
-      p.dim = dim, p.box = 4.0;
+      p.set_cube(dim, 4.0);
       int large = 1;
       for (int c = 0; c < dim; ++c) large *= 4;
       for (int k = 0, rest = 0; k < large; ++k) {
@@ -42,8 +42,8 @@ void holes_are_covered(void **) {
 // Spheres with nothing around them keep an empty list. A reach of zero grows too; one beyond the farthest stays.
 void nothing_within_reach(void **) {
   Packing p;
-  p.dim = 3, p.box = 40.0, p.position = {1.0, 1.0, 1.0, 20.0, 20.0, 20.0}, p.diameter = {1.0, 1.0},
-  p.velocity.assign(6, 0.0);
+  p.set_cube(3, 40.0), p.position = {1.0, 1.0, 1.0, 20.0, 20.0, 20.0}, p.diameter = {1.0, 1.0},
+                       p.velocity.assign(6, 0.0);
   for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(select_neighbours(p, reach).size(), 0);
   p.position = {1.0, 1.0, 1.0, 3.0, 1.0, 1.0};  // a gap of 1: within the farthest reach, but not surrounded
   for (const double reach : {0.0, 0.1, 3.0}) assert_int_equal(select_neighbours(p, reach).size(), 1);

@@ -23,7 +23,7 @@ Packing start(int n, int dim, double phi, double ratio) {
 void unlisted_pair(void **) {
   for (const double gap : {0.011, 0.02, 0.1, 0.15}) {
     Packing p;
-    p.dim = 2;
+    p.set_cube(2, 1.0);
     p.position = {0.4, 0.5, 0.5 + gap, 0.5};
     p.diameter = {0.1, 0.1};
     p.velocity.assign(4, 0.0);
@@ -44,7 +44,7 @@ void unlisted_pair(void **) {
 // The image of a sphere that goes around the box is a pair like any other.
 void pair_through_the_wall(void **) {
   Packing p;
-  p.dim = 2;
+  p.set_cube(2, 1.0);
   p.position = {0.08, 0.5, 0.93, 0.5};
   p.diameter = {0.1, 0.1};
   p.velocity.assign(4, 0.0);

@@ -141,7 +141,7 @@ void left_early(void **) {
 // A square lattice in contact: many optimal multipliers, the optimum still one number; and one pair alone.
 void degenerate_instances(void **) {
   Packing p;
-  p.dim = 2;
+  p.set_cube(2, 1.0);
   for (int k = 0; k < 36; ++k) p.position.push_back((k % 6) / 6.0), p.position.push_back((k / 6) / 6.0);
   p.diameter.assign(36, 1.0 / 6.0);
   p.velocity.assign(72, 0.0);

@@ -215,8 +215,7 @@ void rattlers_by_force_alone(void **) {
   assert_int_equal(after.idle_contacts, before.idle_contacts + 3);
   // A row across the box: each of its spheres has two contacts and carries force.
   Case row;
-  row.packing.dim = 2;
-  row.packing.box = 4.0;
+  row.packing.set_cube(2, 4.0);
   for (int i = 0; i < 4; ++i) row.packing.position.insert(row.packing.position.end(), {i + 0.0, 1.0});
   row.packing.diameter.assign(4, 1.0);
   for (int i = 0; i < 4; ++i) add_contact(row, i, (i + 1) % 4, {i == 3 ? -4.0 : 0.0, 0.0});

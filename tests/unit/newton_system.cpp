@@ -52,7 +52,7 @@ void residuals_vanish(void **) {
 // Numbers that are not finite are refused.
 void not_finite(void **) {
   Packing p;
-  p.dim = 2, p.position = {0.2, 0.5, 0.4, 0.5}, p.diameter = {0.1, 0.1}, p.velocity.assign(4, 0.0);
+  p.set_cube(2, 1.0), p.position = {0.2, 0.5, 0.4, 0.5}, p.diameter = {0.1, 0.1}, p.velocity.assign(4, 0.0);
   const PairList pairs = find_pairs(p, 0.2, 1.0);
   assert_int_equal(pairs.size(), 1);
   NewtonSystem system;

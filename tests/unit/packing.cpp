@@ -15,8 +15,7 @@ void sums_over_many_spheres_keep_their_digits(void **) {
     for (const size_t n : {1000u, 65536u, 300007u})
       for (const double sigma : {0.01 / 3.0, 0.0265854627236561}) {
         Packing one, p;
-        one.dim = p.dim = dim;
-        one.box = p.box = 1.3;
+        p.set_cube(dim, 1.3), one.set_cube(dim, 1.3);
         one.diameter = {sigma};
         p.diameter.assign(n, sigma);
         p.position.assign(n * dim, 0.5), one.position.assign(dim, 0.5);

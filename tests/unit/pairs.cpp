@@ -42,7 +42,7 @@ void cells_equal_brute_force(void **) {
 // One sphere a box of side 1: reach 1.01 sees one of each +- pair of nearest images, reach 1.5 the diagonals too.
 void own_images(void **) {
   Packing p;
-  p.dim = 3;
+  p.set_cube(3, 1.0);
   p.position = {0.3, 0.4, 0.5};
   p.diameter = {0.1};
   assert_int_equal(find_pairs(p, 1.01, 0.0).size(), 3);
@@ -85,7 +85,7 @@ void values_carried_over(void **) {
 
 void closest_pair_by_brute_force(void **) {
   Packing p;
-  p.dim = 2;
+  p.set_cube(2, 1.0);
   p.position = {0.1, 0.1, 0.95, 0.1, 0.5, 0.6};
   p.diameter = {0.1, 0.1, 0.2};
   const ClosestPair c = closest_pair(p);

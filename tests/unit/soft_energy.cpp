@@ -13,7 +13,7 @@ namespace {
 
 Packing random_packing(int dim, int n, double phi, int64_t seed, bool mixture) {
   Packing p;
-  p.dim = dim;
+  p.set_cube(dim, 1.0);
   p.seed = seed;
   Rng rng(seed, Stream::rsa_positions);
   p.position.resize(static_cast<size_t>(n) * dim);
@@ -30,7 +30,7 @@ Packing random_packing(int dim, int n, double phi, int64_t seed, bool mixture) {
 // Two spheres at a known overlap, every scale and exponent by hand; nothing at h = 0 and above.
 void pair_values(void **) {
   Packing p;
-  p.dim = 3;
+  p.set_cube(3, 1.0);
   p.position = {0.25, 0.5, 0.5, 0.5, 0.5, 0.5};
   p.diameter = {0.5, 0.25};  // sigma = 0.375, overlap 0.125
   std::vector<double> f;

@@ -11,7 +11,7 @@ namespace {
 
 Packing random_packing(int dim, int n, double phi, int64_t seed) {
   Packing p;
-  p.dim = dim;
+  p.set_cube(dim, 1.0);
   p.seed = seed;
   Rng rng(seed, Stream::rsa_positions);
   p.position.resize(static_cast<size_t>(n) * dim);
@@ -123,7 +123,7 @@ void unjammed(void **) {
 // A rattler against its cage goes to where its nearest neighbours are farther.
 void rattlers_are_centred(void **) {
   Packing p;  // a small sphere inside a cube of eight large ones that overlap along the edges
-  p.dim = 3;
+  p.set_cube(3, 1.0);
   for (int k = 0; k < 8; ++k)
     for (int c = 0; c < 3; ++c) p.position.push_back(0.25 + 0.5 * ((k >> c) & 1));
   p.diameter.assign(8, 0.51);

@@ -1,0 +1,88 @@
+#include "core/cell.hpp"
+
+#include <limits>
+
+namespace jam {
+
+Cell::Cell(int dim, double side) : dim_(dim), side_(side), volume_(std::pow(side, dim)) {
+  for (int c = 0; c < dim; ++c) rows_[c][c] = side;
+}
+
+Cell Cell::from_triangle(int dim, const double *rows) {
+  Cell cell(dim, rows[0]);
+  cell.volume_ = 1.0;
+  for (int c = 0; c < dim; ++c) {
+    for (int k = 0; k <= c; ++k) {
+      cell.rows_[c][k] = rows[c * dim + k];
+      cell.cube_ = cell.cube_ && cell.rows_[c][k] == (k == c ? rows[0] : 0.0);
+    }
+    cell.volume_ *= cell.rows_[c][c];
+  }
+  if (cell.cube_) return Cell(dim, rows[0]);
+  cell.side_ = std::pow(cell.volume_, 1.0 / dim);
+  return cell;
+}
+
+// Column c of the inverse is normal to the faces that a_c joins; a_c has the product 1 with it.
+double Cell::height(int c) const {
+  if (cube_) return side_;
+  Vector normal{};  // rows_[k] . normal = (k == c)
+  double n2 = 0.0;
+  for (int k = 0; k < dim_; ++k) {
+    double rest = k == c ? 1.0 : 0.0;
+    for (int q = 0; q < k; ++q) rest -= rows_[k][q] * normal[q];
+    normal[k] = rest / rows_[k][k];
+    n2 += normal[k] * normal[k];
+  }
+  return 1.0 / std::sqrt(n2);
+}
+
+double Cell::height_min() const {
+  double least = height(0);
+  for (int c = 1; c < dim_; ++c) least = std::min(least, height(c));
+  return least;
+}
+
+double Cell::shortest() const {
+  if (cube_) return side_;
+  double least2 = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < dim_; ++c) {
+    double r2 = 0.0;
+    for (int k = 0; k <= c; ++k) r2 += rows_[c][k] * rows_[c][k];
+    least2 = std::min(least2, r2);
+  }
+  const Vector origin{};
+  images(origin.data(), std::sqrt(least2) * (1.0 + 1e-12), [&](const double *shift) {
+    double r2 = 0.0;
+    for (int k = 0; k < dim_; ++k) r2 += shift[k] * shift[k];
+    if (r2 > 0.0) least2 = std::min(least2, r2);
+  });
+  return std::sqrt(least2);
+}
+
+double Cell::half_diagonal() const {
+  if (cube_) return 0.5 * std::sqrt(static_cast<double>(dim_)) * side_;
+  double r2 = 0.0;
+  for (int c = 0; c < dim_; ++c) r2 += edge(c) * edge(c);
+  return 0.5 * std::sqrt(r2);
+}
+
+void Cell::wrap(double *x, double *shift) const {
+  if (shift) std::fill(shift, shift + dim_, 0.0);
+  for (int c = dim_ - 1; c >= 0; --c) {
+    const double inside = jam::wrap(x[c], edge(c));
+    if (inside == x[c]) continue;
+    const double m = std::nearbyint((x[c] - inside) / edge(c));
+    for (int k = 0; !cube_ && k < c; ++k) x[k] -= m * rows_[c][k];
+    for (int k = cube_ ? c : 0; shift && k <= c; ++k) shift[k] += m * rows_[c][k];
+    x[c] = inside;
+  }
+}
+
+double wrap(double x, double period) {
+  if (x >= 0.0 && x < period) return x;
+  x -= period * std::floor(x / period);
+  return x < period ? x : 0.0;
+}
+
+}  // namespace jam

@@ -1,0 +1,201 @@
+// The periodic cell: wrapping, images and pair lists in tilted cells, against sums over lattice vectors.
+#include "core/cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+#include "test.h"
+
+#include "core/create.hpp"
+#include "core/pairs.hpp"
+#include "core/rng.hpp"
+
+using namespace jam;
+
+namespace {
+
+// Edges near 1, tilts up to half an edge.
+Cell tilted(int dim, uint64_t seed) {
+  Rng rng(static_cast<int64_t>(seed), Stream::rsa_positions);
+  std::vector<double> rows(static_cast<size_t>(dim) * dim, 0.0);
+  for (int c = 0; c < dim; ++c) {
+    for (int k = 0; k < c; ++k) rows[c * dim + k] = rng.uniform() - 0.5;
+    rows[c * dim + c] = 0.8 + 0.4 * rng.uniform();
+  }
+  return Cell::from_triangle(dim, rows.data());
+}
+
+double norm(const double *x, int dim) {
+  double r2 = 0.0;
+  for (int c = 0; c < dim; ++c) r2 += x[c] * x[c];
+  return std::sqrt(r2);
+}
+
+// Lengths of all images of dx shorter than the cutoff, from a plain sum over coefficients up to `most`.
+std::vector<double> images_by_sum(const Cell &cell, const double *dx, double cutoff, int most) {
+  const int d = cell.dim();
+  std::vector<double> out;
+  std::vector<int> m(d, -most);
+  for (;;) {
+    Cell::Vector s{}, x{};
+    std::copy(m.begin(), m.end(), s.begin());
+    cell.combine(s.data(), x.data());
+    for (int c = 0; c < d; ++c) x[c] += dx[c];
+    if (norm(x.data(), d) < cutoff) out.push_back(norm(x.data(), d));
+    int c = 0;
+    while (c < d && m[c] == most) m[c++] = -most;
+    if (c == d) break;
+    ++m[c];
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<double> images_by_cell(const Cell &cell, const double *dx, double cutoff) {
+  const int d = cell.dim();
+  std::vector<double> out;
+  cell.images(dx, cutoff, [&](const double *shift) {
+    Cell::Vector x{};
+    for (int c = 0; c < d; ++c) x[c] = dx[c] + shift[c];
+    out.push_back(norm(x.data(), d));
+  });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+void assert_close(const std::vector<double> &a, const std::vector<double> &b) {
+  assert_int_equal(a.size(), b.size());
+  for (size_t k = 0; k < a.size(); ++k) assert_true(std::fabs(a[k] - b[k]) < 1e-12);
+}
+
+void images_of_a_vector(void **) {
+  Rng rng(3, Stream::rsa_positions);
+  for (int dim = 2; dim <= 4; ++dim)
+    for (uint64_t seed = 1; seed <= 5; ++seed) {
+      const Cell cell = tilted(dim, seed);
+      for (int k = 0; k < 10; ++k) {
+        Cell::Vector dx{};
+        for (int c = 0; c < dim; ++c) dx[c] = 4.0 * rng.uniform() - 2.0;
+        const std::vector<double> all = images_by_sum(cell, dx.data(), 1.6, 7);
+        assert_true(!all.empty());
+        assert_close(images_by_cell(cell, dx.data(), 1.6), all);
+        double shortest_edge = cell.edge(0);
+        for (int c = 1; c < dim; ++c) shortest_edge = std::min(shortest_edge, cell.edge(c));
+        cell.nearest(dx.data());
+        if (all.front() < 0.5 * shortest_edge) assert_true(std::fabs(norm(dx.data(), dim) - all.front()) < 1e-12);
+      }
+    }
+}
+
+void wrapping(void **) {
+  Rng rng(5, Stream::rsa_positions);
+  for (int dim = 2; dim <= JAM_MAX_DIM; ++dim) {
+    const Cell cell = tilted(dim, 7);
+    Cell::Vector x{}, old{}, shift{}, s{};
+    for (int k = 0; k < 50; ++k) {
+      for (int c = 0; c < dim; ++c) x[c] = 20.0 * rng.uniform() - 10.0;
+      if (k == 0) x[dim - 1] = -1e-20;  // a whole edge more rounds to the edge itself
+      old = x;
+      cell.wrap(x.data(), shift.data());
+      cell.fraction(shift.data(), s.data());
+      for (int c = 0; c < dim; ++c) {
+        assert_true(x[c] >= 0.0 && x[c] < cell.edge(c));
+        assert_true(std::fabs(x[c] + shift[c] - old[c]) < 1e-13);
+        assert_true(std::fabs(s[c] - std::nearbyint(s[c])) < 1e-11);
+      }
+    }
+  }
+}
+
+void sizes(void **) {
+  const double rows[9] = {1, 0, 0, 0.5, std::sqrt(0.75), 0, 0.5, std::sqrt(1.0 / 12.0), std::sqrt(2.0 / 3.0)};
+  const Cell fcc = Cell::from_triangle(3, rows);
+  assert_false(fcc.cube());
+  assert_true(std::fabs(fcc.volume() - std::sqrt(0.5)) < 1e-15);
+  assert_true(std::fabs(fcc.side() - std::cbrt(std::sqrt(0.5))) < 1e-15);
+  assert_true(std::fabs(fcc.shortest() - 1.0) < 4e-15);
+  for (int c = 0; c < 3; ++c) assert_true(std::fabs(fcc.height(c) - std::sqrt(2.0 / 3.0)) < 4e-15);
+  const double flat[4] = {1, 0, 0.5, 0.1};  // the shortest vector is a combination of the rows: 2 b - a
+  assert_true(std::fabs(Cell::from_triangle(2, flat).shortest() - 0.2) < 1e-15);
+  const double cube[4] = {2, 0, 0, 2};
+  assert_true(Cell::from_triangle(2, cube).cube());
+}
+
+// The same lattice by other vectors, one of them with tilt 5: the same pairs at the same distances.
+void pairs_do_not_depend_on_the_basis(void **) {
+  for (const int dim : {2, 3}) {
+    Packing p;
+    p.dim = dim, p.cell = tilted(dim, 11);
+    Rng rng(1, Stream::rsa_positions);
+    p.diameter.assign(dim == 2 ? 400 : 600, 0.03);
+    for (size_t k = 0; k < p.n() * static_cast<size_t>(dim); ++k) p.position.push_back(rng.uniform());
+    wrap_positions(p);
+    Packing q = p;
+    std::vector<double> rows;
+    for (int c = 0; c < dim; ++c)
+      for (int k = 0; k < dim; ++k) rows.push_back(p.cell.row(c)[k] + (c == dim - 1 ? 5.0 * p.cell.row(0)[k] : 0.0));
+    q.cell = Cell::from_triangle(dim, rows.data());
+    wrap_positions(q);
+    const auto lengths = [dim](const Packing &a, const PairList &pairs) {
+      std::vector<double> r(pairs.size());
+      double v[JAM_MAX_DIM];
+      for (size_t k = 0; k < r.size(); ++k) r[k] = std::sqrt(pair_vector(a, pairs, k, v));
+      std::sort(r.begin(), r.end());
+      return r;
+    };
+    const double reach = dim == 2 ? 0.1 : 0.15;  // several cells of the search along every vector
+    const PairList by_cells = find_pairs(p, reach, 0.0), brute = find_pairs_brute(p, reach, 0.0);
+    assert_true(by_cells.size() > p.n());
+    assert_true(by_cells.i == brute.i && by_cells.j == brute.j);
+    assert_close(lengths(p, by_cells), lengths(q, find_pairs(q, reach, 0.0)));
+    const PairList wide = find_pairs(p, 1.2, 0.0);  // several images of a pair
+    assert_close(lengths(p, wide), lengths(q, find_pairs(q, 1.2, 0.0)));
+    std::vector<double> all;  // by sums over lattice vectors, each pair and each image of a sphere with itself once
+    for (size_t i = 0; i < 20; ++i)
+      for (size_t j = i; j < 20; ++j) {
+        Cell::Vector dx{};
+        for (int c = 0; c < dim; ++c) dx[c] = p.position[i * dim + c] - p.position[j * dim + c];
+        std::vector<double> of = images_by_sum(p.cell, dx.data(), 1.2, 5);
+        if (i == j) {  // without the sphere itself; of each pair +-r one
+          std::vector<double> half;
+          for (size_t k = 1; k < of.size(); k += 2) half.push_back(of[k]);
+          of = half;
+        }
+        all.insert(all.end(), of.begin(), of.end());
+      }
+    Packing few = p;
+    few.position.resize(20 * static_cast<size_t>(dim)), few.diameter.resize(20);
+    std::sort(all.begin(), all.end());
+    assert_close(lengths(few, find_pairs(few, 1.2, 0.0)), all);
+  }
+}
+
+// Random sequential addition leaves no overlap, also through a corner of a flat cell.
+void random_start_in_a_tilted_cell(void **) {
+  for (const int n : {1, 4, 40, 300}) {
+    Packing p;
+    const double rows[4] = {1.0, 0.0, 0.45, 0.5};
+    p.dim = 2, p.cell = Cell::from_triangle(2, rows);
+    p.diameter.assign(n, std::sqrt(0.4 * p.cell.volume() / n / unit_sphere_volume(2)));
+    place_at_random(p);
+    assert_true(closest_pair(p).gap >= 0.0);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < i; ++j) {
+        const double dx[2] = {p.position[2 * i] - p.position[2 * j], p.position[2 * i + 1] - p.position[2 * j + 1]};
+        assert_true(images_by_sum(p.cell, dx, p.diameter[0], 4).empty());
+      }
+  }
+}
+
+}  // namespace
+
+int main() {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(images_of_a_vector),
+      cmocka_unit_test(wrapping),
+      cmocka_unit_test(sizes),
+      cmocka_unit_test(pairs_do_not_depend_on_the_basis),
+      cmocka_unit_test(random_start_in_a_tilted_cell),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

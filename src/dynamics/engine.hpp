@@ -53,8 +53,9 @@ class EngineBase {
   virtual Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) = 0;
   // Moves all spheres to the present and scales velocities to kT/m = 1.
   virtual void thermalise() = 0;
-  // Positions, velocities, diameters (when growing) of this moment; the run is not disturbed.
-  virtual void write_state(Packing &p) const = 0;
+  // Positions, velocities, diameters (when growing) of this moment, or of one `ahead` of it and not later than the next
+  // event; the run is not disturbed.
+  virtual void write_state(Packing &p, double ahead = 0.0) const = 0;
   virtual void set_growth(double growth) = 0;
   virtual void set_time_limit(double left) = 0;  // Halt::time after so much more time
   virtual double growth() const = 0;             // d<sigma>/dt now
@@ -95,7 +96,7 @@ class Engine final : public EngineBase {
   Engine(const Packing &p, const EngineOptions &o, Archive *from = nullptr);
   Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) override;
   void thermalise() override;
-  void write_state(Packing &p) const override;
+  void write_state(Packing &p, double ahead = 0.0) const override;
   void set_growth(double growth) override;
   void set_time_limit(double left) override { time_end_ = now_ + left; }
   double growth() const override { return rate_ * 2.0 * mean_radius() * unit; }

@@ -235,13 +235,13 @@ double Engine<D, Shift>::worst_overlap() const {
 }
 
 template <int D, bool Shift>
-void Engine<D, Shift>::write_state(Packing &p) const {
-  const double factor = rate_ * now_;
+void Engine<D, Shift>::write_state(Packing &p, double ahead) const {
+  const double now = now_ + ahead, factor = rate_ * now;
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
     const Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c) {
-      uint64_t x = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now_ - b.time)));
+      uint64_t x = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now - b.time)));
       if (Shift) x &= (uint64_t{1} << 61) - 1;
       p.position[u * D + c] = wrap(static_cast<double>(x) * unit * box_, box_);
       p.velocity[u * D + c] = b.v[c] * unit;

@@ -127,6 +127,10 @@ bool Observer::end_block(double virial, double kinetic_integral) {
   block_kinetic_integral_.push_back(kinetic_integral);
   left_virial = left_kinetic_integral = 0.0;
   ++blocks_made_;
+  // Histograms: amid the second half of the sample. Collisions by then do not know of this one.
+  const bool wanted = gaps_.bins() > 0 || correlation_.bins() > 0;
+  if (wanted && 2 * block_virial_.size() == blocks && std::isinf(histograms_at_))
+    histograms_at_ = time + 0.5 * (time - sample_time_);
   next_block_ = std::max(seen + 1, in_all(static_cast<double>(blocks_made_ + 1) * options_.sample_every / blocks, n_));
   return block_virial_.size() == blocks;
 }
@@ -140,7 +144,7 @@ int64_t Observer::end_snapshot() {
 
 void Observer::take_sample(const Packing &now, const std::vector<double> &displacement) {
   Sample s{};
-  s.time = time;
+  s.time = sample_time_ = time;
   s.collisions = 2.0 * static_cast<double>(seen) / n_;
   s.packing_fraction = packing_fraction(now);
   double virial = 0.0, kinetic_integral = 0.0, spread = 0.0;
@@ -157,6 +161,10 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   samples_.push_back(s);
   block_virial_.clear();
   block_kinetic_integral_.clear();
+}
+
+void Observer::take_histograms(const Packing &now) {
+  histograms_at_ = std::numeric_limits<double>::infinity();
   if (gaps_.bins() > 0) sample_gaps(now);
   if (correlation_.bins() > 0) sample_correlation(now);
 }

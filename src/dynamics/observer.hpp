@@ -1,5 +1,8 @@
 // What jam_observe records. The engine reports collisions and displacements; the stage decides when to take a sample.
 // Nothing here changes the dynamics. Lengths are in units of the box; the C calls convert them.
+//
+// The series is taken at collisions. Histograms are not: at a collision one pair more than on average is in contact.
+// They are taken at moments that are set some collisions per particle before, so that no collision is favoured.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -67,9 +70,11 @@ class Observer {
   int64_t next_stop() const { return std::min(next_block_, next_snapshot_); }
   bool block_due() const { return seen >= next_block_; }
   bool snapshot_due() const { return seen >= next_snapshot_; }
+  double next_histograms() const { return histograms_at_; }  // the `time` of the next histograms
   // Ends a block, an eighth of a sample. True when the sample is complete; then call take_sample.
   bool end_block(double virial, double kinetic_integral);
   void take_sample(const Packing &now, const std::vector<double> &displacement);
+  void take_histograms(const Packing &now);
   bool has_snapshots() const { return options_.snapshot_every > 0.0; }
   int64_t end_snapshot();  // the number of this snapshot, from 1
   // Sums of a block that the end of a call has cut; the next call continues the block.
@@ -91,6 +96,7 @@ class Observer {
   double n_;
   int64_t next_block_, next_snapshot_, blocks_made_ = 0, snapshots_ = 0;
   double snapshot_at_ = 0.0, snapshot_step_;
+  double sample_time_ = 0.0, histograms_at_ = std::numeric_limits<double>::infinity();
   std::vector<double> block_virial_, block_kinetic_integral_;
   std::vector<Sample> samples_;
   std::vector<int64_t> collisions_;

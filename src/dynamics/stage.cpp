@@ -158,9 +158,13 @@ int32_t Stage::advance_part(const Listeners &listeners, double wall_end) {
     Observer *observer = listeners.observer;
     if (observer && observer->next_stop() < std::numeric_limits<int64_t>::max())
       stop = std::min(stop, std::max(collisions() + 1, observer->next_stop() - observer->seen + seen_collisions_));
+    const double histograms = until_histograms(observer);
+    if (observer) engine_->set_time_limit(std::min(stage_.time, histograms) - time());
     const Halt halt = engine_->advance(stop - collisions(), *listeners.monitor, wall_end);
     if (halt == Halt::needs_images)
       change_engine(observer);
+    else if (halt == Halt::time && histograms <= stage_.time)
+      sample_histograms(*observer, histograms);
     else if (halt != Halt::window)
       return reason_of(halt);
     else if (observer && observe(listeners))

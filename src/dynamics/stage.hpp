@@ -42,6 +42,8 @@ class Stage final : public Dynamics {
   void update(Observer &observer) const;
   bool observe(const Listeners &listeners);
   void sample(Observer &observer) const;
+  double until_histograms(const Observer *observer) const;  // as time() will be then
+  void sample_histograms(Observer &observer, double at) const;
   jam_progress progress() const;
 
   void finish(int32_t reason);

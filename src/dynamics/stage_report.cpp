@@ -47,6 +47,17 @@ bool Stage::observe(const Listeners &listeners) {
   return listeners.monitor->report(q, true);
 }
 
+double Stage::until_histograms(const Observer *observer) const {
+  return observer ? seen_time_ + (observer->next_histograms() - observer->time) : no_limit;
+}
+
+// Between two collisions; nothing of the run changes.
+void Stage::sample_histograms(Observer &observer, double at) const {
+  Packing p = p_;
+  engine_->write_state(p, at - time());
+  observer.take_histograms(p);
+}
+
 void Stage::sample(Observer &observer) const {
   std::vector<double> way(p_.position.size());
   engine_->displacements(way);

@@ -70,6 +70,51 @@ def test_runs(packing):
     assert (weights.curvature > 0).all() and (weights.noise < 1e-3).all()
 
 
+def test_campaign(packing):
+    """A campaign that was stopped goes on to the same bits; another one does not touch its file."""
+    options = dict(density_ratio=0.99, block=4, keep=[0])
+    whole = packing.isoconfigurational([2, 5], runs=20, **options)
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "runs.npz")
+        part = nj.campaign(packing, file, [2, 5], 10, part=4, **options)  # as if it was stopped amid a block
+        assert part.runs == 10 and nj.Runs.load(file).runs == 10
+        made = nj.campaign(packing, file, [2, 5], 20, part=8, **options)
+        for runs in (made, nj.Runs.load(file)):
+            assert runs.runs == 20 and (runs.counts == 4).all()
+            assert np.array_equal(runs.distance4, whole.distance4)
+            assert np.array_equal(runs.kept[0], whole.kept[0])
+        other = packing.copy()
+        other.scale_diameters(0.999)
+        for change in (
+            lambda: nj.campaign(packing, file, [2, 6], 20, **options),
+            lambda: nj.campaign(packing, file, [2, 5], 20, **dict(options, density_ratio=0.98)),
+            lambda: nj.campaign(other, file, [2, 5], 20, **options),
+        ):
+            assert refused(ValueError, change)
+        # a part that is refused loses nothing
+        tight = dict(options, memory_limit=1e3)
+        assert refused(jam.JamError, nj.campaign, packing, file, [2, 5], 40, **tight)
+        assert nj.Runs.load(file).runs == 20
+
+
+def test_edges(packing):
+    """Where the method ends it says so: beyond the cage, and without a network."""
+    structure = nj.predictors(packing)
+    runs = packing.isoconfigurational([2, 500], runs=40, density_ratio=0.8, block=10)
+    assert list(nj.is_caged(runs, packing)) == [True, False]
+    k = nj.correlations(runs, structure)
+    assert k["c"][0] > 0.25 and k["c"][1] < 0.6 * k["c"][0] and abs(k["s"][1]) < 0.2
+    # sums fit into the memory, whole sets do not
+    limit = 1e6
+    assert packing.isoconfigurational([2], runs=100, density_ratio=0.9, block=100, memory_limit=limit).runs == 100
+    wide = dict(runs=1000, keep=[0], density_ratio=0.9, block=1000, memory_limit=limit)
+    assert refused(jam.JamError, packing.isoconfigurational, [2], **wide)
+    # spheres that touch nothing: rattlers only
+    loose = jam.System.from_arrays(np.array([[0.2, 0.2, 0.2], [0.7, 0.7, 0.7], [0.2, 0.7, 0.2]]), [0.1] * 3)
+    assert loose.contacts_from_geometry().contacts == 0
+    assert refused(ValueError, nj.predictors, loose)
+
+
 def test_monte_carlo(packing):
     runs = packing.isoconfigurational([10, 100], monte_carlo=dict(alpha=2, temperature=1e-6), runs=20, block=5)
     assert 0.4 < runs.acceptance < 0.5 and runs.step > 0
@@ -116,6 +161,12 @@ def test_statistics():
     xs = [np.geomspace(1e-4, 1e-1, 25) * c**1.8 * 10 ** draw.uniform(-0.3, 0.3) for c in controls]
     ys = [1.0 / (1.0 + (a / c**1.8 * 100) ** 0.4) + 1e-3 * draw.normal(size=25) for a, c in zip(xs, controls)]
     assert abs(st.collapse(xs, ys, controls) - 1.8) < 0.02
+    # curves without one exponent: 2 above y = 0.5, 1 below
+    ys = [np.linspace(0.9, 0.1, 81)] * 4
+    xs = [np.exp(-5 * ys[0]) * np.where(ys[0] > 0.5, c**2.0, c) for c in controls]
+    assert abs(st.collapse(xs, ys, controls, between=(0.6, 0.8)) - 2.0) < 1e-9
+    assert abs(st.collapse(xs, ys, controls, between=(0.2, 0.4)) - 1.0) < 1e-9
+    assert 1.2 < st.collapse(xs, ys, controls) < 1.8
     # an oscillator: its spectrum is a line at its frequency
     t = np.linspace(0, 100, 2001)
     omega = np.linspace(0, 6, 121)
@@ -144,6 +195,8 @@ if __name__ == "__main__":
     test_statistics()
     test_errors()
     test_runs(packing)
+    test_campaign(packing)
+    test_edges(packing)
     test_monte_carlo(packing)
     test_checkpoint(packing)
     print("ok")

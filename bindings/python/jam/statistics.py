@@ -62,18 +62,22 @@ def bootstrap(f: Callable[[np.ndarray], Any], blocks: int, times: int = 200, see
     return np.array([f(np.bincount(draw.integers(0, blocks, blocks), minlength=blocks)) for _ in range(times)])
 
 
-def collapse(x: Sequence[Any], y: Sequence[Any], control: Any, levels: int = 40) -> float:
+def collapse(
+    x: Sequence[Any], y: Sequence[Any], control: Any, levels: int = 40, between: tuple[float, float] | None = None
+) -> float:
     """Exponent nu for which the falling curves y_k against x_k / control_k^nu lie closest together.
 
     At each of `levels` values of y, log x is read off every curve that reaches it; nu is the slope of least squares of log x
     against log control, one for all levels. So curves that do not overlap cannot look collapsed. x: positive, ascending.
+    between: the lowest and the highest value of y to use; where curves do not collapse, nu depends on it.
     NaN when no two curves share a value of y.
     """
     logs = np.log(np.asarray(control, float))
     if len(x) < 2 or len(x) != len(y) or len(x) != logs.size:
         raise ValueError(f"{len(x)} and {len(y)} curves and {logs.size} values of the control")
     falling = [np.minimum.accumulate(np.asarray(k, float)) for k in y]
-    grid = np.linspace(min(k[-1] for k in falling), max(k[0] for k in falling), levels + 2)[1:-1]
+    lowest, highest = between or (min(k[-1] for k in falling), max(k[0] for k in falling))
+    grid = np.linspace(lowest, highest, levels + 2)[1:-1]
     read = np.array(
         [np.interp(-grid, -k, np.log(np.asarray(a, float)), left=np.nan, right=np.nan) for a, k in zip(x, falling)]
     )

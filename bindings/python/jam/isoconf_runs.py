@@ -1,0 +1,238 @@
+"""Isoconfigurational runs: their sums, files, and campaigns that go on after a kill. Public as jam.near_jamming."""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any, Sequence
+
+import numpy as np
+
+from . import _calls, raw
+from ._generated import IsoconfColumn, StatusCode
+
+_SUMS = ("displacement", "square", "distance2", "distance4")
+
+
+@dataclass(frozen=True, repr=False)
+class Runs:
+    """Sums over isoconfigurational runs, block by block of run numbers; b blocks, m instants.
+
+    instants (m,); counts (b,): runs of each block; displacement, square (b, m, n, d): sums of dr_c and dr_c^2;
+    distance2, distance4 (b, m, n): of |dr|^2 and |dr|^4; series: {column: (b, m)}, sums of one number a run;
+    kept: {index of an instant: (runs, n, d)}; first_run: number of the first run; status: of the call;
+    origin: what a campaign's runs were made from, '' outside of campaigns.
+    """
+
+    instants: np.ndarray
+    counts: np.ndarray
+    displacement: np.ndarray
+    square: np.ndarray
+    distance2: np.ndarray
+    distance4: np.ndarray
+    series: dict[str, np.ndarray]
+    first_run: int = 0
+    block: int = 1
+    kept: dict[int, np.ndarray] = field(default_factory=dict)
+    status: StatusCode = StatusCode.OK
+    step: float = 0.0
+    acceptance: float = 0.0
+    origin: str = ""
+
+    # ---- sums and means
+    @property
+    def runs(self) -> int:
+        """Number of runs in the sums."""
+        return int(self.counts.sum())
+
+    @property
+    def blocks(self) -> int:
+        return len(self.counts)
+
+    def total(self, name: str, weights: Any = None) -> np.ndarray:
+        """The sum of a quantity over runs, blocks added in their order; weights (b,): how often each block counts."""
+        values = getattr(self, name) if name in _SUMS or name == "counts" else self.series[name]
+        if weights is None:
+            out = np.zeros_like(values[0])
+            for one in values:  # in order, as the library adds them
+                out = out + one
+            return out
+        return np.tensordot(np.asarray(weights, float), values, 1)
+
+    def mean(self, name: str, weights: Any = None) -> np.ndarray:
+        """Mean over runs: of displacement (m, n, d), distance2 (m, n), ... or a column of series (m,)."""
+        return self.total(name, weights) / self.total("counts", weights)
+
+    def variance(self, weights: Any = None) -> np.ndarray:
+        """Var[dr_c] over runs (m, n, d)."""
+        return self.mean("square", weights) - self.mean("displacement", weights) ** 2
+
+    @property
+    def msd(self) -> np.ndarray:
+        """Mean-square displacement (m,), unit of box^2."""
+        return self.mean("msd")
+
+    @property
+    def time(self) -> np.ndarray:
+        """Mean simulated time at each instant (m,); Monte Carlo: sweeps."""
+        return self.mean("time")
+
+    def deviation(self, name: str) -> np.ndarray:
+        """Standard deviation over runs of time, msd, scattering, overlap or energy at each instant (m,)."""
+        square = {"time": "time2"}.get(name, name + "2")
+        return np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
+
+    def chi4(self, name: str = "overlap") -> np.ndarray:
+        """chi_4(t) = N (<Q^2> - <Q>^2) of 'overlap' or 'scattering' (m,), over runs from this one configuration."""
+        return self.distance2.shape[2] * self.deviation(name) ** 2
+
+    def halves(self) -> tuple[np.ndarray, np.ndarray]:
+        """Weights of two halves of the blocks, even and odd."""
+        if self.blocks < 2:
+            raise ValueError("one block has no halves: ask for smaller blocks")
+        odd = np.arange(self.blocks) % 2
+        return 1.0 - odd, odd.astype(float)
+
+    # ---- files, parts of a campaign
+    def whole_blocks(self) -> "Runs":
+        """These without a last block that is not full."""
+        if self.blocks == 0 or self.counts[-1] == self.block:
+            return self
+        left = self.runs - int(self.counts[-1])
+        return replace(
+            self,
+            **{name: getattr(self, name)[:-1] for name in _SUMS + ("counts",)},
+            series={k: v[:-1] for k, v in self.series.items()},
+            kept={k: v[:left] for k, v in self.kept.items()},
+        )
+
+    def merge(self, other: "Runs") -> "Runs":
+        """These runs and those that follow them. Bits are those of one campaign, as blocks begin at multiples of `block`."""
+        if not np.array_equal(self.instants, other.instants) or self.block != other.block:
+            raise ValueError("the two have other instants or blocks")
+        if other.first_run != self.first_run + self.runs:
+            raise ValueError(
+                f"runs {other.first_run} ... do not follow {self.first_run} ... {self.first_run + self.runs - 1}"
+            )
+        if other.first_run % self.block:
+            raise ValueError(f"run {other.first_run} is amid a block of {self.block}: split at multiples of it")
+        joined = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in _SUMS + ("counts",)}
+        return replace(
+            self,
+            **joined,
+            series={k: np.concatenate([v, other.series[k]]) for k, v in self.series.items()},
+            kept={k: np.concatenate([v, other.kept[k]]) for k, v in self.kept.items() if k in other.kept},
+            status=max(self.status, other.status),
+        )
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Writes an .npz file, beside and renamed."""
+        arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
+        arrays.update({"series_" + k: v for k, v in self.series.items()})
+        arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
+        new = Path(path).with_suffix(".new.npz")
+        np.savez(new, **arrays)
+        os.replace(new, path)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike) -> "Runs":
+        """Reads what save wrote."""
+        with np.load(path) as data:
+            plain = {f.name: data[f.name] for f in fields(cls) if f.name not in ("series", "kept")}
+            series = {k[7:]: data[k] for k in data.files if k.startswith("series_")}
+            kept = {int(k[5:]): data[k] for k in data.files if k.startswith("kept_")}
+        for name in ("first_run", "block", "step", "acceptance", "origin"):
+            plain[name] = plain[name].item()
+        plain["status"] = StatusCode(int(plain["status"]))
+        return cls(**plain, series=series, kept=kept)
+
+    def __repr__(self) -> str:
+        return f"Runs({self.runs} runs, {len(self.instants)} instants, {self.distance2.shape[2]} spheres)"
+
+
+def take_runs(system: Any) -> Runs:
+    """The runs that a system holds, also after System.from_checkpoint; instants are then those of the first call."""
+    report = system.isoconf_report()
+    m, n, d = report.instants, system.n, system.dim
+    sums, counts = {name: [] for name in _SUMS}, []
+    for block in range(report.blocks):
+        one = system.isoconf_sums(block)
+        counts.append(one.runs)
+        for name in _SUMS:
+            sums[name].append(getattr(one, name).reshape((m, n, d) if name in ("displacement", "square") else (m, n)))
+    shape = {name: (0, m, n, d) if name in ("displacement", "square") else (0, m, n) for name in _SUMS}
+    series = {
+        c.name.lower(): np.array([system.isoconf_series(b, c) for b in range(report.blocks)]).reshape(-1, m)
+        for c in IsoconfColumn
+    }
+    return Runs(
+        instants=np.full(m, np.nan),
+        counts=np.array(counts, dtype=np.int64),
+        **{name: np.array(v) if v else np.empty(shape[name]) for name, v in sums.items()},
+        series=series,
+        first_run=report.first_run,
+        status=system.status,
+        step=report.step,
+        acceptance=report.acceptance,
+    )
+
+
+def run(
+    system: Any, instants: Any, monte_carlo: dict | None, keep: Sequence[int], progress: Any, options: dict
+) -> Runs:
+    """What System.isoconfigurational calls."""
+    times = _calls.as_array(instants, name="instants").reshape(-1)
+    made = _calls.options("jam_isoconf_options", options)
+    chosen = None if monte_carlo is None else _calls.options("jam_monte_carlo_options", monte_carlo)
+    kept = np.asarray([int(k) for k in keep], dtype=np.int32)
+    with system._reporting(progress):
+        status = raw.jam_isoconfigurational(
+            system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
+        )
+    runs = take_runs(system)
+    system.status = StatusCode(status)
+    sets = {int(k): system.isoconf_kept(int(k)).reshape(-1, system.n, system.dim) for k in kept}
+    return replace(runs, instants=times, block=made.block, kept=sets, status=system.status)
+
+
+# What may change from one part of a campaign to the next.
+_FREE = ("runs", "threads", "memory_limit", "wall_time", "progress")
+
+
+def _origin(system: Any, options: dict) -> str:
+    """A digest of the packing and of all options that runs depend on."""
+    digest = hashlib.sha256()
+    for array in (system.positions, system.diameters):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    fixed = {k: v for k, v in options.items() if k not in _FREE}
+    digest.update(json.dumps([int(system.seed), fixed], sort_keys=True, default=str).encode())
+    return digest.hexdigest()
+
+
+def campaign(
+    system: Any, path: str | os.PathLike, instants: Any, runs: int, *, part: int = 100, **options: Any
+) -> Runs:
+    """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign goes on.
+
+    part: runs between two savings, rounded up to whole blocks. options: those of System.isoconfigurational but first_run.
+    A file of another packing, other instants or options is a ValueError, and stays as it is.
+    """
+    block = int(options.setdefault("block", 20))
+    part = -(-part // block) * block
+    times, origin = np.asarray(instants, float), _origin(system, options)
+    done = Runs.load(path) if os.path.exists(path) else None
+    if done is not None and (not np.array_equal(done.instants, times) or done.origin != origin):
+        raise ValueError(f"{path} holds runs of another campaign: its packing, instants or options differ")
+    if done is not None and done.runs < runs:
+        done = done.whole_blocks()  # one that was stopped ends amid a block, which is made again
+    while done is None or done.runs < runs:
+        first = 0 if done is None else done.runs
+        made = system.isoconfigurational(instants, first_run=first, runs=min(part, runs - first), **options)
+        made = replace(made, origin=origin)
+        done = made if done is None else done.merge(made)
+        done.save(path)
+        if made.status > 0:
+            break
+    return done

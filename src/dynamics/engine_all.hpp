@@ -7,4 +7,5 @@
 #include "dynamics/engine_lists.hpp"
 #include "dynamics/engine_prefetch.hpp"
 #include "dynamics/engine_quenched.hpp"
+#include "dynamics/engine_state.hpp"
 #include "dynamics/engine_time.hpp"

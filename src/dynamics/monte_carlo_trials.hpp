@@ -1,0 +1,178 @@
+// The Metropolis trials: energies of pairs, moves and swaps. One file a dimension compiles them, monte_carlo_2d.cpp to
+// monte_carlo_8d.cpp, as five energies in seven dimensions in one file took minutes with sanitizers.
+#pragma once
+#include "core/rng.hpp"
+#include "dynamics/monte_carlo_spheres.hpp"
+
+namespace jam {
+
+// x^alpha: the three exponents in use by roots, which take a third of the time of pow.
+enum class Power { hard, three_halves, two, five_halves, any };
+
+template <int D, Power P>
+class MonteCarloOf final : public MonteCarloSpheres<D> {
+  using Base = MonteCarloSpheres<D>;
+
+ public:
+  MonteCarloOf(const Packing &p, const jam_monte_carlo_options &o, int64_t run)
+      : Base(p, o),
+        inverse_temperature_(1.0 / o.temperature),
+        // Its own key a run; sweeps and spheres enter in sweep().
+        key_(mix64(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::monte_carlo) << 32) ^
+                   mix64(static_cast<uint64_t>(run)))) {
+    energy_.alpha = o.alpha;
+    energy_.scale = o.energy_scale;
+    energy_.relative = o.energy_unit == JAM_ENERGY_RELATIVE;
+  }
+
+  void sweep(int64_t number) override {
+    const uint64_t key = mix64(key_ ^ mix64(static_cast<uint64_t>(number)));
+    for (int32_t i = 0; i < n_; ++i) {
+      // 16 numbers of each sphere: components 0 .. 7, acceptance 8, kind of trial 9, partner 10.
+      const uint64_t base = key + (static_cast<uint64_t>(i) << 4) * weyl;
+      if (swap_share_ > 0.0 && uniform(base, 9) < swap_share_)
+        try_swap(i, base);
+      else
+        try_move(i, base);
+    }
+  }
+
+  double energy() const override {
+    double sum = 0.0;
+    if constexpr (P != Power::hard)
+      each_pair([&](int32_t i, int32_t k, double r2) {
+        const double sigma = contact(i, k);
+        if (r2 < sigma * sigma) sum += pair_energy(std::sqrt(r2), sigma);
+      });
+    return sum;
+  }
+
+  double virial() const override {
+    double sum = 0.0;
+    if constexpr (P != Power::hard)
+      each_pair([&](int32_t i, int32_t k, double r2) {
+        const double sigma = contact(i, k), r = std::sqrt(r2);
+        if (r >= sigma) return;
+        const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
+        sum += energy_.slope(x) * (energy_.relative ? r / sigma : r * p_.cell.side());
+      });
+    return sum;
+  }
+
+ private:
+  using Base::centre_;
+  using Base::contact;
+  using Base::counts;
+  using Base::displacement_;
+  using Base::distance2;
+  using Base::each_pair;
+  using Base::first_;
+  using Base::make_lists;
+  using Base::n_;
+  using Base::neighbour_;
+  using Base::p_;
+  using Base::radius_;
+  using Base::scale;
+  using Base::skin_;
+  using Base::step_;
+  using Base::swap_share_;
+  using Base::unit;
+  using Base::x_;
+  using typename Base::Place;
+  static constexpr uint64_t weyl = 0x9e3779b97f4a7c15ull;
+
+  static double uniform(uint64_t base, uint64_t which) {
+    return static_cast<double>(mix64(base + which * weyl) >> 11) * 0x1.0p-53;
+  }
+  double pair_energy(double r, double sigma) const {
+    const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
+    if constexpr (P == Power::three_halves) return energy_.scale * x * std::sqrt(x);
+    if constexpr (P == Power::two) return energy_.scale * x * x;
+    if constexpr (P == Power::five_halves) return energy_.scale * x * x * std::sqrt(x);
+    return energy_.value(x);
+  }
+  // Energy of sphere i at a place; +infinity where hard spheres overlap.
+  double energy_at(int32_t i, const Place &at) const {
+    double sum = 0.0;
+    for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
+      const int32_t k = neighbour_[e];
+      const double r2 = distance2(at, x_[k]), sigma = contact(i, k);
+      if (r2 >= sigma * sigma) continue;
+      if constexpr (P == Power::hard) return never;
+      sum += pair_energy(std::sqrt(r2), sigma);
+    }
+    return sum;
+  }
+  // Change of the energy of sphere i when it moves from its place; +infinity where hard spheres would overlap.
+  double change(int32_t i, const Place &to) const {
+    if constexpr (P == Power::hard) return energy_at(i, to);
+    const Place &from = x_[i];
+    double sum = 0.0;
+    for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
+      const int32_t k = neighbour_[e];
+      const double sigma = contact(i, k), sigma2 = sigma * sigma;
+      const double r2 = distance2(to, x_[k]), old2 = distance2(from, x_[k]);
+      if (r2 < sigma2) sum += pair_energy(std::sqrt(r2), sigma);
+      if (old2 < sigma2) sum -= pair_energy(std::sqrt(old2), sigma);
+    }
+    return sum;
+  }
+  bool accept(double energy_change, uint64_t base) const {
+    if (energy_change <= 0.0) return true;
+    return P != Power::hard && uniform(base, 8) < std::exp(-energy_change * inverse_temperature_);
+  }
+
+  void try_move(int32_t i, uint64_t base) {
+    ++counts.moves;
+    Place to;
+    std::array<int64_t, D> shift;
+    for (int c = 0; c < D; ++c) {
+      // 2^63 is never reached: the step is less than half the box, and the number is in [-1, 1).
+      const double part =
+          static_cast<double>(static_cast<int64_t>(mix64(base + static_cast<uint64_t>(c) * weyl)) >> 11);
+      shift[c] = static_cast<int64_t>(part * 0x1p-52 * step_ * scale);
+      to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
+    }
+    if (distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
+    if (!accept(change(i, to), base)) return;
+    ++counts.moved;
+    x_[i] = to;
+    double *moved = &displacement_[static_cast<size_t>(i) * D];
+    for (int c = 0; c < D; ++c) moved[c] += static_cast<double>(shift[c]) * unit;
+  }
+
+  void try_swap(int32_t i, uint64_t base) {
+    ++counts.swaps;
+    if (n_ < 2) return;
+    int32_t k = static_cast<int32_t>(uniform(base, 10) * (n_ - 1));
+    k += k >= i;
+    if (radius_[i] == radius_[k]) return;
+    double before = 0.0;
+    if constexpr (P != Power::hard) before = energy_of_both(i, k);
+    std::swap(radius_[i], radius_[k]);
+    if (accept(energy_of_both(i, k) - before, base)) {
+      std::swap(p_.diameter[i], p_.diameter[k]);
+      ++counts.swapped;
+    } else {
+      std::swap(radius_[i], radius_[k]);
+    }
+  }
+  // The pair itself counts twice, before and after alike: its contact distance is the same.
+  double energy_of_both(int32_t i, int32_t k) const { return energy_at(i, x_[i]) + energy_at(k, x_[k]); }
+
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  double inverse_temperature_;
+  uint64_t key_;
+  PairEnergy energy_;
+};
+
+template <int D>
+std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
+  if (o.alpha == 0.0) return std::make_unique<MonteCarloOf<D, Power::hard>>(p, o, run);
+  if (o.alpha == 1.5) return std::make_unique<MonteCarloOf<D, Power::three_halves>>(p, o, run);
+  if (o.alpha == 2.0) return std::make_unique<MonteCarloOf<D, Power::two>>(p, o, run);
+  if (o.alpha == 2.5) return std::make_unique<MonteCarloOf<D, Power::five_halves>>(p, o, run);
+  return std::make_unique<MonteCarloOf<D, Power::any>>(p, o, run);
+}
+
+}  // namespace jam

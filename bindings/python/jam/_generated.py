@@ -10,7 +10,6 @@ JAM_MAX_DIM = 8
 
 class StatusCode(IntEnum):
     """All status codes; values are ABI and never reused. @since 0.1"""
-
     OK = 0  # done: the target was reached
     CANCELLED = 1  # jam_cancel or a callback asked to stop
     LIMIT = 2  # a limit on work or time came before the target
@@ -39,7 +38,6 @@ class StatusCode(IntEnum):
 
 class StopReason(IntEnum):
     """Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1"""
-
     NONE = 0  # has not run
     PRESSURE = 1  # MD reached its pressure
     PACKING_FRACTION = 2  # MD reached its packing fraction
@@ -60,7 +58,6 @@ class StopReason(IntEnum):
 
 class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions. @since 0.1"""
-
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
     SHRINK = 1  # scale all diameters until the worst pair just touches
     ALLOW = 2  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
@@ -68,21 +65,18 @@ class OverlapPolicy(IntEnum):
 
 class Model(IntEnum):
     """Pair distance. @since 0.1"""
-
     EUCLID = 0  # |r_i - r_j|, nearest images
     MK = 1  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts
 
 
 class Masses(IntEnum):
     """Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1"""
-
     EQUAL = 0  # all 1
     VOLUME = 1  # as the volumes, sigma_i^d
 
 
 class Phase(IntEnum):
     """Which part reports progress. @since 0.1"""
-
     RUN = 1  # NVE molecular dynamics
     COMPRESS = 2  # molecular dynamics with growth
     CRUNCH = 3  # one LP or re-linearised Newton step done
@@ -96,7 +90,6 @@ class Phase(IntEnum):
 
 class LogLevel(IntEnum):
     """Log levels. @since 0.1"""
-
     NONE = 0  # silent, the default
     WARNING = 1  # what a user should know, e.g. a fallback solver was used
     INFO = 2  # a line a stage or LP
@@ -105,7 +98,6 @@ class LogLevel(IntEnum):
 
 class Format(IntEnum):
     """File formats. @since 0.1"""
-
     AUTO = 0  # by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused
     PLAIN = 1  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
@@ -113,14 +105,12 @@ class Format(IntEnum):
 
 class GrowthLaw(IntEnum):
     """How the spheres grow. @since 0.1"""
-
     DIAMETER = 0  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
     DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
 
 
 class SeriesColumn(IntEnum):
     """Columns of jam_observed_series. @since 0.1"""
-
     TIME = 0  # simulated time, unit box / sqrt(kT/m)
     COLLISIONS = 1  # collisions per particle
     FRACTION = 2  # packing fraction
@@ -131,7 +121,6 @@ class SeriesColumn(IntEnum):
 
 class EosForm(IntEnum):
     """Equations of state p(phi) in closed form. @since 0.1"""
-
     CARNAHAN_STARLING = 0  # d = 3, as the next three
     PY_VIRIAL = 1  # Percus-Yevick, virial route
     PY_COMPRESSIBILITY = 2  # Percus-Yevick, compressibility route
@@ -142,21 +131,18 @@ class EosForm(IntEnum):
 
 class EnergyUnit(IntEnum):
     """Unit of the overlap x of a soft pair. @since 0.1"""
-
     LENGTH = 0  # x = sigma_ij - r, unit of the box
     RELATIVE = 1  # x = 1 - r / sigma_ij
 
 
 class Clock(IntEnum):
     """What instants are counted in. Monte Carlo always counts sweeps. @since 0.1"""
-
     COLLISIONS = 0  # collisions per particle; each collision counts for both of its spheres
     TIME = 1  # simulated time, box / sqrt(kT/m) at T = 1
 
 
 class IsoconfColumn(IntEnum):
     """Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1"""
-
     TIME = 0  # simulated time, or sweeps
     TIME2 = 1  # its square
     MSD = 2  # mean of |dr|^2 over spheres, box^2
@@ -174,21 +160,18 @@ class IsoconfColumn(IntEnum):
 
 class LpSolver(IntEnum):
     """How the LPs are solved. @since 0.1"""
-
     IPM = 0  # libjam's interior point on the particle graph; Clp if it fails
     CLP = 1  # Clp's dual simplex: slow, independent
 
 
 class CrunchMethod(IntEnum):
     """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1"""
-
     BARRIER_PATH = 0  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
     SEQUENTIAL_LP = 1  # LPs alone, as published
 
 
 class StepPhase(IntEnum):
     """What kind of step a row of the history is. @since 0.1"""
-
     PATH = 1  # a Newton step of the barrier path (the first row: all steps that open it)
     LP = 2  # an LP and the move to its solution
     POLISH = 3  # contacts closed and forces balanced to rounding
@@ -197,7 +180,6 @@ class StepPhase(IntEnum):
 class HistoryColumn(IntEnum):
     """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
     mean diameters after the step. NaN where a column has no meaning. @since 0.1"""
-
     PHASE = 0  # a jam_step_phase
     GAIN = 1  # sqrt(Gamma) - 1: relative growth of the diameters in this step
     PHI = 2  # packing fraction after the step
@@ -214,15 +196,12 @@ class HistoryColumn(IntEnum):
     DUALITY_GAP = 13  # after the step, in Gamma
     PAIRS = 14  # rows of the LP
     HELD = 15  # LP: displacement components at the step bound; forces on these spheres do not balance
-    PART = (
-        16  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
-    )
+    PART = 16  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
     BOUND = 17  # LP: step bound
 
 
 class SoftScale(IntEnum):
     """Factor c and length l of the energy. @since 0.1"""
-
     RELATIVE = 0  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
     ABSOLUTE = 1  # c = 1 / alpha, l = 1 in the unit of the box
     BARE = 2  # c = 1, l = 1
@@ -230,7 +209,6 @@ class SoftScale(IntEnum):
 
 class Minimiser(IntEnum):
     """How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1"""
-
     NEWTON = 0  # FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
     FIRE = 1  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
     LBFGS = 2  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
@@ -238,16 +216,12 @@ class Minimiser(IntEnum):
 
 class SoftPrecision(IntEnum):
     """How the overlap of a pair is computed. @since 0.1"""
-
-    REFERENCE = (
-        0  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
-    )
+    REFERENCE = 0  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
     DOUBLE = 1  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
 
 class SoftColumn(IntEnum):
     """Columns of the history of a decompression, a row a minimum. @since 0.1"""
-
     PHI = 0  # packing fraction
     PRESSURE = 1  # epsilon / length^d
     ENERGY = 2  # U / n
@@ -263,7 +237,6 @@ class SoftColumn(IntEnum):
 
 class Stiffness(IntEnum):
     """Stiffness k of a contact, 1 at the mean force. @since 0.1"""
-
     HARMONIC = 0  # k = 1
     POWER = 1  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
     HARD = 2  # entropic force of hard spheres near jamming: k = f^2
@@ -272,7 +245,6 @@ class Stiffness(IntEnum):
 
 class ModesWhich(IntEnum):
     """Which modes. @since 0.1"""
-
     LOWEST = 0  # smallest eigenvalues, the d translations left out
     HIGHEST = 1  # largest eigenvalues
     NEAR = 2  # nearest to frequency^2, translations left out
@@ -281,7 +253,6 @@ class ModesWhich(IntEnum):
 
 class CandidateColumn(IntEnum):
     """Columns of jam_contact_candidates. @since 0.1"""
-
     LIMIT = 0  # tolerance on |h|
     JUMP = 1  # ratio of the gaps above and below it
     CONTACTS = 2  # contacts within it on spheres that can balance
@@ -290,14 +261,12 @@ class CandidateColumn(IntEnum):
 
 class RigidityKind(IntEnum):
     """Which motions must not open contacts. @since 0.1"""
-
     COLLECTIVE = 0  # all motions of the spheres in a fixed cell
     STRICT = 1  # and all symmetric strains of the cell that do not enlarge its volume
 
 
 class Verdict(IntEnum):
     """Answer of a test. @since 0.1"""
-
     UNTESTED = -1  # the test has not run
     NO = 0  # not jammed, with a proof: no balanced forces, or a flex
     YES = 1  # jammed, with a proof: positive forces that balance, and full rank
@@ -306,7 +275,6 @@ class Verdict(IntEnum):
 
 class ContactClass(IntEnum):
     """Flags of a contact. @since 0.1"""
-
     LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
     SMALLEST = 2  # has the smallest force of one of its spheres
     MEDIAN = 4  # has the (lower) median force of one of its spheres
@@ -314,7 +282,6 @@ class ContactClass(IntEnum):
 
 class Quantity(IntEnum):
     """What jam_class_values and jam_histogram look at. @since 0.1"""
-
     FORCE = 0  # contacts: f over its mean in the class
     VECTOR_SUM = 1  # stable spheres: |C_i|
     VECTOR_PAIRS = 2  # stable spheres: S_i
@@ -327,7 +294,6 @@ class Quantity(IntEnum):
 
 class Class(IntEnum):
     """Which of them. @since 0.1"""
-
     ALL = 0
     LOCALISED = 1  # contacts that touch a buckler; spheres and their pairs: the bucklers
     EXTENDED = 2  # contacts that do not; spheres and their pairs: all other stable ones
@@ -337,7 +303,6 @@ class Class(IntEnum):
 
 class FloppyColumn(IntEnum):
     """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1"""
-
     MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     WEIGHT = 1  # W = f / median |dr_i|: f equals W times the displacement far away
     S_PLUS = 2  # opening at which, to first order, the next contact forms
@@ -347,7 +312,6 @@ class FloppyColumn(IntEnum):
 
 class DosColumn(IntEnum):
     """Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1"""
-
     OMEGA = 0  # middle of the bin
     DENSITY = 1  # density of states D there, integral 1
     ERROR = 2  # its standard error over the random vectors; smoothing is not in it
@@ -372,7 +336,6 @@ class Info:
     masses: jam_masses
     paused: jam_phase of the MD stage that was stopped early and can be resumed, or 0
     non_additivity: Delta of a non-additive mixture, 0 for additive diameters"""
-
     dim: int
     n: int
     seed: int
@@ -402,7 +365,6 @@ class Progress:
     steps: crunch: LPs so far; analysis: items done
     factorisations: crunch: so far
     snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report"""
-
     phase: Phase
     packing_fraction: float
     pressure: float
@@ -432,7 +394,6 @@ class MdReport:
     max_overlap: largest -h of neighbours whenever one of them had an event, >= 0
     seconds: wall time
     growth_rate: d<sigma>/dt over sqrt(kT/m) at the end"""
-
     stop_reason: StopReason
     collisions: int
     events: int
@@ -456,7 +417,6 @@ class Glass:
     dimension: d', free; near d for a good glass
     dimension_error: its standard error
     r_squared: of the straight line 1/p against phi"""
-
     jammed_fraction: float
     jammed_error: float
     dimension: float
@@ -481,7 +441,6 @@ class MonteCarloReport:
     msd: mean-square displacement since the run began, box^2
     trials_per_second: of this call, wall time
     seconds: of this call, wall time"""
-
     stop_reason: StopReason
     sweeps: int
     next_sweep: int
@@ -511,7 +470,6 @@ class IsoconfReport:
     step: Monte Carlo: half side of the trial cube, mean diameters
     acceptance: Monte Carlo: mean over runs
     seconds: wall time over all calls"""
-
     stop_reason: StopReason
     first_run: int
     runs: int
@@ -564,7 +522,6 @@ class CrunchReport:
     seconds_factor: of it in factorisations
     seconds_assemble: of it in neighbour lists and assembly
     seconds_solve: of it in triangular solves"""
-
     jammed: int
     stop_reason: StopReason
     lp_solver: LpSolver
@@ -614,7 +571,6 @@ class Estimate:
     factorisations: a guess from density and method, good to a factor of 5
     step_seconds: of one factorisation and what goes with it, on this core
     seconds: the product of both"""
-
     pairs: int
     bytes: float
     factor_bytes: float
@@ -648,7 +604,6 @@ class RelaxReport:
     evaluations: of the forces
     factorisations: of the Hessian
     seconds: wall time"""
-
     converged: int
     stop_reason: StopReason
     minimiser: Minimiser
@@ -696,7 +651,6 @@ class DecompressReport:
     factorisations: of the Hessian, crunch not counted
     seconds: wall time
     seconds_crunch: of it in crunch"""
-
     stop_reason: StopReason
     isostatic: int
     same_network: int
@@ -742,7 +696,6 @@ class GeometryReport:
     force_residual: largest |sum_j f_ij n_ij| over mean force
     min_force: over the mean
     clusters: connected sets of stable spheres; with more than one, each has its own states"""
-
     self_contacts: int
     tolerance: float
     gap_below: float
@@ -780,7 +733,6 @@ class RigidityReport:
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
     rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
     force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
-
     kind: RigidityKind
     jammed: Verdict
     stationary: Verdict
@@ -806,7 +758,6 @@ class Moduli:
     shear_affine: G without the non-affine part
     shear_min: smallest of the planes, both directions averaged
     shear_max: largest of them"""
-
     bulk: float
     bulk_affine: float
     shear: float
@@ -827,7 +778,6 @@ class Comparison:
     packing_fraction_change: phi of other minus phi of sys
     displacement_rms: over these spheres, mean displacement taken out, in mean diameters of sys
     displacement_max: likewise"""
-
     contacts_a: int
     contacts_b: int
     common_contacts: int
@@ -848,24 +798,15 @@ OPTIONS = {
         "packing_fraction": ("float", 'of a random start, > 0, default 0.2'),
         "overlap": ("OverlapPolicy", 'jam_overlap_policy for given positions, default REFUSE'),
         "model": ("Model", 'jam_model, default EUCLID'),
-        "mk_zeta": (
-            "float",
-            'MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium',
-        ),
+        "mk_zeta": ("float", 'MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'jam_masses, default EQUAL'),
-        "non_additivity": (
-            "float",
-            "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.",
-        ),
+        "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
     },
     "jam_run_options": {
         "resume": ("int", '1: go on with the run that stopped early; default 0'),
         "collisions_per_particle": ("float", 'to make since the run began, > 0, default 100'),
         "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
-        "time": (
-            "float",
-            'to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity',
-        ),
+        "time": ("float", 'to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity'),
     },
     "jam_compress_options": {
         "resume": ("int", '1: go on with the stage that stopped early, of which all but the limits is kept; default 0'),
@@ -875,28 +816,19 @@ OPTIONS = {
         "collisions_per_particle": ("float", 'limit since the stage began, > 0, default infinity'),
         "wall_time": ("float", 'limit in seconds of this call, > 0, default infinity'),
         "time": ("float", 'limit of simulated time since the stage began, > 0, default infinity'),
-        "growth_rate_end": (
-            "float",
-            'quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant',
-        ),
+        "growth_rate_end": ("float", 'quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant'),
         "growth_law": ("GrowthLaw", 'jam_growth_law, default DIAMETER'),
     },
     "jam_observe_options": {
         "collisions": ("int", '1: collisions of each sphere, and collisions and momentum of each pair; default 0'),
         "gap_bins": ("int", 'bins of the gap histogram, 0 (default: none) or >= 2'),
         "r_bins": ("int", 'bins of g(r), default 0: none'),
-        "sample_every": (
-            "float",
-            'collisions per particle between samples of the series, gaps and g(r), > 0, default 10',
-        ),
+        "sample_every": ("float", 'collisions per particle between samples of the series, gaps and g(r), > 0, default 10'),
         "gap_min": ("float", 'the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios'),
         "gap_max": ("float", 'up to here, in (gap_min, 10], default 1'),
         "r_max": ("float", 'of g(r), mean diameters, > 0, default 4'),
         "snapshot_every": ("float", 'collisions per particle before the first snapshot; 0, the default: none'),
-        "snapshot_factor": (
-            "float",
-            'each interval between snapshots is so many times the one before, >= 1, default 1',
-        ),
+        "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
     },
     "jam_monte_carlo_options": {
         "resume": ("int", '1: continue the run that stopped early; default 0'),
@@ -909,10 +841,7 @@ OPTIONS = {
         "swap_share": ("float", 'share of trials that exchange two diameters, in [0, 1), default 0'),
         "sweeps": ("int", 'since the run began, >= 1, default 1000'),
         "run": ("int", 'number of the random stream beside the seed, >= 0, default 0'),
-        "first_sweep": (
-            "int",
-            'number of the first sweep, by which the stream goes; -1, the default: after those made before',
-        ),
+        "first_sweep": ("int", 'number of the first sweep, by which the stream goes; -1, the default: after those made before'),
         "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
     },
     "jam_isoconf_options": {
@@ -932,26 +861,17 @@ OPTIONS = {
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM (optimizer)'),
         "method": ("CrunchMethod", 'jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
-        "polish": (
-            "int",
-            "1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)",
-        ),
+        "polish": ("int", "1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
         "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)'),
-        "step_tolerance": (
-            "float",
-            'on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)',
-        ),
+        "step_tolerance": ("float", 'on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)'),
         "lp_tolerance": ("float", 'relative complementarity and residual of one LP, default 1e-15 (solver_attributes)'),
         "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)'),
         "step_bound": ("float", 'bound on each |s_i| component; 0, the default: adapts (sbound, in radii)'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
         "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*. 0, the default'),
-        "full_lps": (
-            "int",
-            '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain',
-        ),
+        "full_lps": ("int", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
     },
     "jam_relax_options": {
         "minimiser": ("Minimiser", 'jam_minimiser, default NEWTON'),
@@ -968,20 +888,11 @@ OPTIONS = {
         "precision": ("SoftPrecision", 'jam_soft_precision, default REFERENCE'),
         "alpha": ("float", 'exponent of the energy, > 1, default 2'),
         "force_tolerance": ("float", 'as in jam_relax_options, default 1e-12'),
-        "energy_factor": (
-            "float",
-            'U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed',
-        ),
+        "energy_factor": ("float", 'U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed'),
         "pressure": ("float", 'target, as jam_relax_report.pressure, >= 0, default 0: none'),
         "distance": ("float", 'target, as jam_relax_report.distance, >= 0, default 0: none'),
-        "isostatic": (
-            "int",
-            '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes',
-        ),
-        "crunch": (
-            "int",
-            '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing',
-        ),
+        "isostatic": ("int", '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes'),
+        "crunch": ("int", '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing'),
         "max_steps": ("int", '>= 1, default 1000'),
         "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
@@ -989,10 +900,7 @@ OPTIONS = {
     "jam_hessian_options": {
         "stiffness": ("Stiffness", 'jam_stiffness, default HARMONIC'),
         "alpha": ("float", 'POWER: > 1, default 2'),
-        "prestress": (
-            "float",
-            'overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0',
-        ),
+        "prestress": ("float", 'overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0'),
     },
     "jam_modes_options": {
         "which": ("ModesWhich", 'jam_modes_which, default LOWEST'),
@@ -1002,10 +910,7 @@ OPTIONS = {
         "memory_limit": ("float", 'bytes, default 2e9: past it JAM_E_MEMORY with the estimate'),
     },
     "jam_geometry_options": {
-        "tolerance": (
-            "float",
-            'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps',
-        ),
+        "tolerance": ("float", 'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps'),
         "window": ("float", 'jumps are searched in |h| < window, in (0, 1], default 0.1'),
     },
     "jam_dos_options": {
@@ -1035,7 +940,8 @@ REPORTS = {
 }
 
 # rows: {C name: numpy dtype}, for arrays of structs
-ROWS = {}
+ROWS = {
+}
 
 # tables: {C name: number of columns}
 TABLES = {
@@ -1057,10 +963,7 @@ CALLS = {
     "jam_set_velocities": (True, (("velocities", "array_in", "double"), ("velocities_len", "len", "size_t"))),
     "jam_scale_diameters": (True, (("factor", "scalar", "double"),)),
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
-    "jam_set_log": (
-        True,
-        (("callback", "callback", "jam_log_fn"), ("level", "scalar", "int32_t"), ("user", "user", "void")),
-    ),
+    "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "int32_t"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),
     "jam_write": (True, (("path", "string", "char"), ("format", "scalar", "Format"))),
     "jam_run": (True, (("o", "struct_in", "jam_run_options"), ("report", "struct_out", "jam_md_report"))),
@@ -1068,413 +971,59 @@ CALLS = {
     "jam_checkpoint_write": (True, (("path", "string", "char"),)),
     "jam_observe": (True, (("o", "struct_in", "jam_observe_options"),)),
     "jam_observe_stop": (True, ()),
-    "jam_observed_series": (
-        True,
-        (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_observed_spheres": (
-        True,
-        (
-            ("collisions", "array_out", "int64_t"),
-            ("collisions_len", "len", "size_t"),
-            ("displacement", "array_out", "double"),
-            ("displacement_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_observed_pairs": (
-        True,
-        (
-            ("pair", "array_out", "int32_t"),
-            ("pair_len", "len", "size_t"),
-            ("collisions", "array_out", "int64_t"),
-            ("collisions_len", "len", "size_t"),
-            ("momentum", "array_out", "double"),
-            ("momentum_len", "len", "size_t"),
-            ("time", "scalar_out", "double"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_observed_gaps": (
-        True,
-        (
-            ("edge", "array_out", "double"),
-            ("edge_len", "len", "size_t"),
-            ("density", "array_out", "double"),
-            ("density_len", "len", "size_t"),
-            ("error", "array_out", "double"),
-            ("error_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_observed_correlation": (
-        True,
-        (
-            ("r", "array_out", "double"),
-            ("r_len", "len", "size_t"),
-            ("g", "array_out", "double"),
-            ("g_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_eos": (
-        False,
-        (
-            ("form", "scalar", "EosForm"),
-            ("dim", "scalar", "int32_t"),
-            ("packing_fraction", "scalar", "double"),
-            ("jammed_fraction", "scalar", "double"),
-            ("pressure", "scalar_out", "double"),
-        ),
-    ),
-    "jam_glass_fit": (
-        False,
-        (
-            ("fraction", "array_in", "double"),
-            ("fraction_len", "len", "size_t"),
-            ("pressure", "array_in", "double"),
-            ("pressure_len", "len", "size_t"),
-            ("fit", "struct_out", "jam_glass"),
-        ),
-    ),
-    "jam_monte_carlo": (
-        True,
-        (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report")),
-    ),
-    "jam_isoconfigurational": (
-        True,
-        (
-            ("o", "struct_in", "jam_isoconf_options"),
-            ("m", "struct_in", "jam_monte_carlo_options"),
-            ("instant", "array_in", "double"),
-            ("instant_len", "len", "size_t"),
-            ("kept", "array_in", "int32_t"),
-            ("kept_len", "len", "size_t"),
-            ("report", "struct_out", "jam_isoconf_report"),
-        ),
-    ),
+    "jam_observed_series": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_gaps": (True, (("edge", "array_out", "double"), ("edge_len", "len", "size_t"), ("density", "array_out", "double"), ("density_len", "len", "size_t"), ("error", "array_out", "double"), ("error_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_observed_correlation": (True, (("r", "array_out", "double"), ("r_len", "len", "size_t"), ("g", "array_out", "double"), ("g_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_eos": (False, (("form", "scalar", "EosForm"), ("dim", "scalar", "int32_t"), ("packing_fraction", "scalar", "double"), ("jammed_fraction", "scalar", "double"), ("pressure", "scalar_out", "double"))),
+    "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
+    "jam_monte_carlo": (True, (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report"))),
+    "jam_isoconfigurational": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
     "jam_isoconf_report_get": (True, (("report", "struct_out", "jam_isoconf_report"),)),
-    "jam_isoconf_sums": (
-        True,
-        (
-            ("block", "scalar", "int64_t"),
-            ("displacement", "array_out", "double"),
-            ("displacement_len", "len", "size_t"),
-            ("square", "array_out", "double"),
-            ("square_len", "len", "size_t"),
-            ("distance2", "array_out", "double"),
-            ("distance2_len", "len", "size_t"),
-            ("distance4", "array_out", "double"),
-            ("distance4_len", "len", "size_t"),
-            ("runs", "scalar_out", "int64_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_isoconf_series": (
-        True,
-        (
-            ("block", "scalar", "int64_t"),
-            ("column", "scalar", "IsoconfColumn"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_isoconf_kept": (
-        True,
-        (
-            ("instant", "scalar", "int32_t"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
+    "jam_isoconf_sums": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("runs", "scalar_out", "int64_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("column", "scalar", "IsoconfColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_isoconf_kept": (True, (("instant", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
-    "jam_crunch_estimate": (
-        True,
-        (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate")),
-    ),
+    "jam_crunch_estimate": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
     "jam_crunch_report_get": (True, (("report", "struct_out", "jam_crunch_report"),)),
-    "jam_crunch_history": (
-        True,
-        (
-            ("column", "scalar", "HistoryColumn"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_crunch_step_displacements": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_crunch_step_contacts": (
-        True,
-        (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_crunch_step_vectors": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_crunch_step_duals": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
+    "jam_crunch_history": (True, (("column", "scalar", "HistoryColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_duals": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_relax": (True, (("o", "struct_in", "jam_relax_options"), ("report", "struct_out", "jam_relax_report"))),
-    "jam_decompress": (
-        True,
-        (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report")),
-    ),
-    "jam_decompress_history": (
-        True,
-        (
-            ("column", "scalar", "SoftColumn"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_contacts": (
-        True,
-        (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_contact_vectors": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_contact_gaps": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_forces": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_coordination": (
-        True,
-        (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_hessian_map": (
-        True,
-        (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_hessian": (
-        True,
-        (
-            ("h", "struct_in", "jam_hessian_options"),
-            ("row_start", "array_out", "int32_t"),
-            ("row_start_len", "len", "size_t"),
-            ("column", "array_out", "int32_t"),
-            ("column_len", "len", "size_t"),
-            ("value", "array_out", "double"),
-            ("value_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_modes": (
-        True,
-        (
-            ("h", "struct_in", "jam_hessian_options"),
-            ("o", "struct_in", "jam_modes_options"),
-            ("lambda", "array_out", "double"),
-            ("lambda_len", "len", "size_t"),
-            ("vector", "array_out", "double"),
-            ("vector_len", "len", "size_t"),
-            ("participation", "array_out", "double"),
-            ("participation_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_contacts_from_geometry": (
-        True,
-        (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report")),
-    ),
-    "jam_contact_candidates": (
-        True,
-        (
-            ("window", "scalar", "double"),
-            ("table", "array_out", "double"),
-            ("table_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_stress_states": (
-        True,
-        (
-            ("force", "array_out", "double"),
-            ("force_len", "len", "size_t"),
-            ("basis", "array_out", "double"),
-            ("basis_len", "len", "size_t"),
-            ("residual", "scalar_out", "double"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
+    "jam_decompress": (True, (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report"))),
+    "jam_decompress_history": (True, (("column", "scalar", "SoftColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_gaps": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_forces": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_coordination": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_hessian_map": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
+    "jam_contact_candidates": (True, (("window", "scalar", "double"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
-    "jam_flex": (
-        True,
-        (
-            ("kind", "scalar", "RigidityKind"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("strain", "array_out", "double"),
-            ("strain_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_gaps": (
-        True,
-        (
-            ("h_max", "scalar", "double"),
-            ("stable_only", "scalar", "int32_t"),
-            ("gap", "array_out", "double"),
-            ("gap_len", "len", "size_t"),
-            ("pair", "array_out", "int32_t"),
-            ("pair_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_contact_classes": (
-        True,
-        (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_sphere_structure": (
-        True,
-        (
-            ("weighted", "scalar", "int32_t"),
-            ("c", "array_out", "double"),
-            ("c_len", "len", "size_t"),
-            ("s", "array_out", "double"),
-            ("s_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_contact_dots": (
-        True,
-        (
-            ("weighted", "scalar", "int32_t"),
-            ("dot", "array_out", "double"),
-            ("dot_len", "len", "size_t"),
-            ("sphere", "array_out", "int32_t"),
-            ("sphere_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_class_values": (
-        True,
-        (
-            ("quantity", "scalar", "Quantity"),
-            ("which", "scalar", "Class"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_histogram": (
-        True,
-        (
-            ("quantity", "scalar", "Quantity"),
-            ("which", "scalar", "Class"),
-            ("low", "scalar", "double"),
-            ("high", "scalar", "double"),
-            ("bins", "scalar", "int64_t"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_pair_correlation": (
-        True,
-        (
-            ("kind", "array_in", "int32_t"),
-            ("kind_len", "len", "size_t"),
-            ("a", "scalar", "int32_t"),
-            ("b", "scalar", "int32_t"),
-            ("r_max", "scalar", "double"),
-            ("bins", "scalar", "int64_t"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_structure_factor": (
-        True,
-        (
-            ("q_max", "scalar", "double"),
-            ("q", "array_out", "double"),
-            ("q_len", "len", "size_t"),
-            ("s", "array_out", "double"),
-            ("s_len", "len", "size_t"),
-            ("rows", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_bond_order": (
-        True,
-        (
-            ("l", "scalar", "int32_t"),
-            ("cutoff", "scalar", "double"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
+    "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_class_values": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "Class"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_histogram": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "Class"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_pair_correlation": (True, (("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("a", "scalar", "int32_t"), ("b", "scalar", "int32_t"), ("r_max", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crystal_score": (True, (("score", "scalar_out", "double"),)),
-    "jam_local_fraction": (
-        True,
-        (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_floppy_mode": (
-        True,
-        (
-            ("contact", "scalar", "int64_t"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_floppy_modes": (
-        True,
-        (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t")),
-    ),
-    "jam_density_of_states": (
-        True,
-        (
-            ("h", "struct_in", "jam_hessian_options"),
-            ("o", "struct_in", "jam_dos_options"),
-            ("table", "array_out", "double"),
-            ("table_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_project": (
-        True,
-        (
-            ("vector", "array_in", "double"),
-            ("vector_len", "len", "size_t"),
-            ("u", "array_in", "double"),
-            ("u_len", "len", "size_t"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
-    "jam_curvature": (
-        True,
-        (
-            ("h", "struct_in", "jam_hessian_options"),
-            ("u", "array_in", "double"),
-            ("u_len", "len", "size_t"),
-            ("value", "scalar_out", "double"),
-        ),
-    ),
+    "jam_local_fraction": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_mode": (True, (("contact", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_floppy_modes": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
     "jam_moduli_get": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli"))),
-    "jam_compare": (
-        True,
-        (
-            ("other", "handle", "jam_system"),
-            ("comparison", "struct_out", "jam_comparison"),
-            ("out", "array_out", "double"),
-            ("out_len", "len", "size_t"),
-            ("needed", "scalar_out", "size_t"),
-        ),
-    ),
+    "jam_compare": (True, (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

@@ -24,20 +24,7 @@ class Methods:
         JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
         return self.call('checkpoint_write', path)
 
-    def observe(
-        self,
-        *,
-        collisions: int | None = None,
-        gap_bins: int | None = None,
-        r_bins: int | None = None,
-        sample_every: float | None = None,
-        gap_min: float | None = None,
-        gap_max: float | None = None,
-        r_max: float | None = None,
-        snapshot_every: float | None = None,
-        snapshot_factor: float | None = None,
-        progress: Progressing = None,
-    ) -> None:
+    def observe(self, *, collisions: int | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
         """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
         dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
         callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
@@ -53,19 +40,7 @@ class Methods:
         r_max: of g(r), mean diameters, > 0, default 4
         snapshot_every: collisions per particle before the first snapshot; 0, the default: none
         snapshot_factor: each interval between snapshots is so many times the one before, >= 1, default 1"""
-        return self.call(
-            'observe',
-            collisions=collisions,
-            gap_bins=gap_bins,
-            r_bins=r_bins,
-            sample_every=sample_every,
-            gap_min=gap_min,
-            gap_max=gap_max,
-            r_max=r_max,
-            snapshot_every=snapshot_every,
-            snapshot_factor=snapshot_factor,
-            progress=progress,
-        )
+        return self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
 
     def observe_stop(self, *, progress: Progressing = None) -> None:
         """Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"""
@@ -99,23 +74,7 @@ class Methods:
         Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_correlation')
 
-    def monte_carlo(
-        self,
-        *,
-        resume: int | None = None,
-        energy_unit: int | str | None = None,
-        alpha: float | None = None,
-        energy_scale: float | None = None,
-        temperature: float | None = None,
-        step: float | None = None,
-        acceptance: float | None = None,
-        swap_share: float | None = None,
-        sweeps: int | None = None,
-        run: int | None = None,
-        first_sweep: int | None = None,
-        wall_time: float | None = None,
-        progress: Progressing = None,
-    ) -> MonteCarloReport:
+    def monte_carlo(self, *, resume: int | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:
         """Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
         preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
         report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
@@ -136,22 +95,7 @@ class Methods:
         run: number of the random stream beside the seed, >= 0, default 0
         first_sweep: number of the first sweep, by which the stream goes; -1, the default: after those made before
         wall_time: seconds of this call, > 0, default infinity"""
-        return self.call(
-            'monte_carlo',
-            resume=resume,
-            energy_unit=energy_unit,
-            alpha=alpha,
-            energy_scale=energy_scale,
-            temperature=temperature,
-            step=step,
-            acceptance=acceptance,
-            swap_share=swap_share,
-            sweeps=sweeps,
-            run=run,
-            first_sweep=first_sweep,
-            wall_time=wall_time,
-            progress=progress,
-        )
+        return self.call('monte_carlo', resume=resume, energy_unit=energy_unit, alpha=alpha, energy_scale=energy_scale, temperature=temperature, step=step, acceptance=acceptance, swap_share=swap_share, sweeps=sweeps, run=run, first_sweep=first_sweep, wall_time=wall_time, progress=progress)
 
     def isoconf_report(self) -> IsoconfReport:
         """The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
@@ -175,23 +119,7 @@ class Methods:
         @since 0.1"""
         return self.call('isoconf_kept', instant)
 
-    def crunch_estimate(
-        self,
-        *,
-        lp_solver: int | str | None = None,
-        method: int | str | None = None,
-        polish: int | None = None,
-        max_lps: int | None = None,
-        threads: int | None = None,
-        gain_tolerance: float | None = None,
-        step_tolerance: float | None = None,
-        lp_tolerance: float | None = None,
-        neighbour_radius: float | None = None,
-        step_bound: float | None = None,
-        wall_time: float | None = None,
-        steps: int | None = None,
-        full_lps: int | None = None,
-    ) -> Estimate:
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None, full_lps: int | None = None) -> Estimate:
         """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
         same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
         JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
@@ -209,24 +137,8 @@ class Methods:
         step_bound: bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
         wall_time: limit in seconds, > 0, default infinity
         steps: 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
-        full_lps: 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
-        """
-        return self.call(
-            'crunch_estimate',
-            lp_solver=lp_solver,
-            method=method,
-            polish=polish,
-            max_lps=max_lps,
-            threads=threads,
-            gain_tolerance=gain_tolerance,
-            step_tolerance=step_tolerance,
-            lp_tolerance=lp_tolerance,
-            neighbour_radius=neighbour_radius,
-            step_bound=step_bound,
-            wall_time=wall_time,
-            steps=steps,
-            full_lps=full_lps,
-        )
+        full_lps: 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain"""
+        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps)
 
     def crunch_history(self, column: int | str) -> np.ndarray:
         """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
@@ -277,9 +189,7 @@ class Methods:
         Errors: as jam_contacts. @since 0.1"""
         return self.call('hessian_map')
 
-    def contacts_from_geometry(
-        self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None
-    ) -> GeometryReport:
+    def contacts_from_geometry(self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None) -> GeometryReport:
         """Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
         moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
         are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
@@ -382,8 +292,7 @@ class Methods:
     def floppy_mode(self, contact: int, *, progress: Progressing = None) -> np.ndarray:
         """Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
         all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
-        a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
-        """
+        a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"""
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
@@ -391,18 +300,7 @@ class Methods:
         JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
         return self.call('floppy_modes', progress=progress)
 
-    def density_of_states(
-        self,
-        *,
-        stiffness: int | str | None = None,
-        alpha: float | None = None,
-        prestress: float | None = None,
-        moments: int | None = None,
-        vectors: int | None = None,
-        points: int | None = None,
-        seed: int | None = None,
-        progress: Progressing = None,
-    ) -> DensityOfStatesResult:
+    def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
         """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
         left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
         -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
@@ -416,56 +314,30 @@ class Methods:
         vectors: random vectors, 2..1e5, default 16
         points: values of omega, default 200
         seed: of the random vectors, default 1"""
-        return self.call(
-            'density_of_states',
-            stiffness=stiffness,
-            alpha=alpha,
-            prestress=prestress,
-            moments=moments,
-            vectors=vectors,
-            points=points,
-            seed=seed,
-            progress=progress,
-        )
+        return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
     def project(self, vector: Any = None, u: Any = None) -> np.ndarray:
         """Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
         squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
         return self.call('project', vector, u)
 
-    def curvature(
-        self,
-        u: Any = None,
-        *,
-        stiffness: int | str | None = None,
-        alpha: float | None = None,
-        prestress: float | None = None,
-    ) -> float:
+    def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
         """value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
         alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
-        """
+        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
         return self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
 
-    def moduli(
-        self,
-        *,
-        stiffness: int | str | None = None,
-        alpha: float | None = None,
-        prestress: float | None = None,
-        progress: Progressing = None,
-    ) -> Moduli:
+    def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
         """Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
         the network unstable. Threads: alone. @since 0.1
 
         Options:
         stiffness: jam_stiffness, default HARMONIC
         alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
-        """
+        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
         return self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
 
     def compare(self, other: Any) -> CompareResult:
@@ -609,7 +481,6 @@ class CompareResult(NamedTuple):
 
 def _call(name: str, *args: Any, **named: Any) -> Any:
     from . import _calls
-
     return _calls.invoke(None, 0, name, args, named)[1]
 
 

@@ -1,4 +1,4 @@
-// Monte Carlo: the energy of a pair, the choice of an engine, options and the tuning of the step.
+// Monte Carlo: the choice of an engine, options and the tuning of the step.
 #include "dynamics/monte_carlo.hpp"
 
 #include <algorithm>
@@ -8,9 +8,6 @@
 #include "core/pair_rule.hpp"
 
 namespace jam {
-
-double PairEnergy::value(double overlap) const { return scale * std::pow(overlap, alpha); }
-double PairEnergy::slope(double overlap) const { return scale * alpha * std::pow(overlap, alpha - 1.0); }
 
 // Compiled in monte_carlo_2d.cpp to monte_carlo_8d.cpp.
 template <int D>

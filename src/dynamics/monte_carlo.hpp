@@ -4,7 +4,8 @@
 // themselves and moving there and back gives the same bits. Distances and energies are doubles.
 //
 // Lists. Each sphere lists those within the longest contact distance and a skin. Lists hold until a sphere has moved by
-// half the skin; then all are made again from cells.
+// half the skin; then all are made again from cells. Dilute hard spheres take such long steps that lists would hold for
+// no sweep: they look into cells instead. Both give the same bits.
 //
 // A sweep is one trial of each sphere in the order of their numbers. Every single trial keeps the Boltzmann
 // distribution, so a sweep does. Random numbers are a function of (seed, run, sweep, sphere).
@@ -19,15 +20,6 @@
 #include "dynamics/dynamics.hpp"
 
 namespace jam {
-
-// Energy of a pair of soft spheres, v = scale x^alpha; x is the overlap, either in units of length or over sigma_ij.
-struct PairEnergy {
-  double alpha = 0.0;  // 0: hard spheres
-  double scale = 1.0;
-  bool relative = false;
-  double value(double overlap) const;  // x > 0
-  double slope(double overlap) const;  // dv/dx
-};
 
 struct MonteCarloCounts {
   int64_t moves = 0, moved = 0, swaps = 0, swapped = 0, lists = 0;

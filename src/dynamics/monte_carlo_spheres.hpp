@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "dynamics/monte_carlo.hpp"
+#include "dynamics/monte_carlo_cells.hpp"
 
 namespace jam {
 
@@ -16,6 +17,7 @@ class MonteCarloSpheres : public MonteCarlo {
       : p_(p),
         n_(static_cast<int32_t>(p.n())),
         swap_share_(o.swap_share),
+        hard_(o.alpha == 0.0),
         x_(p.n()),
         radius_(p.n()),
         centre_(p.n()),
@@ -38,7 +40,8 @@ class MonteCarloSpheres : public MonteCarlo {
     const double best = std::min(longest_skin, std::max(0.03, skin_steps * step / contact_max_)) * contact_max_;
     skin_ = std::max(least, std::min(best, room));
     if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
-    make_lists();
+    choose_cells();
+    if (!cells_.in_use()) make_lists();
   }
 
   double gap_range() const final { return std::min(skin_, widest_range - contact_max_) / contact_max_; }
@@ -77,12 +80,15 @@ class MonteCarloSpheres : public MonteCarlo {
       radius_[i] = 0.5 * p_.diameter[i] / p_.cell.side();
     }
     for (const int32_t k : neighbour_) Archive::check(k >= 0 && k < n_);
+    choose_cells();
   }
 
  protected:
   using Place = std::array<uint64_t, D>;
   static constexpr double scale = 0x1p64, unit = 0x1p-64, skin_steps = 12.0, longest_skin = 0.7, widest_range = 0.499,
                           everything = 1e3;
+  // Beyond it cells are faster, in contact distances (tests/bench/monte_carlo).
+  static constexpr double longest_step_of_lists = 0.1;
 
   double contact(int32_t i, int32_t k) const {
     const double sum = radius_[i] + radius_[k];
@@ -123,9 +129,26 @@ class MonteCarloSpheres : public MonteCarlo {
     centre_ = x_;
   }
 
+  // Whether sphere i would overlap another at a place.
+  bool overlaps(int32_t i, const Place &at) const {
+    if (cells_.in_use()) return overlaps_in_cells(i, at);
+    for (int32_t e = first_[i]; e < first_[i + 1]; ++e)
+      if (touches(i, at, neighbour_[e])) return true;
+    return false;
+  }
+  // Before a trial that takes sphere i there.
+  void prepare(int32_t i, const Place &to) {
+    if (!cells_.in_use() && distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
+  }
+  void put(int32_t i, const Place &to) {
+    x_[i] = to;
+    if (cells_.in_use()) cells_.move(i, to);
+  }
+
   Packing p_;  // diameters of now; positions of the last lists
   int32_t n_;
   double swap_share_, step_ = 0.0, skin_ = 0.0;
+  bool hard_;
   std::vector<Place> x_;
   std::vector<double> radius_;
   std::vector<Place> centre_;
@@ -134,6 +157,22 @@ class MonteCarloSpheres : public MonteCarlo {
   double contact_max_ = 0.0;
 
  private:
+  bool touches(int32_t i, const Place &at, int32_t k) const {
+    const double sigma = contact(i, k);
+    return distance2(at, x_[k]) < sigma * sigma;
+  }
+  // Not a part of the loop over lists, which is slower with this code in it.
+  [[gnu::noinline]] bool overlaps_in_cells(int32_t i, const Place &at) const {
+    return cells_.any(at, [&](int32_t k) { return k != i && touches(i, at, k); });
+  }
+  // Sums of soft energies need the order of a list, which the archive keeps; an overlap needs no order.
+  void choose_cells() {
+    cells_.clear();
+    const auto side = static_cast<int64_t>(1.0 / contact_max_);
+    if (hard_ && step_ > longest_step_of_lists * contact_max_ && side >= 4 && std::pow(3.0, D) < n_)
+      cells_.build(x_,
+                   static_cast<size_t>(std::min<int64_t>(side, static_cast<int64_t>(std::pow(2.0 * n_, 1.0 / D)) + 1)));
+  }
   // Longest distance at which a pair is listed, of all pairs and of this one. With swaps any two spheres can get the
   // largest diameters.
   double list_range() const { return contact_max_ + skin_; }
@@ -186,6 +225,7 @@ class MonteCarloSpheres : public MonteCarlo {
     return other;
   }
 
+  MonteCarloCells<D> cells_;  // not in use: lists are
   // to make lists
   std::vector<std::array<int32_t, 2>> found_;
   std::vector<int32_t> cell_first_, cell_of_, in_cell_, at_;

@@ -1,15 +1,13 @@
-// The Metropolis trials: energies of pairs, moves and swaps. One file a dimension compiles them, monte_carlo_2d.cpp to
-// monte_carlo_8d.cpp, as five energies in seven dimensions in one file took minutes with sanitizers.
+// The Metropolis trials: energies, moves and swaps. One file a dimension compiles them, monte_carlo_2d.cpp to
+// monte_carlo_8d.cpp.
 #pragma once
+#include "core/pair_energy.hpp"
 #include "core/rng.hpp"
 #include "dynamics/monte_carlo_spheres.hpp"
 
 namespace jam {
 
-// x^alpha: the three exponents in use by roots, which take a third of the time of pow.
-enum class Power { hard, three_halves, two, five_halves, any };
-
-template <int D, Power P>
+template <int D, bool Soft>
 class MonteCarloOf final : public MonteCarloSpheres<D> {
   using Base = MonteCarloSpheres<D>;
 
@@ -19,11 +17,8 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
         inverse_temperature_(1.0 / o.temperature),
         // Its own key a run; sweeps and spheres enter in sweep().
         key_(mix64(mix64(mix64(static_cast<uint64_t>(p.seed)) ^ static_cast<uint64_t>(Stream::monte_carlo) << 32) ^
-                   mix64(static_cast<uint64_t>(run)))) {
-    energy_.alpha = o.alpha;
-    energy_.scale = o.energy_scale;
-    energy_.relative = o.energy_unit == JAM_ENERGY_RELATIVE;
-  }
+                   mix64(static_cast<uint64_t>(run)))),
+        energy_(o.alpha, o.energy_scale, o.energy_unit == JAM_ENERGY_RELATIVE) {}
 
   void sweep(int64_t number) override {
     const uint64_t key = mix64(key_ ^ mix64(static_cast<uint64_t>(number)));
@@ -39,41 +34,40 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
 
   double energy() const override {
     double sum = 0.0;
-    if constexpr (P != Power::hard)
+    if constexpr (Soft)
       each_pair([&](int32_t i, int32_t k, double r2) {
         const double sigma = contact(i, k);
-        if (r2 < sigma * sigma) sum += pair_energy(std::sqrt(r2), sigma);
+        if (r2 < sigma * sigma) sum += energy_.value(overlap(std::sqrt(r2), sigma));
       });
     return sum;
   }
 
   double virial() const override {
     double sum = 0.0;
-    if constexpr (P != Power::hard)
+    if constexpr (Soft)
       each_pair([&](int32_t i, int32_t k, double r2) {
         const double sigma = contact(i, k), r = std::sqrt(r2);
         if (r >= sigma) return;
-        const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
-        sum += energy_.slope(x) * (energy_.relative ? r / sigma : r * p_.cell.side());
+        sum += energy_.slope(overlap(r, sigma)) * (energy_.relative() ? r / sigma : r * p_.cell.side());
       });
     return sum;
   }
 
  private:
-  using Base::centre_;
   using Base::contact;
   using Base::counts;
   using Base::displacement_;
   using Base::distance2;
   using Base::each_pair;
   using Base::first_;
-  using Base::make_lists;
   using Base::n_;
   using Base::neighbour_;
+  using Base::overlaps;
   using Base::p_;
+  using Base::prepare;
+  using Base::put;
   using Base::radius_;
   using Base::scale;
-  using Base::skin_;
   using Base::step_;
   using Base::swap_share_;
   using Base::unit;
@@ -84,42 +78,42 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
   static double uniform(uint64_t base, uint64_t which) {
     return static_cast<double>(mix64(base + which * weyl) >> 11) * 0x1.0p-53;
   }
-  double pair_energy(double r, double sigma) const {
-    const double x = energy_.relative ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
-    if constexpr (P == Power::three_halves) return energy_.scale * x * std::sqrt(x);
-    if constexpr (P == Power::two) return energy_.scale * x * x;
-    if constexpr (P == Power::five_halves) return energy_.scale * x * x * std::sqrt(x);
-    return energy_.value(x);
+  // In the unit of the energy; r and sigma are in units of the box side.
+  double overlap(double r, double sigma) const {
+    return energy_.relative() ? 1.0 - r / sigma : (sigma - r) * p_.cell.side();
   }
   // Energy of sphere i at a place; +infinity where hard spheres overlap.
   double energy_at(int32_t i, const Place &at) const {
-    double sum = 0.0;
-    for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
-      const int32_t k = neighbour_[e];
-      const double r2 = distance2(at, x_[k]), sigma = contact(i, k);
-      if (r2 >= sigma * sigma) continue;
-      if constexpr (P == Power::hard) return never;
-      sum += pair_energy(std::sqrt(r2), sigma);
-    }
-    return sum;
+    if constexpr (!Soft) return overlaps(i, at) ? never : 0.0;
+    return energy_.with_value([&](auto value) {
+      double sum = 0.0;
+      for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
+        const int32_t k = neighbour_[e];
+        const double r2 = distance2(at, x_[k]), sigma = contact(i, k);
+        if (r2 < sigma * sigma) sum += value(overlap(std::sqrt(r2), sigma));
+      }
+      return sum;
+    });
   }
   // Change of the energy of sphere i when it moves from its place; +infinity where hard spheres would overlap.
   double change(int32_t i, const Place &to) const {
-    if constexpr (P == Power::hard) return energy_at(i, to);
-    const Place &from = x_[i];
-    double sum = 0.0;
-    for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
-      const int32_t k = neighbour_[e];
-      const double sigma = contact(i, k), sigma2 = sigma * sigma;
-      const double r2 = distance2(to, x_[k]), old2 = distance2(from, x_[k]);
-      if (r2 < sigma2) sum += pair_energy(std::sqrt(r2), sigma);
-      if (old2 < sigma2) sum -= pair_energy(std::sqrt(old2), sigma);
-    }
-    return sum;
+    if constexpr (!Soft) return energy_at(i, to);
+    return energy_.with_value([&](auto value) {
+      const Place &from = x_[i];
+      double sum = 0.0;
+      for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
+        const int32_t k = neighbour_[e];
+        const double sigma = contact(i, k), sigma2 = sigma * sigma;
+        const double r2 = distance2(to, x_[k]), old2 = distance2(from, x_[k]);
+        if (r2 < sigma2) sum += value(overlap(std::sqrt(r2), sigma));
+        if (old2 < sigma2) sum -= value(overlap(std::sqrt(old2), sigma));
+      }
+      return sum;
+    });
   }
   bool accept(double energy_change, uint64_t base) const {
     if (energy_change <= 0.0) return true;
-    return P != Power::hard && uniform(base, 8) < std::exp(-energy_change * inverse_temperature_);
+    return Soft && uniform(base, 8) < std::exp(-energy_change * inverse_temperature_);
   }
 
   void try_move(int32_t i, uint64_t base) {
@@ -133,10 +127,10 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
       shift[c] = static_cast<int64_t>(part * 0x1p-52 * step_ * scale);
       to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
     }
-    if (distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
+    prepare(i, to);
     if (!accept(change(i, to), base)) return;
     ++counts.moved;
-    x_[i] = to;
+    put(i, to);
     double *moved = &displacement_[static_cast<size_t>(i) * D];
     for (int c = 0; c < D; ++c) moved[c] += static_cast<double>(shift[c]) * unit;
   }
@@ -148,7 +142,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
     k += k >= i;
     if (radius_[i] == radius_[k]) return;
     double before = 0.0;
-    if constexpr (P != Power::hard) before = energy_of_both(i, k);
+    if constexpr (Soft) before = energy_of_both(i, k);
     std::swap(radius_[i], radius_[k]);
     if (accept(energy_of_both(i, k) - before, base)) {
       std::swap(p_.diameter[i], p_.diameter[k]);
@@ -168,11 +162,8 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
 
 template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
-  if (o.alpha == 0.0) return std::make_unique<MonteCarloOf<D, Power::hard>>(p, o, run);
-  if (o.alpha == 1.5) return std::make_unique<MonteCarloOf<D, Power::three_halves>>(p, o, run);
-  if (o.alpha == 2.0) return std::make_unique<MonteCarloOf<D, Power::two>>(p, o, run);
-  if (o.alpha == 2.5) return std::make_unique<MonteCarloOf<D, Power::five_halves>>(p, o, run);
-  return std::make_unique<MonteCarloOf<D, Power::any>>(p, o, run);
+  if (o.alpha == 0.0) return std::make_unique<MonteCarloOf<D, false>>(p, o, run);
+  return std::make_unique<MonteCarloOf<D, true>>(p, o, run);
 }
 
 }  // namespace jam

@@ -75,7 +75,7 @@ double overlap_resolution(const Packing &p) {
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
   check_relax_options(o);
   monitor.wall_time = o.wall_time;
-  SoftState state(start, SoftEnergy(o.alpha, o.scale), o.precision);
+  SoftState state(start, PairEnergy(o.alpha, o.scale), o.precision);
   Effort effort;
   effort.monitor = &monitor;
   effort.phase = JAM_PHASE_RELAX;

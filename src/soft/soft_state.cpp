@@ -20,7 +20,7 @@ constexpr int64_t few_evaluations = 25, many_evaluations = 250;
 
 }  // namespace
 
-SoftState::SoftState(const Packing &p, const SoftEnergy &energy, int32_t precision)
+SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precision)
     : base_(p),
       energy_(energy),
       precision_(precision),
@@ -150,7 +150,7 @@ SoftSums SoftState::evaluate_in(std::vector<double> &force) const {
     if (!(r2 > 0.0)) r2 = tiny;  // the same centre: no direction to push in
     const double length = std::sqrt(r2), sum = sigma + length, both = 1.0 / (length * sum);
     const double delta = q * length * both, f = energy_.force(delta, inverse_[k]);
-    sums.energy += energy_.value(delta, f);
+    sums.energy += energy_.value_from_force(delta, f);
     sums.virial += f * length;
     sums.force += f;
     sums.overlap += delta;

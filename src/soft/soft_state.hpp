@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/packing.hpp"
+#include "core/pair_energy.hpp"
 #include "core/pairs.hpp"
-#include "soft/soft_energy.hpp"
 
 namespace jam {
 
@@ -39,11 +39,11 @@ struct SoftContacts {
 class SoftState {
  public:
   // precision: a jam_soft_precision.
-  SoftState(const Packing &p, const SoftEnergy &energy, int32_t precision);
+  SoftState(const Packing &p, const PairEnergy &energy, int32_t precision);
 
   int dim() const { return base_.dim; }
   size_t n() const { return base_.n(); }
-  const SoftEnergy &energy() const { return energy_; }
+  const PairEnergy &energy() const { return energy_; }
   const Packing &base() const { return base_; }
   const PairList &pairs() const { return pairs_; }
   // Positions rounded to doubles, inside the box.
@@ -70,7 +70,7 @@ class SoftState {
   void take_references();
 
   Packing base_;
-  SoftEnergy energy_;
+  PairEnergy energy_;
   int32_t precision_;
   double diameter_mean_, skin_;
   int64_t uses_ = 0;                  // evaluations since the list was made

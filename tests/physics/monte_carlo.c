@@ -198,6 +198,48 @@ static void a_resumed_run_has_the_same_bits(void **state) {
   jam_destroy(b);
 }
 
+/* Long steps: spheres are looked up in cells. A sphere that is missing there would be overlapped, which jam_create
+ * refuses. */
+static void dilute_spheres_stay_apart_and_resume(void **state) {
+  enum { N = 200, DIMS = 3 };
+  static const double fractions[DIMS] = {0.4, 0.15, 0.05};
+  int k;
+  (void)state;
+  for (k = 0; k < DIMS; ++k) {
+    double diameters[N];
+    jam_create_options c;
+    jam_monte_carlo_options o = options(0.0, 1.0, 300);
+    jam_monte_carlo_report r;
+    jam_system *a = NULL, *b = NULL, *again = NULL;
+    const double *x = NULL, *y = NULL, *sigma = NULL;
+    size_t len = 0, sizes = 0, i;
+    for (i = 0; i < N; ++i) diameters[i] = i % 2 ? 1.3 : 1.0;
+    jam_create_options_init(&c, sizeof c);
+    c.dim = k + 2;
+    c.n = N;
+    c.packing_fraction = fractions[k];
+    assert_int_equal(jam_create(&c, NULL, 0, diameters, N, &a), JAM_OK);
+    assert_int_equal(jam_copy(a, &b), JAM_OK);
+    o.swap_share = 0.1;
+    r = run(a, &o);
+    assert_true(r.acceptance > 0.3 && r.step > 0.15);
+    assert_int_equal(jam_positions_view(a, &x, &len), JAM_OK);
+    assert_int_equal(jam_diameters_view(a, &sigma, &sizes), JAM_OK);
+    assert_int_equal(jam_create(&c, x, len, sigma, sizes, &again), JAM_OK);
+    r.struct_size = sizeof r;
+    assert_int_equal(jam_set_progress(b, stop, NULL), JAM_OK);
+    assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_CANCELLED);
+    assert_int_equal(jam_set_progress(b, NULL, NULL), JAM_OK);
+    o.resume = 1;
+    run(b, &o);
+    assert_int_equal(jam_positions_view(b, &y, &len), JAM_OK);
+    assert_memory_equal(x, y, len * sizeof *x);
+    jam_destroy(a);
+    jam_destroy(b);
+    jam_destroy(again);
+  }
+}
+
 static void runs_from_one_state_have_streams_of_their_own(void **state) {
   const double sigma[3] = {0.28, 0.40, 0.48}, instants[2] = {5.0, 50.0};
   jam_system *sys = spheres(3, 3, sigma);
@@ -277,6 +319,7 @@ int main(void) {
       cmocka_unit_test(three_disks_and_swaps_have_the_boltzmann_averages),
       cmocka_unit_test(hard_fluids_have_the_pressure_of_molecular_dynamics),
       cmocka_unit_test(a_resumed_run_has_the_same_bits),
+      cmocka_unit_test(dilute_spheres_stay_apart_and_resume),
       cmocka_unit_test(runs_from_one_state_have_streams_of_their_own),
       cmocka_unit_test(bad_input_is_named),
       cmocka_unit_test(hard_spheres_in_contact_cannot_move),

@@ -38,7 +38,7 @@ void pair_values(void **) {
     for (int scale = JAM_SOFT_RELATIVE; scale <= JAM_SOFT_BARE; ++scale) {
       const double l = scale == JAM_SOFT_RELATIVE ? 0.375 : 1.0, c = scale == JAM_SOFT_BARE ? 1.0 : 1.0 / alpha;
       const double v = c * std::pow(0.125 / l, alpha), force = c * alpha * std::pow(0.125 / l, alpha - 1.0) / l;
-      SoftState state(p, SoftEnergy(alpha, scale), JAM_SOFT_REFERENCE);
+      SoftState state(p, PairEnergy(alpha, scale), JAM_SOFT_REFERENCE);
       const SoftSums sums = state.evaluate(f);
       assert_int_equal(sums.contacts, 1);
       assert_true(std::fabs(sums.energy / v - 1.0) < 1e-14);
@@ -50,12 +50,12 @@ void pair_values(void **) {
       assert_true(std::fabs(k / (force * (alpha - 1.0) / 0.125) - 1.0) < 1e-14);
     }
   p.diameter = {0.25, 0.25};  // touching exactly
-  SoftState touching(p, SoftEnergy(1.5, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  SoftState touching(p, PairEnergy(1.5, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
   const SoftSums none = touching.evaluate(f);
   assert_true(none.contacts == 0 && none.energy == 0.0 && f[0] == 0.0);
   assert_int_equal(touching.contacts().size(), 0);
   p.diameter = {0.25 * (1.0 + 0x1p-52), 0.25};  // by one bit of a diameter
-  SoftState bit(p, SoftEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  SoftState bit(p, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
   assert_int_equal(bit.contacts().size(), 1);
   assert_true(std::fabs(bit.contacts().overlap[0] / 0x1p-55 - 1.0) < 1e-12);
 }
@@ -67,7 +67,7 @@ void forces_are_gradients(void **) {
       for (int model = JAM_MODEL_EUCLID; model <= JAM_MODEL_MK; ++model) {
         Packing p = random_packing(dim, 12, 0.9, 7 + dim, true);
         p.model = model;
-        SoftState state(p, SoftEnergy(alpha, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+        SoftState state(p, PairEnergy(alpha, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
         std::vector<double> f, unused;
         state.evaluate(f);
         const double step = 1e-6 * state.diameter_mean();
@@ -102,7 +102,7 @@ __float128 overlap_by_quad(const Packing &p, const PairList &pairs, size_t k, co
 void overlaps_against_quad(void **) {
   const Packing p = random_packing(3, 60, 0.9, 3, true);
   for (const double size : {1e-6, 1e-10, 1e-14}) {
-    SoftState state(p, SoftEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+    SoftState state(p, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
     const SoftContacts before = state.contacts();
     const size_t k = before.pair[before.size() / 2];
     const double wanted = (1.0 + size) * before.distance[before.size() / 2];

@@ -78,7 +78,7 @@ void network_has_the_hessian(void **) {
   const SoftResult at = relaxed(random_packing(3, 60, 0.8, 1), JAM_MINIMISER_NEWTON, 2.5);
   assert_int_equal(at.report.rattlers, 0);
   const double step = 1e-7;
-  SoftState state(at.packing, SoftEnergy(2.5, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  SoftState state(at.packing, PairEnergy(2.5, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
   std::vector<double> f0, f1, y(180, 0.0), u(180);
   state.evaluate(f0);
   Rng rng(3, Stream::velocities);
@@ -130,7 +130,7 @@ void rattlers_are_centred(void **) {
   p.position.insert(p.position.end(), {0.56, 0.5, 0.47});
   p.diameter.push_back(0.3);
   p.velocity.assign(27, 0.0);
-  SoftState state(p, SoftEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  SoftState state(p, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
   centre_rattlers(state);
   state.rebase();
   const std::vector<double> &x = state.base().position;

@@ -295,9 +295,9 @@ module jam
     integer(c_int64_t) :: n = 0
     ! as recorded at creation
     integer(c_int64_t) :: seed = 0
-    ! side of the cube
+    ! side of the cube, V^(1/d) of another cell
     real(c_double) :: box = 0
-    ! sum of sphere volumes over box^d
+    ! sum of sphere volumes over V
     real(c_double) :: packing_fraction = 0
     ! mean diameter, unit of box
     real(c_double) :: diameter_mean = 0
@@ -1161,9 +1161,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_info_get
 
-    ! View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
-    ! end of calls that move spheres. Threads: const.
-    ! Errors: JAM_E_NULL. @since 0.1
+    ! View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
+    ! valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
+    ! JAM_E_NULL. @since 0.1
     function jam_positions_view(sys, view, view_len) &
         bind(c, name="jam_positions_view") result(status)
       import
@@ -1226,6 +1226,64 @@ module jam
       integer(c_int32_t) :: status
     end function jam_scale_diameters
 
+    ! jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
+    ! frame of `cell`.
+    ! Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1
+    function jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out) &
+        bind(c, name="jam_create_in_cell") result(status)
+      import
+      type(jam_create_options), intent(in), optional :: o
+      real(c_double), intent(in), optional :: cell(*)
+      integer(c_size_t), value :: cell_len
+      real(c_double), intent(in), optional :: positions(*)
+      integer(c_size_t), value :: positions_len
+      real(c_double), intent(in), optional :: diameters(*)
+      integer(c_size_t), value :: diameters_len
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function jam_create_in_cell
+
+    ! Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1
+    function jam_cell_get(sys, out, out_len, needed) &
+        bind(c, name="jam_cell_get") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(inout), optional :: out(*)
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_cell_get
+
+    ! Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
+    ! crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
+    ! x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
+    ! JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) &
+        bind(c, name="jam_cell_set") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(in), optional :: cell(*)
+      integer(c_size_t), value :: cell_len
+      integer(c_int64_t), intent(inout), optional :: transform(*)
+      integer(c_size_t), value :: transform_len
+      real(c_double), intent(inout), optional :: rotation(*)
+      integer(c_size_t), value :: rotation_len
+      integer(c_size_t), intent(out), optional :: rows
+      integer(c_int32_t) :: status
+    end function jam_cell_set
+
+    ! Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
+    ! new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1
+    function jam_strain(sys, strain, strain_len) &
+        bind(c, name="jam_strain") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), intent(in), optional :: strain(*)
+      integer(c_size_t), value :: strain_len
+      integer(c_int32_t) :: status
+    end function jam_strain
+
     ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
     function jam_set_progress(sys, callback, user) &
@@ -1261,7 +1319,7 @@ module jam
     ! Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
     ! that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
     ! refused. XYZ ids are not kept.
-    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
     ! and those of jam_create. Threads: any. @since 0.1
     function jam_read(path, o, out) &
         bind(c, name="jam_read") result(status)
@@ -2304,6 +2362,49 @@ module jam
       integer(c_size_t), value :: velocities_len
       integer(c_int32_t) :: status
     end function c_jam_set_velocities
+    function c_jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out) &
+        bind(c, name="jam_create_in_cell") result(status)
+      import
+      type(jam_create_options), intent(in), optional :: o
+      type(c_ptr), value :: cell
+      integer(c_size_t), value :: cell_len
+      type(c_ptr), value :: positions
+      integer(c_size_t), value :: positions_len
+      type(c_ptr), value :: diameters
+      integer(c_size_t), value :: diameters_len
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_create_in_cell
+    function c_jam_cell_get(sys, out, out_len, needed) &
+        bind(c, name="jam_cell_get") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_cell_get
+    function c_jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) &
+        bind(c, name="jam_cell_set") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: cell
+      integer(c_size_t), value :: cell_len
+      type(c_ptr), value :: transform
+      integer(c_size_t), value :: transform_len
+      type(c_ptr), value :: rotation
+      integer(c_size_t), value :: rotation_len
+      integer(c_size_t), intent(out), optional :: rows
+      integer(c_int32_t) :: status
+    end function c_jam_cell_set
+    function c_jam_strain(sys, strain, strain_len) &
+        bind(c, name="jam_strain") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: strain
+      integer(c_size_t), value :: strain_len
+      integer(c_int32_t) :: status
+    end function c_jam_strain
     function c_jam_read(path, o, out) &
         bind(c, name="jam_read") result(status)
       import
@@ -2828,6 +2929,26 @@ module jam
     module procedure f_jam_set_velocities
   end interface jam_set_velocities
 
+  interface jam_create_in_cell
+    procedure jam_create_in_cell
+    module procedure f_jam_create_in_cell
+  end interface jam_create_in_cell
+
+  interface jam_cell_get
+    procedure jam_cell_get
+    module procedure f_jam_cell_get
+  end interface jam_cell_get
+
+  interface jam_cell_set
+    procedure jam_cell_set
+    module procedure f_jam_cell_set
+  end interface jam_cell_set
+
+  interface jam_strain
+    procedure jam_strain
+    module procedure f_jam_strain
+  end interface jam_strain
+
   interface jam_read
     procedure jam_read
     module procedure f_jam_read
@@ -3066,6 +3187,10 @@ module jam
   private :: c_jam_create, f_jam_create
   private :: c_jam_set_positions, f_jam_set_positions
   private :: c_jam_set_velocities, f_jam_set_velocities
+  private :: c_jam_create_in_cell, f_jam_create_in_cell
+  private :: c_jam_cell_get, f_jam_cell_get
+  private :: c_jam_cell_set, f_jam_cell_set
+  private :: c_jam_strain, f_jam_strain
   private :: c_jam_read, f_jam_read
   private :: c_jam_write, f_jam_write
   private :: c_jam_checkpoint_write, f_jam_checkpoint_write
@@ -3210,6 +3335,105 @@ contains
     end if
     status = c_jam_set_velocities(sys, at_velocities, count_velocities)
   end function f_jam_set_velocities
+
+  function f_jam_create_in_cell(o, cell, positions, diameters, out) result(status)
+    type(jam_create_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: cell(..)
+    real(c_double), intent(in), target, contiguous, optional :: positions(..)
+    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_cell
+    integer(c_size_t) :: count_cell
+    type(c_ptr) :: at_positions
+    integer(c_size_t) :: count_positions
+    type(c_ptr) :: at_diameters
+    integer(c_size_t) :: count_diameters
+    at_cell = c_null_ptr
+    count_cell = 0
+    if (present(cell)) then
+      at_cell = c_loc(cell)
+      count_cell = size(cell, kind=c_size_t)
+    end if
+    at_positions = c_null_ptr
+    count_positions = 0
+    if (present(positions)) then
+      at_positions = c_loc(positions)
+      count_positions = size(positions, kind=c_size_t)
+    end if
+    at_diameters = c_null_ptr
+    count_diameters = 0
+    if (present(diameters)) then
+      at_diameters = c_loc(diameters)
+      count_diameters = size(diameters, kind=c_size_t)
+    end if
+    status = c_jam_create_in_cell(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
+      count_diameters, out)
+  end function f_jam_create_in_cell
+
+  function f_jam_cell_get(sys, out) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    status = c_jam_cell_get(sys, at_out, count_out)
+  end function f_jam_cell_get
+
+  function f_jam_cell_set(sys, cell, transform, rotation) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(in), target, contiguous, optional :: cell(..)
+    integer(c_int64_t), intent(inout), target, contiguous, optional :: transform(..)
+    real(c_double), intent(inout), target, contiguous, optional :: rotation(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_cell
+    integer(c_size_t) :: count_cell
+    type(c_ptr) :: at_transform
+    integer(c_size_t) :: count_transform
+    type(c_ptr) :: at_rotation
+    integer(c_size_t) :: count_rotation
+    at_cell = c_null_ptr
+    count_cell = 0
+    if (present(cell)) then
+      at_cell = c_loc(cell)
+      count_cell = size(cell, kind=c_size_t)
+    end if
+    at_transform = c_null_ptr
+    count_transform = 0
+    if (present(transform)) then
+      at_transform = c_loc(transform)
+      count_transform = size(transform, kind=c_size_t)
+    end if
+    at_rotation = c_null_ptr
+    count_rotation = 0
+    if (present(rotation)) then
+      at_rotation = c_loc(rotation)
+      count_rotation = size(rotation, kind=c_size_t)
+    end if
+    status = c_jam_cell_set(sys, at_cell, count_cell, at_transform, count_transform, at_rotation, &
+      count_rotation)
+  end function f_jam_cell_set
+
+  function f_jam_strain(sys, strain) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(in), target, contiguous, optional :: strain(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_strain
+    integer(c_size_t) :: count_strain
+    at_strain = c_null_ptr
+    count_strain = 0
+    if (present(strain)) then
+      at_strain = c_loc(strain)
+      count_strain = size(strain, kind=c_size_t)
+    end if
+    status = c_jam_strain(sys, at_strain, count_strain)
+  end function f_jam_strain
 
   function f_jam_read(path, o, out) result(status)
     character(*), intent(in) :: path

@@ -3,11 +3,16 @@
 %apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
 %apply (const double **VIEW, size_t *VIEW_LEN) {(const double **view, size_t *view_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *velocities, size_t velocities_len)};
-%apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *cell, size_t cell_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
 %apply size_t *RESULT {size_t *needed};
+%apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *transform, size_t transform_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *rotation, size_t rotation_len)};
+%apply size_t *RESULT {size_t *rows};
+%apply (const double *IN, size_t IN_LEN) {(const double *strain, size_t strain_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *displacement, size_t displacement_len)};
-%apply size_t *RESULT {size_t *rows};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *pair, size_t pair_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *momentum, size_t momentum_len)};
 %apply double *RESULT {double *time};
@@ -25,7 +30,6 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *distance2, size_t distance2_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *distance4, size_t distance4_len)};
 %apply int64_t *RESULT {int64_t *runs};
-%apply (double *FILL, size_t FILL_LEN) {(double *out, size_t out_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *iout, size_t iout_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *row_start, size_t row_start_len)};
 %apply (int32_t *FILL, size_t FILL_LEN) {(int32_t *column, size_t column_len)};
@@ -320,9 +324,9 @@ they draw the same ones. For independent runs give the copy its own with jam_set
 Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_destroy "Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1"
 %feature("docstring") jam_info_get "Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_positions_view "View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
-end of calls that move spheres. Threads: const.
-Errors: JAM_E_NULL. @since 0.1"
+%feature("docstring") jam_positions_view "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
+valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
+JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_diameters_view "View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_velocities_view "View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
 jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
@@ -332,6 +336,17 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
+frame of `cell`.
+Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1"
+%feature("docstring") jam_cell_get "Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1"
+%feature("docstring") jam_cell_set "Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
+crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
+x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
+JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
+new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1"
 %feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. Threads: alone.
@@ -341,7 +356,7 @@ stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: J
 %feature("docstring") jam_read "Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
 that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
 refused. XYZ ids are not kept.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
 and those of jam_create. Threads: any. @since 0.1"
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
 under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of

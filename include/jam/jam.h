@@ -8,13 +8,23 @@
  * then describe the jammed packing.
  *
  * Units
- * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1).
+ * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1), or
+ *   any periodic cell (jam_create_in_cell); then `box` is V^(1/d), V its volume.
  * - m = k_B T = 1: a velocity component has unit variance.
  * - Packing fraction, reduced pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth
  *   rates are dimensionless.
  * - sigma is always a DIAMETER. The growth rate is G = (d<sigma>/dt) / sqrt(kT/m), with
  *   <sigma> the mean diameter. (Skoge-Donev code: radius rate g at mean v^2 = 1, so
  *   G = 2 sqrt(d) g, 3.464 g in d = 3.)
+ *
+ * Cells
+ * - Cell vectors are the rows of a (d, d) matrix, as in ASE, extended XYZ and H5MD.
+ * - libjam keeps them short (Lenstra, Lenstra, Lovasz 1982) and lower-triangular, with a
+ *   positive diagonal. A cell given in another form is reduced, and rotated where it must
+ *   be. The spheres rotate with it.
+ * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
+ * - Molecular dynamics, Monte Carlo and jam_structure_factor need a cube. All else works in
+ *   any cell.
  *
  * Arrays
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
@@ -47,6 +57,7 @@
  * - dimension                 2 .. JAM_MAX_DIM
  * - spheres n                 1 .. 2^31 - 1
  * - box                       1e-30 .. 1e30
+ * - cell: distance of faces   at least 1e-3 box, after reduction
  * - diameter / box            1e-9 .. 1
  * - largest / least diameter  1 .. 1e4
  * - non_additivity            above -1, at most 1
@@ -212,8 +223,8 @@ typedef struct jam_info {
   int32_t dim;             /* d */
   int64_t n;               /* number of spheres */
   int64_t seed;            /* as recorded at creation */
-  double box;              /* side of the cube */
-  double packing_fraction; /* sum of sphere volumes over box^d */
+  double box;              /* side of the cube, V^(1/d) of another cell */
+  double packing_fraction; /* sum of sphere volumes over V */
   double diameter_mean;    /* mean diameter, unit of box */
   double pressure;         /* reduced pressure p last measured by MD, NaN before */
   int32_t model;           /* jam_model */
@@ -226,9 +237,9 @@ typedef struct jam_info {
 /* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_info_get(const jam_system *sys, jam_info *info);
 
-/* View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
- * end of calls that move spheres. Threads: const.
- * Errors: JAM_E_NULL. @since 0.1 */
+/* View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
+ * valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
+ * JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_positions_view(const jam_system *sys, const double **view, size_t *view_len);
 /* View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_diameters_view(const jam_system *sys, const double **view, size_t *view_len);
@@ -245,6 +256,27 @@ JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities,
 /* Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
+
+/* ------------------------------------------------------------------ the cell */
+
+/* jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
+ * frame of `cell`.
+ * Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1 */
+JAM_API jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len,
+                                      const double *positions, size_t positions_len, const double *diameters,
+                                      size_t diameters_len, jam_system **out);
+/* Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1 */
+JAM_API jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+/* Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
+ * crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
+ * x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
+ * JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
+                                size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
+/* Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
+ * new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 
 /* ------------------------------------------------------------------ progress, log, cancel */
 
@@ -317,7 +349,7 @@ typedef enum jam_format {
 /* Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
  * that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
  * refused. XYZ ids are not kept.
- * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+ * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
  * and those of jam_create. Threads: any. @since 0.1 */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
 /* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written

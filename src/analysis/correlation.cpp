@@ -5,6 +5,7 @@
 #include <map>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #ifdef JAM_HAVE_VORO
 #include <voro++/voro++.hh>
 #endif
@@ -47,6 +48,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
 
 StructureFactor structure_factor(const Packing &p, double q_max, const CancellationPoint &cancel_point,
                                  bool lengths_only) {
+  check_cube(p, "the structure factor");
   const int d = p.dim;
   const double unit = diameter_mean(p), step = 2.0 * M_PI / p.cell.side();
   if (!(q_max > 0.0 && std::isfinite(q_max)))
@@ -167,9 +169,12 @@ std::vector<double> local_fractions(const Packing &p) {
   if (p.dim != 3)
     fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
   if (p.model == JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no cells of their own");
-  // In the unit box: voro++ has absolute tolerances, and ends the process when it loses track of a cell.
+  // In a cell of volume 1: voro++ has absolute tolerances, and ends the process when it loses track of a cell.
   const int cells = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(p.n()) / 6.0)));
-  voro::container_periodic_poly box(1.0, 0.0, 1.0, 0.0, 0.0, 1.0, cells, cells, cells, 8);
+  const double side = p.cell.side();
+  const double *b = p.cell.row(1), *c = p.cell.row(2);
+  voro::container_periodic_poly box(p.cell.edge(0) / side, b[0] / side, b[1] / side, c[0] / side, c[1] / side,
+                                    c[2] / side, cells, cells, cells, 8);
   for (size_t i = 0; i < p.n(); ++i) {
     const double *x = &p.position[3 * i];
     box.put(static_cast<int>(i), x[0] / p.cell.side(), x[1] / p.cell.side(), x[2] / p.cell.side(),

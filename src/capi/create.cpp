@@ -27,6 +27,7 @@ void jam_system::show(const Packing &result) noexcept {
   std::copy(result.position.begin(), result.position.end(), packing.position.begin());
   std::copy(result.diameter.begin(), result.diameter.end(), packing.diameter.begin());
   std::copy(result.velocity.begin(), result.velocity.end(), packing.velocity.begin());
+  packing.cell = result.cell;
   packing.pressure = result.pressure;
   packing.has_velocity = result.has_velocity;
   note_diameters();
@@ -59,6 +60,23 @@ jam_status jam_create(const jam_create_options *o, const double *positions, size
     take_options(o, full);
     auto sys = std::make_unique<jam_system>();
     sys->packing = make_packing(full, positions, positions_len, diameters, diameters_len);
+    sys->note_diameters();
+    *out = sys.release();
+    return JAM_OK;
+  });
+}
+
+jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len, const double *positions,
+                              size_t positions_len, const double *diameters, size_t diameters_len, jam_system **out) {
+  return guard([&]() -> jam_status {
+    need(out, "out");
+    need(cell, "cell");
+    jam_create_options full = default_create_options();
+    take_options(o, full);
+    check_dim(full.dim);
+    check_matrix_len("cell", cell_len, full.dim);
+    auto sys = std::make_unique<jam_system>();
+    sys->packing = make_packing(full, positions, positions_len, diameters, diameters_len, cell);
     sys->note_diameters();
     *out = sys.release();
     return JAM_OK;

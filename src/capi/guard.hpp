@@ -181,6 +181,12 @@ jam_status give_array(const T *data, size_t count, T *out, size_t out_len, size_
   return JAM_OK;
 }
 
+// A (d, d) matrix in.
+inline void check_matrix_len(const char *name, size_t len, int dim) {
+  if (len != static_cast<size_t>(dim) * static_cast<size_t>(dim))
+    fail(JAM_E_ARGUMENT, "%s_len is %zu, it must be dim * dim = %d", name, len, dim * dim);
+}
+
 inline void check_array_in(const double *x, size_t len, const char *name) {
   if (len && !x) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
   for (size_t k = 0; k < len; ++k)

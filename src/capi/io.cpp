@@ -21,8 +21,8 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_system **
     if (file.box > 0.0) full.box = file.box;
     if (file.has_non_additivity) full.non_additivity = file.non_additivity;
     auto sys = std::make_unique<jam_system>();
-    sys->packing =
-        make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size());
+    sys->packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
+                                file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data());
     sys->note_diameters();
     *out = sys.release();
     return JAM_OK;

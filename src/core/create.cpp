@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/pair_rule.hpp"
@@ -266,7 +267,7 @@ void settle_overlaps(Packing &p, int32_t policy) {
 }
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
-                     const double *diameters, size_t diameters_len) {
+                     const double *diameters, size_t diameters_len, const double *cell) {
   check_options(o);
   if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
   if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
@@ -286,9 +287,10 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   if (positions_len) {
     p.position.resize(n * o.dim);
     p.position.assign(positions, positions + positions_len);
-    wrap_positions(p);
+    cell ? enter_cell(p, reduce_cell(p.dim, cell)) : wrap_positions(p);
     settle_overlaps(p, o.overlap);
   } else {
+    if (cell) p.cell = reduce_cell(p.dim, cell).cell;
     if (!(o.packing_fraction > 0.0) || !std::isfinite(o.packing_fraction))
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
     const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);

@@ -9,8 +9,9 @@ constexpr double overlap_tolerance = 1e-12;
 
 jam_create_options default_create_options();
 // Checks everything jam_create documents; positions_len == 0 means a random sequential start.
+// cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box.
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
-                     const double *diameters, size_t diameters_len);
+                     const double *diameters, size_t diameters_len, const double *cell = nullptr);
 // Throws JAM_E_OVERLAP naming the worst pair, or shrinks all diameters to contact, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
 // Throws JAM_E_OVERLAP naming the worst pair, and how to mend it, where one overlaps by more than the tolerance.

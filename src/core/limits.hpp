@@ -10,6 +10,7 @@ namespace limits {
 
 constexpr int64_t n_max = INT32_MAX;
 constexpr double box_min = 1e-30, box_max = 1e30;  // the eighth power and its inverse are doubles
+constexpr double cell_height_min = 1e-3;           // distance of two faces over V^(1/d), after reduction
 constexpr double diameter_min = 1e-9;              // over the box: coordinates resolve 1e-16 of it
 constexpr double size_ratio_max = 1e4;             // largest diameter over smallest
 constexpr double non_additivity_max = 1.0;         // and above -1: contact distances are positive
@@ -25,6 +26,8 @@ void check_range(const char *name, double value, double low, double high);
 void check_dim(int64_t dim);
 void check_n(int64_t n);
 void check_box(double box);
+// Integer coordinates of a cube: JAM_E_UNSUPPORTED names the verb.
+void check_cube(const Packing &p, const char *verb);
 void check_non_additivity(double delta);
 // Diameters in the unit of `box`: the smallest, and the ratio of the largest to it. That no sphere is wider than the
 // box is a question of overlaps (core/create.hpp).

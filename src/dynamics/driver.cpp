@@ -64,6 +64,7 @@ std::vector<int32_t> curve_order(const Packing &p) {
 }
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
+  check_cube(p, "molecular dynamics");
   const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(contact_distance_max(p) / p.cell.side());
   return choose(p, o, images, nullptr);
 }

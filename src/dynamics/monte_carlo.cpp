@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 
 namespace jam {
@@ -75,6 +76,7 @@ void check_monte_carlo_options(const jam_monte_carlo_options &o) {
 }
 
 void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
+  check_cube(p, "Monte Carlo");
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "Monte Carlo has no quenched shifts (JAM_MODEL_MK)");
   const double largest = largest_monte_carlo_step(p);
   if (!(largest > 0.0))

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 
+#include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/rng.hpp"
@@ -14,13 +15,14 @@
 namespace jam {
 namespace {
 
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '3'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '4'};
 
 struct Header {
   char magic[8];
   int64_t n, seed, redrawn, stage;
   int32_t dim, model, has_velocity, masses;  // has_velocity: 1, plus 2 where overlaps are allowed
-  double box, mk_zeta, pressure, non_additivity;
+  double mk_zeta, pressure, non_additivity;
+  double cell[JAM_MAX_DIM * JAM_MAX_DIM];  // (dim, dim) cell vectors, the rest 0
 };
 
 uint64_t checksum(const char *data, size_t size) {
@@ -72,7 +74,7 @@ void write_checkpoint(const Packing &p, const std::string &stage, const char *pa
   h.dim = p.dim;
   h.model = p.model;
   h.has_velocity = (p.has_velocity ? 1 : 0) | (p.overlap_allowed ? 2 : 0);
-  h.box = p.cell.side();
+  for (int k = 0; k < p.dim; ++k) std::copy(p.cell.row(k), p.cell.row(k) + p.dim, h.cell + k * p.dim);
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
   h.non_additivity = p.non_additivity;
@@ -107,7 +109,7 @@ Packing read_checkpoint(const char *path, std::string &stage) {
     fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(),
          static_cast<long long>(h.n));
   Packing p;
-  p.set_cube(h.dim, h.box);
+  p.dim = h.dim;
   p.seed = h.seed;
   p.model = h.model;
   p.masses = h.masses;
@@ -124,12 +126,17 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
   stage.assign(at, static_cast<size_t>(h.stage));
   check_dim(h.dim);
-  check_box(h.box);
+  const ReducedCell reduced = reduce_cell(h.dim, h.cell);
+  p.cell = reduced.cell;
   check_non_additivity(h.non_additivity);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
-  for (double x : p.position) good = good && x >= 0.0 && x < h.box;
-  for (double s : p.diameter) good = good && s > 0.0 && s <= h.box;
+  for (size_t k = 0; k < p.position.size(); ++k)
+    good = good && p.position[k] >= 0.0 && p.position[k] < p.cell.edge(static_cast<int>(k % d));
+  const double shortest = p.cell.shortest();
+  for (double s : p.diameter) good = good && s > 0.0 && s <= shortest;
+  for (int k = 0; k < h.dim; ++k)  // written in normal form
+    for (int c = 0; c < h.dim; ++c) good = good && p.cell.row(k)[c] == h.cell[k * h.dim + c];
   if (good) check_diameters(p.diameter, p.cell.side());
   for (double v : p.velocity) good = good && std::isfinite(v);
   const MkRedrawn *last = nullptr;

@@ -10,7 +10,8 @@ namespace jam {
 // What a file says, checked line by line but not yet for overlaps.
 struct FileContent {
   int dim = 0;
-  double box = 0.0;             // 0 when the file gives none
+  double box = 0.0;             // side of a cube; 0 when the file gives none
+  std::vector<double> cell;     // (dim, dim) vectors of a cell that is no cube, else empty
   double non_additivity = 0.0;  // of a non-additive mixture
   bool has_non_additivity = false;
   std::vector<double> position;  // (n, dim) as written, not wrapped

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "io/files.hpp"
@@ -146,20 +147,31 @@ Columns read_properties(const LineReader &in, std::string_view properties) {
   return columns;
 }
 
-// The cube's side from the 9 numbers of Lattice; in d = 2 the third vector is ignored.
-double read_lattice(const LineReader &in, std::string_view lattice, int dim) {
+// The d vectors of a cell in rows of `width` numbers; what does not belong to them must be 0 (d = 2 in three columns,
+// its third vector aside). A cube along the axes becomes content.box.
+void read_cell(const LineReader &in, std::string_view text, const char *name, size_t width, FileContent &content) {
   std::vector<std::string_view> words;
-  split(lattice, words);
-  if (words.size() != 9) in.fail(JAM_E_FORMAT, "Lattice has %zu numbers, 9 are needed", words.size());
-  const double side = take_box(in, words[0]);
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
-      const double x = parse_number(in, words[3 * row + column]);
-      if (row == 2 && column == 2 && dim == 2) continue;
-      if (x != (row == column ? side : 0.0))
-        in.fail(JAM_E_UNSUPPORTED, "Lattice '%s' is not a cube along the axes", shown(lattice).c_str());
+  split(text, words);
+  if (words.size() != width * width)
+    in.fail(JAM_E_FORMAT, "%s has %zu numbers, %zu are needed", name, words.size(), width * width);
+  const size_t d = std::min(width, static_cast<size_t>(content.dim));
+  bool cube = true;
+  for (size_t row = 0; row < width; ++row)
+    for (size_t column = 0; column < width; ++column) {
+      const double x = parse_number(in, words[width * row + column]);
+      if (row < d && column < d) {
+        content.cell.push_back(x);
+        cube = cube && x == (row == column ? content.cell.front() : 0.0);
+      } else if ((row < d || column < d) && x != 0.0) {
+        in.fail(JAM_E_UNSUPPORTED, "%s '%s' leaves the plane of the packing", name, shown(text).c_str());
+      }
     }
-  return side;
+  if (!cube && d < static_cast<size_t>(content.dim))
+    in.fail(JAM_E_UNSUPPORTED, "%s '%s' is not a cube: in d = %d the %d vectors are needed as cell=", name,
+            shown(text).c_str(), content.dim, content.dim);
+  if (!cube) return at_line(in, [&] { reduce_cell(content.dim, content.cell.data()); });
+  content.cell.clear();
+  content.box = take_box(in, words[0]);
 }
 
 // Every direction must be periodic, as T, True or 1; in d = 2 the third one is ignored.
@@ -183,7 +195,11 @@ FileContent read_xyz(LineReader &in, int64_t n, std::string_view comment) {
   if (dim != static_cast<int64_t>(columns.pos_count) && !(dim == 2 && columns.pos_count == 3))
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
   if (!find_key(in, comment, "Lattice", value)) in.fail(JAM_E_FORMAT, "no Lattice=");
-  content.box = read_lattice(in, value, content.dim);
+  std::string_view whole;
+  if (content.dim > 3 && find_key(in, comment, "cell", whole))
+    read_cell(in, whole, "cell", static_cast<size_t>(content.dim), content);
+  else
+    read_cell(in, value, "Lattice", 3, content);
   if (find_key(in, comment, "pbc", value)) check_periodic(in, value, content.dim);
   if (find_key(in, comment, "non_additivity", value)) {
     content.non_additivity = parse_number(in, value);

@@ -36,19 +36,30 @@ void write_plain(const Packing &p, OutputFile &file) {
   }
 }
 
+// The first `width` cell vectors; those that the dimension does not have are `box` along their axis.
+void write_cell(const Packing &p, int width, std::string &out) {
+  for (int row = 0; row < width; ++row)
+    for (int column = 0; column < width; ++column) {
+      if (row + column > 0) out += ' ';
+      if (row == column)
+        append_number(out, row < p.dim ? p.cell.edge(row) : p.cell.side());
+      else if (row < p.dim && column < row && p.cell.row(row)[column] != 0.0)
+        append_number(out, p.cell.row(row)[column]);
+      else
+        out += '0';
+    }
+}
+
 // d = 2 gets a third coordinate 0, because OVITO and ASE expect three. `dim` tells readers.
 void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
   std::string &out = file.text();
   const int columns = p.dim == 2 ? 3 : p.dim;
   out += std::to_string(p.n()) + "\nLattice=\"";
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) {
-      if (row == column)
-        append_number(out, p.cell.side());
-      else
-        out += '0';
-      if (row + column < 4) out += ' ';
-    }
+  write_cell(p, 3, out);
+  if (p.dim > 3 && !p.cell.cube()) {  // Lattice has room for three vectors only
+    out += "\" cell=\"";
+    write_cell(p, p.dim, out);
+  }
   out += "\" Properties=id:I:1:pos:R:" + std::to_string(columns) + ":radius:R:1";
   if (coordination) out += ":contacts:I:1";
   out += p.dim == 2 ? " pbc=\"T T F\"" : " pbc=\"T T T\"";
@@ -100,6 +111,8 @@ void write_file(const Packing &p, const std::vector<int32_t> *coordination, cons
   if (!xyz && p.non_additivity != 0.0)
     fail(JAM_E_UNSUPPORTED, "plain text cannot hold non_additivity = %g: write extended XYZ or a checkpoint",
          p.non_additivity);
+  if (!xyz && !p.cell.cube())
+    fail(JAM_E_UNSUPPORTED, "plain text cannot hold a cell that is no cube: write extended XYZ or a checkpoint");
   OutputFile file(path);
   if (xyz)
     write_xyz(p, coordination, file);

@@ -62,10 +62,14 @@ static void bad_xyz_files_are_refused(void **state) {
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 dim=4\n0 0 0 0.1\n", JAM_E_FORMAT, "dim is 4");
   expect_refused("1\nLattice=\"1 0 0\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT,
                  "Lattice has 3 numbers");
-  expect_refused("1\nLattice=\"1 0 0 0 2 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
+  expect_refused("1\nLattice=\"1 0 0 0 2 0 0 0 1\" Properties=pos:R:4:radius:R:1\n0 0 0 0 0.1\n", JAM_E_UNSUPPORTED,
                  "not a cube");
-  expect_refused("1\nLattice=\"1 0 0 0.5 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
-                 "not a cube");
+  expect_refused("1\nLattice=\"1 0 0 0 0 1 0 1 0\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_ARGUMENT,
+                 "line 2: the cell vectors have the determinant -1");
+  expect_refused("1\nLattice=\"1 0 0 2 0 0 0 0 1\" Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_ARGUMENT,
+                 "linearly dependent");
+  expect_refused("1\nLattice=\"1 0 0 0 1 0.5 0 0 1\" Properties=pos:R:2:radius:R:1\n0 0 0.1\n", JAM_E_UNSUPPORTED,
+                 "leaves the plane");
   expect_refused("1\nLattice=\"1 0 0 0 1 0 0 0 1 Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT,
                  "not closed");
   expect_refused("2\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 0 0.1\n", JAM_E_FORMAT, "after 1 of 2");

@@ -327,8 +327,8 @@ class Info:
     dim: d
     n: number of spheres
     seed: as recorded at creation
-    box: side of the cube
-    packing_fraction: sum of sphere volumes over box^d
+    box: side of the cube, V^(1/d) of another cell
+    packing_fraction: sum of sphere volumes over V
     diameter_mean: mean diameter, unit of box
     pressure: reduced pressure p last measured by MD, NaN before
     model: jam_model
@@ -962,6 +962,9 @@ CALLS = {
     "jam_set_positions": (True, (("positions", "array_in", "double"), ("positions_len", "len", "size_t"))),
     "jam_set_velocities": (True, (("velocities", "array_in", "double"), ("velocities_len", "len", "size_t"))),
     "jam_scale_diameters": (True, (("factor", "scalar", "double"),)),
+    "jam_cell_get": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_cell_set": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
     "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "int32_t"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),

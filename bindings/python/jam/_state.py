@@ -22,10 +22,10 @@ class State(Base):
 
     n = property(lambda self: self._constant("n"), doc="Number of spheres.")
     dim = property(lambda self: self._constant("dim"), doc="Dimension d.")
-    box = property(lambda self: self._constant("box"), doc="Side of the cube.")
+    box = property(lambda self: self.info.box, doc="Side of the cube; V^(1/d) of another cell.")
     seed = property(lambda self: self._constant("seed"), doc="Seed recorded at creation.")
     packing_fraction = property(
-        lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the box."
+        lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the cell."
     )
     pressure = property(lambda self: self.info.pressure, doc="Reduced pressure last measured by MD, nan before.")
 
@@ -44,7 +44,7 @@ class State(Base):
 
     @property
     def positions(self) -> np.ndarray:
-        """Positions in [0, box), shape (n, d): a read-only view without copy that follows the system.
+        """Positions in [0, box), or in the brick of another cell, shape (n, d): a read-only view without copy that follows the system.
 
         Assign a new array to move the spheres.
         """
@@ -75,6 +75,33 @@ class State(Base):
     def diameters(self) -> np.ndarray:
         """Diameters in the unit of the box, shape (n,): a read-only view."""
         return self._show(raw.jam_diameters_view, flat=True)
+
+    @property
+    def cell(self) -> np.ndarray:
+        """Cell vectors, shape (d, d), one a row: short and lower-triangular.
+
+        Assign other vectors to change the cell at fixed Cartesian positions. The spheres rotate with the cell where it
+        must be rotated.
+        """
+        out = np.empty((self.dim, self.dim))
+        raw.jam_cell_get(self.handle, out.reshape(-1))
+        return out
+
+    @cell.setter
+    def cell(self, vectors: Any) -> None:
+        raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None)
+        self._carried = None
+
+    def strain(self, strain: Any) -> None:
+        """Deforms cell and positions by r -> (1 + strain) r, strain of shape (d, d); diameters stay."""
+        raw.jam_strain(self.handle, self._matrix(strain, "strain"))
+        self._carried = None
+
+    def _matrix(self, values: Any, name: str) -> np.ndarray:
+        x = _calls.as_array(values, name=name)
+        if x.shape != (self.dim, self.dim):
+            raise ValueError(f"{name} must have shape ({self.dim}, {self.dim}), not {x.shape}")
+        return x.reshape(-1)
 
     def scale_diameters(self, factor: float) -> None:
         """Multiplies all diameters by factor."""

@@ -45,13 +45,16 @@ def _colours(system: System) -> np.ndarray:
     return colours
 
 
-def _project(x: np.ndarray, box: float, view: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+_IMAGES = [np.array([i, j]) for i in range(-2, 3) for j in (-1, 0, 1)]  # a_1 may lean half of a_0 either way
+
+
+def _project(x: np.ndarray, edges: np.ndarray, view: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Parallel projection of (..., 3): plane coordinates and depth in -1 (far) .. 1 (near)."""
     turn, tilt = np.radians(view)
     a = np.array([[math.cos(turn), math.sin(turn), 0], [-math.sin(turn), math.cos(turn), 0], [0, 0, 1]])
     b = np.array([[1, 0, 0], [0, math.cos(tilt), -math.sin(tilt)], [0, math.sin(tilt), math.cos(tilt)]])
-    y = (x - 0.5 * box) @ (b @ a).T
-    return y[..., [0, 2]], -y[..., 1] / (0.87 * box)
+    y = (x - 0.5 * edges) @ (b @ a).T
+    return y[..., [0, 2]], -y[..., 1] / (0.5 * float(np.linalg.norm(edges)))
 
 
 def _circles(ax: Any, centres: np.ndarray, diameters: Any, colours: Any, **more: Any) -> None:
@@ -74,9 +77,9 @@ def _circles(ax: Any, centres: np.ndarray, diameters: Any, colours: Any, **more:
     )
 
 
-def _cube(ax: Any, box: float, view: tuple[float, float], front: bool) -> None:
-    corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float) * box
-    flat, depth = _project(corners, box, view)
+def _brick(ax: Any, edges: np.ndarray, view: tuple[float, float], front: bool) -> None:
+    corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float) * edges
+    flat, depth = _project(corners, edges, view)
     near = np.argmax(depth)
     for i in range(8):
         for axis in (1, 2, 4):
@@ -85,12 +88,14 @@ def _cube(ax: Any, box: float, view: tuple[float, float], front: bool) -> None:
                 ax.plot(*flat[[i, j]].T, color=COLOURS["line"], lw=0.8, zorder=5 if front else 0)
 
 
-def _frame(ax: Any, box: float, dim: int) -> None:
+def _frame(ax: Any, edges: np.ndarray) -> None:
+    dim = len(edges)
     ax.set_aspect("equal")
     if dim == 2:
-        ax.set(xlim=(0, box), ylim=(0, box))
+        ax.set(xlim=(0, edges[0]), ylim=(0, edges[1]))
     else:
-        ax.set(xlim=(-0.82 * box, 0.82 * box), ylim=(-0.82 * box, 0.82 * box))
+        half = 0.82 * float(edges.max())
+        ax.set(xlim=(-half, half), ylim=(-half, half))
     ax.set(xticks=[], yticks=[])
     if dim == 3:
         ax.set_axis_off()
@@ -125,21 +130,22 @@ def packing(
     system: System, ax: Any = None, *, forces: bool = False, view: tuple[float, float] = VIEW, legend: bool = True
 ) -> Any:
     """The spheres, bucklers (d + 1 contacts) and rattlers coloured; with forces=True (d = 2) the network over them."""
-    dim, ax, box = _drawable(system), _axes(ax, True), system.box
+    dim, ax, cell = _drawable(system), _axes(ax, True), system.cell
+    edges, box = np.diag(cell), system.box
     x, s, colours = system.positions, system.diameters, _colours(system)
     if dim == 2:
-        for shift in [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]:
-            y = x + np.multiply(shift, box)
-            seen = ((y > -0.5 * s[:, None]) & (y < box + 0.5 * s[:, None])).all(1)
+        for shift in _IMAGES:
+            y = x + shift @ cell
+            seen = ((y > -0.5 * s[:, None]) & (y < edges + 0.5 * s[:, None])).all(1)
             _circles(ax, y[seen], s[seen], colours[seen], edgecolors="white", linewidths=0.4)
         if forces:
             network(system, ax, legend=False, colour="black", width=0.06 * 380 * float(s.mean()) / box)
     else:
-        flat, depth = _project(x, box, view)
+        flat, depth = _project(x, edges, view)
         order = np.argsort(depth)
         tone = 0.62 + 0.38 * (depth[order, None] + 1) / 2
         shaded = 1 - (1 - colours[order]) * tone
-        _cube(ax, box, view, False)
+        _brick(ax, edges, view, False)
         for k, sphere in enumerate(order):  # far to near, each with a highlight
             _circles(
                 ax,
@@ -158,8 +164,8 @@ def packing(
                 edgecolors="none",
                 zorder=2 + (k + 0.5) * 1e-6,
             )
-        _cube(ax, box, view, True)
-    _frame(ax, box, dim)
+        _brick(ax, edges, view, True)
+    _frame(ax, edges)
     if legend:
         _legend(ax, system)
     return ax
@@ -177,14 +183,15 @@ def network(
     """The force network: each contact a line whose width grows with its force. width: points at the mean force."""
     from matplotlib.collections import LineCollection
 
-    dim, ax, box = _drawable(system), _axes(ax, True), system.box
+    dim, ax, cell = _drawable(system), _axes(ax, True), system.cell
+    edges, box = np.diag(cell), system.box
     ends, index = half_bonds(system)
     force = system.forces[index]
     if dim == 2:
         width = width or 0.1 * 380 * float(system.diameters.mean()) / box
-        for shift in [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]:
-            moved = ends + np.multiply(shift, box)
-            seen = ((moved > 0) & (moved < box)).any(1).all(1)
+        for shift in _IMAGES:
+            moved = ends + shift @ cell
+            seen = ((moved > 0) & (moved < edges)).any(1).all(1)
             ax.add_collection(
                 LineCollection(
                     moved[seen],
@@ -198,11 +205,11 @@ def network(
         from matplotlib.colors import to_rgb
 
         width = width or 0.07 * 240 * float(system.diameters.mean()) / box
-        flat, depth = _project(ends, box, view)
+        flat, depth = _project(ends, edges, view)
         depth = depth.mean(1)
         order = np.argsort(depth)
         tone = 0.2 + 0.8 * (depth[order, None] + 1) / 2
-        _cube(ax, box, view, False)
+        _brick(ax, edges, view, False)
         ax.add_collection(
             LineCollection(
                 flat[order],
@@ -212,8 +219,8 @@ def network(
                 colors=1 - (1 - np.array(to_rgb(colour or COLOURS["force"]))) * tone,
             )
         )
-        _cube(ax, box, view, True)
-    _frame(ax, box, dim)
+        _brick(ax, edges, view, True)
+    _frame(ax, edges)
     if legend:
         ax.set_title(f"{len(system.contacts)} contacts, width by force", fontsize=10)
     return ax

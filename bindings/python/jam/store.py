@@ -145,8 +145,7 @@ def _h5md(file: Any, system: System) -> None:
     position.create_dataset("step", data=np.zeros(1, np.int64))
     position.create_dataset("time", data=np.zeros(1))
     edges = box.create_group("edges")
-    cell = getattr(system, "cell", None)
-    edges.create_dataset("value", data=(np.eye(system.dim) * system.box if cell is None else np.asarray(cell))[None])
+    edges.create_dataset("value", data=system.cell[None])
     edges["step"], edges["time"] = position["step"], position["time"]
 
 

@@ -17,7 +17,7 @@ __all__ = ["Contacts", "Modes", "System"]
 
 
 class System(State, Verbs, Network):
-    """N spheres in a periodic cube.
+    """N spheres in a periodic cube, or in any periodic cell.
 
     Make one by `System.random`, `System.from_arrays` or `System.read`. `run`, `compress` and `crunch` move the spheres.
     `report`, `contacts`, `forces`, `gaps`, `hessian` and `modes` describe the jammed network.
@@ -66,7 +66,7 @@ class System(State, Verbs, Network):
         diameters : array_like, optional
             n values; only their ratios count. Default: all equal.
         **options
-            box, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity.
+            box or cell, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity.
 
         Examples
         --------
@@ -81,7 +81,14 @@ class System(State, Verbs, Network):
 
     @classmethod
     def from_arrays(
-        cls, positions: Any, diameters: Any = None, box: float = 1.0, *, radii: Any = None, **options: Any
+        cls,
+        positions: Any,
+        diameters: Any = None,
+        box: float = 1.0,
+        *,
+        radii: Any = None,
+        cell: Any = None,
+        **options: Any,
     ) -> "System":
         """Spheres at given positions.
 
@@ -94,6 +101,8 @@ class System(State, Verbs, Network):
             One for each sphere, or one for all.
         box : float
             Side of the periodic cube.
+        cell : array_like, shape (d, d), optional
+            Instead of box: cell vectors, one a row. Positions are in the frame of these vectors.
         radii : array_like, shape (n,), or float, optional
             Instead of diameters.
         **options
@@ -121,7 +130,8 @@ class System(State, Verbs, Network):
             raise ValueError(f"positions must have shape (n, d), not {x.shape}: transposed? Pass positions.T")
         if sizes.ndim > 1 or sizes.size not in (1, len(x)):
             raise ValueError(f"{name} must be one number or have shape ({len(x)},), not {sizes.shape}")
-        return cls._create(dict(options, n=len(x), dim=x.shape[1], box=box), x.reshape(-1), sizes.reshape(-1))
+        options.update(n=len(x), dim=x.shape[1], box=box, cell=cell)
+        return cls._create(options, x.reshape(-1), sizes.reshape(-1))
 
     @classmethod
     def read(cls, path: str | os.PathLike, **options: Any) -> "System":
@@ -145,8 +155,14 @@ class System(State, Verbs, Network):
 
     @classmethod
     def _create(cls, options: dict, positions: Any, diameters: Any) -> "System":
+        cell = options.pop("cell", None)
         made = _calls.options("jam_create_options", options)
-        return cls(raw.jam_create(made, positions, diameters)[1])
+        if cell is None:
+            return cls(raw.jam_create(made, positions, diameters)[1])
+        vectors = _calls.as_array(cell, name="cell")
+        if vectors.shape != (options["dim"],) * 2:
+            raise ValueError(f"cell must have shape ({options['dim']}, {options['dim']}), not {vectors.shape}")
+        return cls(raw.jam_create_in_cell(made, vectors.reshape(-1), positions, diameters)[1])
 
     # ---- life
     def close(self) -> None:

@@ -284,8 +284,8 @@ mutable struct jam_info
     dim::Int32  # d
     n::Int64  # number of spheres
     seed::Int64  # as recorded at creation
-    box::Cdouble  # side of the cube
-    packing_fraction::Cdouble  # sum of sphere volumes over box^d
+    box::Cdouble  # side of the cube, V^(1/d) of another cell
+    packing_fraction::Cdouble  # sum of sphere volumes over V
     diameter_mean::Cdouble  # mean diameter, unit of box
     pressure::Cdouble  # reduced pressure p last measured by MD, NaN before
     model::Int32  # jam_model
@@ -867,9 +867,9 @@ function jam_info_get(sys, info)
 end
 
 """
-View of positions (n, d) in [0, box). The pointer stays valid as long as the handle. Its content changes only at the
-end of calls that move spheres. Threads: const.
-Errors: JAM_E_NULL. @since 0.1
+View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
+valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
+JAM_E_NULL. @since 0.1
 """
 function jam_positions_view(sys, view, view_len)
     return ccall((:jam_positions_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
@@ -915,6 +915,41 @@ function jam_scale_diameters(sys, factor)
 end
 
 """
+jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
+frame of `cell`.
+Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1
+"""
+function jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out)
+    return ccall((:jam_create_in_cell, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)
+end
+
+"""
+Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1
+"""
+function jam_cell_get(sys, out, out_len, needed)
+    return ccall((:jam_cell_get, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
+crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
+x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
+JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
+    return ccall((:jam_cell_set, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
+end
+
+"""
+Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
+new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1
+"""
+function jam_strain(sys, strain, strain_len)
+    return ccall((:jam_strain, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(strain), strain_len)
+end
+
+"""
 Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
 """
@@ -942,7 +977,7 @@ end
 Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
 that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
 refused. XYZ ids are not kept.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is no cube),
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
 and those of jam_create. Threads: any. @since 0.1
 """
 function jam_read(path, o, out)

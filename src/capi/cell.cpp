@@ -1,0 +1,63 @@
+// Header section "the cell": cell vectors and affine strain.
+#include <algorithm>
+
+#include "capi/analysis.hpp"
+#include "capi/guard.hpp"
+#include "core/cell_reduction.hpp"
+#include "core/create.hpp"
+
+using namespace jam;
+
+namespace {
+
+// What follows a change of the cell: overlaps are settled as at creation, results are dropped.
+void take_cell(jam_system *sys, Packing &p) {
+  settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+  sys->commit(p);
+  sys->drop_results();
+}
+
+}  // namespace
+
+extern "C" {
+
+jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+  return guard_const(sys, [&]() -> jam_status {
+    const int d = sys->packing.dim;
+    std::vector<double> rows;
+    for (int c = 0; c < d; ++c) rows.insert(rows.end(), sys->packing.cell.row(c), sys->packing.cell.row(c) + d);
+    return give_array(rows.data(), rows.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform, size_t transform_len,
+                        double *rotation, size_t rotation_len, size_t *rows) {
+  return guard_set(sys, [&]() -> jam_status {
+    need(cell, "cell");
+    Packing p = sys->packing;
+    check_matrix_len("cell", cell_len, p.dim);
+    check_output(transform, transform_len, cell_len, "transform");
+    check_output(rotation, rotation_len, cell_len, "rotation");
+    const ReducedCell reduced = reduce_cell(p.dim, cell);
+    enter_cell(p, reduced);
+    take_cell(sys, p);
+    put_output(reduced.transform, transform, cell_len);
+    put_output(reduced.rotation, rotation, cell_len);
+    if (rows) *rows = static_cast<size_t>(p.dim);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len) {
+  return guard_set(sys, [&]() -> jam_status {
+    need(strain, "strain");
+    Packing p = sys->packing;
+    check_matrix_len("strain", strain_len, p.dim);
+    check_array_in(strain, strain_len, "strain");
+    strain_affinely(p, strain);
+    take_cell(sys, p);
+    return JAM_OK;
+  });
+}
+
+}  // extern "C"

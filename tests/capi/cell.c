@@ -1,0 +1,241 @@
+/* Cells of any shape: normal form, the same lattice by other vectors, strain, files, verdicts, what is refused. */
+#include <jam/jam.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "test.h"
+
+static jam_create_options options(int32_t dim, int64_t n) {
+  jam_create_options o;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim, o.n = n;
+  return o;
+}
+
+static double dot(const double *a, const double *b, int d) {
+  double sum = 0.0;
+  for (int c = 0; c < d; ++c) sum += a[c] * b[c];
+  return sum;
+}
+
+static void normal_form(void **state) {
+  (void)state;
+  const double cell[9] = {5.0, 0.4, 0.1, 0.3, 1.1, 0.2, 0.2, 9.3, 2.0};
+  double reduced[9], rotation[9], given[9];
+  int64_t transform[9];
+  size_t needed = 0, rows = 0;
+  jam_create_options o = options(3, 1);
+  jam_system *sys = NULL;
+  const double x[3] = {0.7, -0.4, 0.9}, sigma = 0.1;
+  const double *at = NULL;
+  assert_int_equal(jam_create(&o, x, 3, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(jam_cell_set(sys, cell, 9, transform, 9, rotation, 9, &rows), JAM_OK);
+  assert_int_equal(rows, 3);
+  assert_int_equal(jam_cell_get(sys, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 9);
+  assert_int_equal(jam_cell_get(sys, reduced, 8, &needed), JAM_E_BUFFER);
+  assert_int_equal(jam_cell_get(sys, reduced, 9, NULL), JAM_OK);
+  for (int r = 0; r < 3; ++r) {
+    assert_true(reduced[4 * r] > 0.0);
+    for (int c = r + 1; c < 3; ++c) assert_true(reduced[3 * r + c] == 0.0);
+    for (int c = 0; c < r; ++c) assert_true(fabs(reduced[3 * r + c]) <= 0.5 * reduced[4 * c] * (1 + 1e-9));
+    for (int c = 0; c < 3; ++c) {
+      assert_true(fabs(dot(rotation + 3 * r, rotation + 3 * c, 3) - (r == c)) < 1e-14);
+      given[3 * r + c] = 0.0; /* T cell, which the rotation takes to the reduced rows */
+      for (int k = 0; k < 3; ++k) given[3 * r + c] += (double)transform[3 * r + k] * cell[3 * k + c];
+    }
+    for (int c = 0; c < 3; ++c) assert_true(fabs(dot(rotation + 3 * c, given + 3 * r, 3) - reduced[3 * r + c]) < 1e-13);
+  }
+  assert_int_equal(jam_positions_view(sys, &at, &needed), JAM_OK);
+  assert_true(at[0] >= 0.0 && at[0] < reduced[0] && at[1] < reduced[4] && at[2] < reduced[8]);
+  /* a cell in normal form comes back to the last bit, and nothing rotates */
+  assert_int_equal(jam_cell_set(sys, reduced, 9, transform, 9, rotation, 9, NULL), JAM_OK);
+  assert_int_equal(jam_cell_get(sys, given, 9, NULL), JAM_OK);
+  assert_memory_equal(given, reduced, sizeof reduced);
+  for (int k = 0; k < 9; ++k) assert_true(transform[k] == (k % 4 == 0) && rotation[k] == (k % 4 == 0));
+  jam_destroy(sys);
+}
+
+/* A triangular lattice of side^2 disks without those of `holes`, by vectors with or without a large tilt. */
+static jam_system *hexagonal(int side, int holes, double tilt) {
+  const double h = sqrt(0.75), sigma = 1.0;
+  double x[2 * 64];
+  const double cell[4] = {side, 0.0, 0.5 * side + tilt * side, h * side};
+  size_t n = 0;
+  jam_system *sys = NULL;
+  for (int k = holes; k < side * side; ++k, ++n) {
+    x[2 * n] = k % side + 0.5 * (k / side);
+    x[2 * n + 1] = h * (k / side);
+  }
+  jam_create_options o = options(2, (int64_t)n);
+  assert_int_equal(jam_create_in_cell(&o, cell, 4, x, 2 * n, &sigma, 1, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_rigidity_report rigidity(jam_system *sys, int32_t kind) {
+  jam_rigidity_report r;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  assert_true(jam_rigidity(sys, kind, &r) >= 0);
+  return r;
+}
+
+/* Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004): a vacancy leaves the triangular lattice
+ * strictly jammed, two in a row do not. Flexes counted by an independent program. */
+static void triangular_lattices(void **state) {
+  (void)state;
+  const struct { int holes, jammed, flexes; } cases[] = {{0, 1, 0}, {1, 1, 0}, {2, 0, 2}, {3, 0, 6}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
+    for (int tilt = 0; tilt <= 5; tilt += 5) {
+      jam_system *sys = hexagonal(8, cases[k].holes, tilt);
+      jam_info info = {.struct_size = sizeof info};
+      assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+      assert_true(fabs(info.packing_fraction - (64 - cases[k].holes) / 64.0 * M_PI / sqrt(12.0)) < 1e-14);
+      assert_true(jam_contacts_from_geometry(sys, NULL, NULL) >= 0);
+      for (int32_t kind = JAM_RIGIDITY_COLLECTIVE; kind <= JAM_RIGIDITY_STRICT; ++kind) {
+        const jam_rigidity_report r = rigidity(sys, kind);
+        assert_int_equal(r.jammed, cases[k].jammed ? JAM_VERDICT_YES : JAM_VERDICT_NO);
+        assert_int_equal(r.flexes, cases[k].flexes);
+      }
+      jam_destroy(sys);
+    }
+}
+
+/* A random start in one basis, crunched in two: the same jammed packing. */
+static void crunch_does_not_depend_on_the_basis(void **state) {
+  (void)state;
+  for (int32_t dim = 2; dim <= 3; ++dim) {
+    const int64_t n = 60;
+    double cell[9] = {0.0}, wide[9], sizes[60], distance[2];
+    int64_t contacts[2];
+    jam_create_options o = options(dim, n);
+    jam_system *sys = NULL;
+    o.packing_fraction = dim == 2 ? 0.4 : 0.25;
+    for (int r = 0; r < dim; ++r)
+      for (int c = 0; c <= r; ++c) cell[r * dim + c] = r == c ? 1.0 + 0.1 * r : 0.3;
+    for (int k = 0; k < 60; ++k) sizes[k] = k % 2 ? 1.4 : 1.0;
+    assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, sizes, (size_t)n, &sys), JAM_OK);
+    memcpy(wide, cell, sizeof cell);
+    wide[(dim - 1) * dim] += 5.0 * cell[0];
+    for (int k = 0; k < 2; ++k) {
+      jam_crunch_report r = {.struct_size = sizeof r};
+      jam_system *copy = NULL;
+      assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+      if (k) assert_int_equal(jam_cell_set(copy, wide, (size_t)(dim * dim), NULL, 0, NULL, 0, NULL), JAM_OK);
+      assert_int_equal(jam_crunch(copy, NULL, &r), JAM_OK);
+      assert_int_equal(r.jammed, 1);
+      assert_int_equal(r.excess_contacts, 0);
+      assert_true(r.max_overlap < 1e-13 && r.force_residual < 1e-12);
+      distance[k] = r.packing_fraction, contacts[k] = r.contacts;
+      jam_destroy(copy);
+    }
+    assert_true(fabs(distance[1] - distance[0]) < 1e-12); /* the reduced bases are equal to the last digits */
+    assert_int_equal(contacts[0], contacts[1]);
+    jam_destroy(sys);
+  }
+}
+
+/* A shear and its reverse give the energy back, through a reduction of the cell in between. */
+static void shear_and_back(void **state) {
+  (void)state;
+  jam_create_options o = options(2, 40);
+  jam_system *sys = NULL;
+  const double shear[3][4] = {{0.0, 0.8, 0.0, 0.0}, {0.0, -0.8, 0.0, 0.0}, {0.0}};
+  double energy[3], cell[4];
+  o.overlap = JAM_OVERLAP_ALLOW, o.packing_fraction = 0.9;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  for (int k = 0; k < 3; ++k) {
+    jam_relax_report r = {.struct_size = sizeof r};
+    jam_relax_options ro;
+    jam_system *copy = NULL;
+    assert_int_equal(jam_relax_options_init(&ro, sizeof ro), JAM_OK);
+    ro.max_evaluations = 1;
+    assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+    assert_true(jam_relax(copy, &ro, &r) >= 0);
+    energy[k] = r.energy;
+    jam_destroy(copy);
+    assert_int_equal(jam_strain(sys, shear[k], 4), JAM_OK);
+  }
+  assert_true(fabs(energy[2] - energy[0]) < 1e-12 * energy[0]);
+  assert_true(fabs(energy[1] - energy[0]) > 1e-3 * energy[0]);
+  assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK);
+  assert_true(fabs(cell[0] * cell[3] - 1.0) < 1e-14); /* a shear keeps the volume */
+  jam_destroy(sys);
+}
+
+static void files(void **state) {
+  (void)state;
+  const char *const path = "cell_test.xyz", *const plain = "cell_test.dat", *const check = "cell_test.check";
+  for (int32_t dim = 2; dim <= 5; ++dim) {
+    double cell[25] = {0.0}, back[25];
+    const double *x = NULL, *y = NULL;
+    size_t len = 0, count = (size_t)(dim * dim);
+    jam_create_options o = options(dim, 12);
+    jam_system *sys = NULL, *other = NULL;
+    for (int r = 0; r < dim; ++r)
+      for (int c = 0; c <= r; ++c) cell[r * dim + c] = r == c ? 1.0 + r / 7.0 : c % 2 ? 0.1 : -1.0 / 3.0;
+    o.packing_fraction = 0.01;
+    assert_int_equal(jam_create_in_cell(&o, cell, count, NULL, 0, NULL, 0, &sys), JAM_OK);
+    assert_int_equal(jam_cell_get(sys, cell, count, NULL), JAM_OK);
+    assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
+    assert_int_equal(jam_write(sys, plain, JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
+    assert_int_equal(jam_write(sys, path, JAM_FORMAT_AUTO), JAM_OK);
+    assert_int_equal(jam_checkpoint_write(sys, check), JAM_OK);
+    for (int k = 0; k < 2; ++k) {
+      assert_int_equal(k ? jam_checkpoint_read(check, &other) : jam_read(path, NULL, &other), JAM_OK);
+      assert_int_equal(jam_cell_get(other, back, count, NULL), JAM_OK);
+      assert_memory_equal(back, cell, count * sizeof *cell);
+      assert_int_equal(jam_positions_view(other, &y, &len), JAM_OK);
+      assert_memory_equal(x, y, len * sizeof *x);
+      jam_destroy(other);
+    }
+    jam_destroy(sys);
+  }
+  remove(path), remove(check);
+}
+
+static void refused(void **state) {
+  (void)state;
+  const double left[4] = {1, 0, 0, -1}, singular[4] = {1, 2, 2, 4}, flat[4] = {1, 0, 0, 1e-7},
+               nan_cell[4] = {1, 0, NAN, 1}, zero[4] = {0}, tall[4] = {1.0, 0.0, 0.0, 2.0}, sigma = 0.9,
+               x[4] = {0.0, 0.0, 0.5, 1.0};
+  jam_create_options o = options(2, 2);
+  jam_system *sys = NULL;
+  size_t rows = 0;
+  assert_int_equal(jam_create_in_cell(&o, left, 4, x, 4, &sigma, 1, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create_in_cell(&o, singular, 4, x, 4, &sigma, 1, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create_in_cell(&o, flat, 4, x, 4, &sigma, 1, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create_in_cell(&o, zero, 4, x, 4, &sigma, 1, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create_in_cell(&o, nan_cell, 4, x, 4, &sigma, 1, &sys), JAM_E_NONFINITE);
+  assert_int_equal(jam_create_in_cell(&o, tall, 3, x, 4, &sigma, 1, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create_in_cell(&o, NULL, 0, x, 4, &sigma, 1, &sys), JAM_E_NULL);
+  assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_E_OVERLAP); /* in the unit square they are one */
+  assert_int_equal(jam_create_in_cell(&o, tall, 4, x, 4, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(jam_run(sys, NULL, NULL), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_compress(sys, NULL, NULL), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_monte_carlo(sys, NULL, NULL), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_structure_factor(sys, 10.0, NULL, 0, NULL, 0, &rows), JAM_E_UNSUPPORTED);
+  const double squeeze[4] = {0.0, 0.0, 0.0, -0.5};
+  assert_int_equal(jam_strain(sys, squeeze, 4), JAM_E_OVERLAP);
+  assert_int_equal(jam_strain(sys, squeeze, 3), JAM_E_ARGUMENT);
+  const double collapse[4] = {-1.0, 0.0, 0.0, 0.0};
+  assert_int_equal(jam_strain(sys, collapse, 4), JAM_E_ARGUMENT);
+  double cell[4];
+  assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK); /* nothing has changed */
+  assert_memory_equal(cell, tall, sizeof tall);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(normal_form),
+      cmocka_unit_test(triangular_lattices),
+      cmocka_unit_test(crunch_does_not_depend_on_the_basis),
+      cmocka_unit_test(shear_and_back),
+      cmocka_unit_test(files),
+      cmocka_unit_test(refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

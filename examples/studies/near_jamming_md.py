@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """How well the contact network predicts the motion of hard spheres just below jamming: isoconfigurational runs.
 
-usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--seed SEED]
-Default: 100 runs at five densities. --large: 5000 runs at seven densities, some 25 minutes of one core.
-Runs are saved in FOLDER; a study that was stopped goes on. Needs jam, numpy, scipy, matplotlib. Prints tables.
+usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--runs RUNS] [--seed SEED] [--quenched]
+Default: 100 runs at five densities. --large: 5000 runs at seven densities, some 20 minutes of one core.
+--quenched: the packing by sequential linear programs from random spheres, as published, not by growth.
+Runs are saved in FOLDER; a study that was stopped goes on. Small and large ones need folders of their own.
+Needs jam, numpy, scipy, matplotlib. Prints tables.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected: K falls by at most a decade while the MSD grows
 by two; curves fall together against MSD / (phi_J - phi)^nu with nu = 1.80 for C and 1.65 for S; median |dr|^2 = 0.75 of its mean.
@@ -31,14 +33,32 @@ NAMES = {
 }
 
 
-def make_packing(seed, n=1024):
-    packing = jam.System.random(n=n, dim=3, seed=seed)
-    packing.compress([(1e-2, 500.0), (3e-3, 1e5)])
-    report = packing.crunch()
+def make_packing(seed, n=1024, quenched=False):
+    if quenched:
+        packing = jam.System.random(n=n, dim=3, seed=seed, packing_fraction=0.2)
+        report = packing.crunch(method="sequential_lp")
+    else:
+        packing = jam.System.random(n=n, dim=3, seed=seed)
+        packing.compress([(1e-2, 500.0), (3e-3, 1e5)])
+        report = packing.crunch()
     print(
         f"phi_J = {report.packing_fraction:.6f}, {report.rattlers} rattlers, {report.excess_contacts} excess contacts"
     )
     return packing
+
+
+def ensemble(packing, folder, name, ratio, count):
+    """Runs at one density, from the file of an earlier call where it holds them. Those at 0.995 keep all at tau = 20."""
+    return nj.campaign(
+        packing,
+        os.path.join(folder, f"md_{name}_{ratio}.npz"),
+        INSTANTS,
+        count,
+        part=500,
+        density_ratio=ratio,
+        block=50 if count >= 500 else 5,
+        keep=[INSTANTS.index(20)] if ratio == 0.995 else [],
+    )
 
 
 def table(ensembles, structure, errors):
@@ -70,13 +90,16 @@ def draw(ensembles, structure, exponents, picture):
     first = next(iter(ensembles.values()))
     axes[0, 1].loglog(tau, first.msd[0] * tau**2, "k--", lw=1, label="slope 2")
     axes[0, 2].axhspan(-0.06, 0.06, color="0.9")
+    bare = nj.correlations(ensembles[0.995], structure, rattlers=False)["variance"]
+    axes[0, 2].semilogx(INSTANTS, bare, "k--", lw=1, label="0.995, without rattlers")
+    axes[0, 2].legend(fontsize=7)
     axes[0, 2].set(ylim=(-0.3, 0.3), xlabel="tau", ylabel="K[|C_c|, Var dr_c]")
     for axis, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
         e = exponents[name]
         axis.set(
             xlabel=f"MSD / (1 - phi/phi_J)^{e.value:.2f}",
             ylabel=NAMES[name],
-            title=f"nu = {e.value:.2f}({e.error:.2f}), thesis {THESIS[name]:.2f}",
+            title=f"nu = {e.value:.2f} +- {e.error:.3f}, thesis {THESIS[name]:.2f}",
         )
     axes[0, 0].legend(fontsize=7)
     axes[0, 1].legend(fontsize=7)
@@ -99,31 +122,30 @@ def main():
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--runs", type=int)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--quenched", action="store_true")
     args = parser.parse_args()
     ratios = (0.9, 0.93, 0.96, 0.98, 0.99, 0.995, 0.999) if args.large else (0.96, 0.98, 0.99, 0.995, 0.999)
     count = args.runs or (5000 if args.large else 100)
     os.makedirs(args.folder, exist_ok=True)
-    packing = make_packing(args.seed)
-    structure, ensembles = nj.predictors(packing), {}
-    for ratio in ratios:
-        file = os.path.join(args.folder, f"md_{args.seed}_{ratio}.npz")
-        ensembles[ratio] = nj.campaign(
-            packing,
-            file,
-            INSTANTS,
-            count,
-            density_ratio=ratio,
-            block=max(5, count // 50),
-            keep=[7] if ratio == 0.995 else [],
-        )
+    packing, name = make_packing(args.seed, quenched=args.quenched), f"{args.seed}{'q' if args.quenched else ''}"
+    structure = nj.predictors(packing)
+    ensembles = {ratio: ensemble(packing, args.folder, name, ratio, count) for ratio in ratios}
     table(ensembles, structure, 20)
-    print(f"median over mean of |dr|^2 at tau = 20, 0.995: {nj.median_over_mean(ensembles[0.995].kept[7]):.3f} (0.75)")
-    near = {ratio: runs for ratio, runs in ensembles.items() if ratio >= 0.96}
-    exponents = {
-        kind: nj.collapse_exponent(list(near.values()), structure, [1 - r for r in near], kind, 10) for kind in "cs"
-    }
-    for kind, e in exponents.items():
-        print(f"collapse of {NAMES[kind]}: nu = {e.value:.3f} +- {e.error:.3f}, thesis {THESIS[kind]}")
+    print(
+        f"median over mean of |dr|^2 at tau = 20, 0.995: {nj.median_over_mean(ensembles[0.995].kept[INSTANTS.index(20)]):.3f} (0.75)"
+    )
+    exponents = {}
+    for kind in "cs":
+        # Last the densities that are drawn with.
+        for least in (0.98, 0.99, 0.96):
+            near = {ratio: runs for ratio, runs in ensembles.items() if ratio >= least}
+            for between in ((0.6, 0.8), (0.4, 0.6), None):
+                e = nj.collapse_exponent(list(near.values()), structure, [1 - r for r in near], kind, 10, between)
+                at = f"K in {between}" if between else "all K"
+                print(
+                    f"{NAMES[kind]}, ratios from {least}, {at}: nu = {e.value:.3f} +- {e.error:.3f}, thesis {THESIS[kind]}"
+                )
+        exponents[kind] = e
     without = nj.correlations(ensembles[0.995], structure, rattlers=False)
     print("0.995 without rattlers: " + ", ".join(f"{NAMES[k]} {without[k][5]:.3f}" for k in NAMES) + " at tau = 10")
     p = nj.prediction(ensembles[0.99], structure)

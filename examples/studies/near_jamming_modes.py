@@ -2,7 +2,8 @@
 """Do a few soft modes explain the motion near jamming? Mean displacements against the modes of two Hessians.
 
 usage: near_jamming_modes.py FOLDER PICTURE.png [--large]
-Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs. Runs are saved in FOLDER.
+Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs, those of near_jamming_md.py --large when FOLDER
+is the same. Runs are saved in FOLDER.
 Needs jam, numpy, scipy, matplotlib. Prints a table.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected: weight is spread over all modes, at late times
@@ -17,11 +18,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from near_jamming_md import make_packing  # noqa: E402
+from near_jamming_md import INSTANTS, ensemble, make_packing  # noqa: E402
 
 from jam import near_jamming as nj  # noqa: E402
 
-INSTANTS = [2, 10, 30, 100]
+SHOWN = [2, 10, 30, 100]
 
 
 def main():
@@ -29,11 +30,13 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("picture")
     parser.add_argument("--large", action="store_true")
+    parser.add_argument("--runs", type=int)
     args = parser.parse_args()
     os.makedirs(args.folder, exist_ok=True)
-    n, count = (1024, 5000) if args.large else (256, 200)
+    n, count = (1024, args.runs or 5000) if args.large else (256, args.runs or 200)
     packing = make_packing(1, n)
-    runs = nj.campaign(packing, os.path.join(args.folder, f"modes_{n}.npz"), INSTANTS, count, density_ratio=0.995)
+    runs = ensemble(packing, args.folder, "1" if args.large else f"n{n}", 0.995, count)
+    shown = [INSTANTS.index(tau) for tau in SHOWN]
     figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
     print(
         "| Hessian | tau | u.H.u | share of omega below u.H.u | below its root | weight on the lowest tenth | noise |"
@@ -41,10 +44,10 @@ def main():
     print("|---" * 7 + "|")
     for row, stiffness in enumerate(("harmonic", "hard")):
         modes = packing.modes(which="all", stiffness=stiffness)
-        weights = nj.mode_weights(packing, runs, modes, stiffness=stiffness)
+        weights = nj.mode_weights(packing, runs, modes, shown, stiffness=stiffness)
         omega = np.sqrt(np.maximum(modes.values, 0.0))[packing.dim :]
         axes[row, 2].plot(omega, np.arange(1, len(omega) + 1) / len(omega), "k-")
-        for m, tau in enumerate(INSTANTS):
+        for m, tau in enumerate(SHOWN):
             squares = weights.projections[m] ** 2
             curved = weights.curvature[m]
             print(
@@ -57,7 +60,7 @@ def main():
             (line,) = axes[row, 0].semilogy(np.arange(len(smooth)) * size, smooth, label=f"tau = {tau}")
             axes[row, 2].axvline(curved, color=line.get_color())
             axes[row, 2].axvline(curved**0.5, color=line.get_color(), ls=":")
-            if m in (0, len(INSTANTS) - 1):
+            if m in (0, len(SHOWN) - 1):
                 axes[row, 1].loglog(
                     modes.participation, np.abs(weights.projections[m]), ".", ms=2, label=f"tau = {tau}"
                 )

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How well the contact network predicts the motion of soft spheres at phi_J: Metropolis runs at nine pairs (alpha, T).
 
-usage: near_jamming_monte_carlo.py FOLDER PICTURE.png [--large] [--seed SEED]
-Default: 40 runs of 120 sweeps for each pair. --large: 1000 runs of 250 sweeps, about half an hour of one core.
+usage: near_jamming_monte_carlo.py FOLDER PICTURE.png [--large] [--runs RUNS] [--seed SEED]
+Default: 40 runs of 120 sweeps for each pair. --large: 1000 runs of 250 sweeps, a quarter of an hour of one core.
 Runs are saved in FOLDER; a study that was stopped goes on. Needs jam, numpy, scipy, matplotlib. Prints a table.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3: U = |2R - r|^alpha. Temperatures are ours but for
@@ -25,6 +25,22 @@ TEMPERATURES = {1.5: (1e-4, 3.16e-4, 1e-3), 2.0: (4.64e-6, 2.15e-5, 1e-4), 2.5: 
 THESIS = {1.5: (0.84, 0.45), 2.0: (0.64, 0.40), 2.5: (0.51, 0.35)}
 
 
+def instants_of(last):
+    return np.unique(np.round(np.geomspace(2, last, 12)))
+
+
+def ensemble(packing, folder, name, alpha, temperature, instants, count):
+    """Runs at one energy and temperature, from the file of an earlier call where it holds them."""
+    return nj.campaign(
+        packing,
+        os.path.join(folder, f"mc_{name}_{alpha}_{temperature}.npz"),
+        instants,
+        count,
+        monte_carlo=dict(alpha=alpha, temperature=temperature),
+        block=20 if count >= 200 else 2,
+    )
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
@@ -34,7 +50,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
     count, last = args.runs or (1000 if args.large else 40), 250 if args.large else 120
-    instants = np.unique(np.round(np.geomspace(2, last, 12)))
+    instants = instants_of(last)
     os.makedirs(args.folder, exist_ok=True)
     packing = make_packing(args.seed)
     structure = nj.predictors(packing)
@@ -46,15 +62,7 @@ def main():
     for column, (alpha, temperatures) in enumerate(TEMPERATURES.items()):
         ensembles = []
         for temperature in temperatures:
-            file = os.path.join(args.folder, f"mc_{args.seed}_{alpha}_{temperature}.npz")
-            runs = nj.campaign(
-                packing,
-                file,
-                instants,
-                count,
-                monte_carlo=dict(alpha=alpha, temperature=temperature),
-                block=max(2, count // 20),
-            )
+            runs = ensemble(packing, args.folder, f"{args.seed}", alpha, temperature, instants, count)
             k = nj.correlations(runs, structure)
             print(
                 f"| {alpha} | {temperature:g} | {runs.step:.3g} | {runs.acceptance:.2f} "

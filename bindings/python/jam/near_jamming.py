@@ -144,26 +144,30 @@ def collapse_exponent(
     blocks = min(r.blocks for r in ensembles)
 
     def curves(weights: np.ndarray) -> tuple:
-        xs, ys = [], []
-        for r in ensembles:
-            w = np.zeros(r.blocks)
-            w[:blocks] = weights
-            if (weights == 1).all():
-                w[:] = 1.0
-            k = []
-            for m in range(len(r.instants)):
-                if kind == "c":
-                    mean = np.tensordot(w, r.displacement[:, m], 1)
-                    k.append(statistics.spearman_components(structure.c, mean)[0])
-                else:
-                    k.append(statistics.spearman(structure.s, np.tensordot(w, r.distance2[:, m], 1)))
-            # Before its maximum K rises as the noise of few runs averages out: that is no decorrelation.
-            start = int(np.argmax(k))
-            xs.append(r.mean("msd", w)[start:])
-            ys.append(np.array(k)[start:])
-        return xs, ys
+        pairs = [decay_curve(r, structure, kind, _fill(weights, r.blocks)) for r in ensembles]
+        return [x for x, _ in pairs], [k for _, k in pairs]
 
     return statistics.collapse_estimate(curves, blocks, control, times, between=between)
+
+
+def decay_curve(
+    runs: Runs, structure: Predictors, kind: str = "c", weights: Any = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """MSD and K[C, <dr>] (kind 'c') or K[S, <|dr|^2>] ('s') from the maximum of K on: before it K rises as the noise of few
+    runs averages out, which is no decorrelation."""
+    if kind == "c":
+        mean = runs.mean("displacement", weights)
+        k = np.array([statistics.spearman_components(structure.c, dr)[0] for dr in mean])
+    else:
+        k = np.array([statistics.spearman(structure.s, r2) for r2 in runs.mean("distance2", weights)])
+    start = int(np.argmax(k))
+    return runs.mean("msd", weights)[start:], k[start:]
+
+
+def _fill(weights: np.ndarray, blocks: int) -> np.ndarray:
+    """Weights of all blocks of an ensemble: those beyond the resampled ones count only where nothing is resampled."""
+    rest = 1.0 if (weights == 1).all() else 0.0
+    return np.concatenate([weights, np.full(blocks - len(weights), rest)])
 
 
 def is_caged(runs: Runs, system: Any, limit: float = 0.1) -> np.ndarray:

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Do curves of decorrelation collapse with one exponent? The exponent of neighbouring densities or temperatures against K.
+
+usage: near_jamming_exponents.py FOLDER PICTURE.png [--large] [--runs RUNS] [--mc-runs RUNS]
+Uses the runs of near_jamming_md.py and near_jamming_monte_carlo.py in FOLDER and makes those that are missing.
+Needs jam, numpy, scipy, matplotlib. Prints a table.
+
+At a value of K, two curves of K against the MSD lie at two MSDs. Their ratio is the ratio of the controls (phi_J - phi or T)
+to the power nu. One exponent for all K and all pairs is what a collapse asks for. Source: R. Diaz Hernandez Rojas, PhD thesis
+(Sapienza 2021), chapter 3, where exponents were chosen by eye: 1.80 and 1.65; 0.84, 0.64, 0.51 and 0.45, 0.40, 0.35.
+"""
+import argparse
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import near_jamming_md as md  # noqa: E402
+import near_jamming_monte_carlo as mc  # noqa: E402
+import numpy as np  # noqa: E402
+
+import jam  # noqa: E402
+from jam import near_jamming as nj  # noqa: E402
+
+BANDS = [(low, low + 0.1) for low in np.round(np.arange(0.2, 0.75, 0.05), 2)]
+RESAMPLES = 20
+
+
+def exponents(runs, control, structure, kind):
+    """nu and its error over blocks of runs, (pairs of neighbours, bands of K)."""
+    blocks = min(r.blocks for r in runs)
+
+    def values(weights):
+        curves = []
+        for r in runs:
+            padded = np.concatenate([weights, np.full(r.blocks - blocks, float((weights == 1).all()))])
+            curves.append(nj.decay_curve(r, structure, kind, padded))
+        made = np.full((len(runs) - 1, len(BANDS)), np.nan)
+        for p in range(len(runs) - 1):
+            (x, k), (y, q) = curves[p], curves[p + 1]
+            for b, (low, high) in enumerate(BANDS):
+                if max(k[-1], q[-1]) <= 0.5 * (low + high) <= min(k[0], q[0]):
+                    made[p, b] = jam.statistics.collapse([x, y], [k, q], control[p : p + 2], 10, (low, high))
+        return made
+
+    resampled = jam.statistics.bootstrap(values, blocks, RESAMPLES)
+    return values(np.ones(blocks)), np.ma.masked_invalid(resampled).std(0, ddof=1).filled(np.nan)
+
+
+def show(axis, title, labels, runs, control, structure, kind, thesis):
+    nu, error = exponents(runs, control, structure, kind)
+    for p in range(len(runs) - 1):
+        pair = f"{labels[p]}, {labels[p + 1]}"
+        axis.errorbar([sum(b) / 2 for b in BANDS], nu[p], error[p], fmt=".-", label=pair)
+        cells = " | ".join("" if np.isnan(v) else f"{v:.2f}({e:.2f})" for v, e in zip(nu[p][::2], error[p][::2]))
+        print(f"| {title} | {pair} | {cells} | {thesis:.2f} |")
+    axis.axhline(thesis, color="k", ls="--", lw=1)
+    axis.set(title=title, xlabel="K", xlim=(0.2, 0.85), ylim=(0.6 * thesis, 1.4 * thesis))
+    axis.legend(fontsize=6)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("picture")
+    parser.add_argument("--large", action="store_true")
+    parser.add_argument("--runs", type=int)
+    parser.add_argument("--mc-runs", type=int)
+    args = parser.parse_args()
+    os.makedirs(args.folder, exist_ok=True)
+    packing = md.make_packing(1)
+    structure = nj.predictors(packing)
+    ratios = (0.96, 0.98, 0.99, 0.995, 0.999)
+    near = [md.ensemble(packing, args.folder, "1", q, args.runs or (5000 if args.large else 100)) for q in ratios]
+    hot_count = args.mc_runs or (1000 if args.large else 40)
+    instants = mc.instants_of(250 if args.large else 120)
+    figure, axes = plt.subplots(2, 4, figsize=(15, 7))
+    print("| | pair | " + " | ".join(f"K {low:.1f} .. {high:.1f}" for low, high in BANDS[::2]) + " | thesis |")
+    print("|---" * (3 + len(BANDS[::2])) + "|")
+    for row, kind in enumerate("cs"):
+        name = "C" if kind == "c" else "S"
+        show(axes[row, 0], f"MD, {name}", ratios, near, [1 - q for q in ratios], structure, kind, md.THESIS[kind])
+        for column, (alpha, temperatures) in enumerate(mc.TEMPERATURES.items(), 1):
+            hot = [mc.ensemble(packing, args.folder, "1", alpha, t, instants, hot_count) for t in temperatures]
+            labels = [f"{t:.3g}" for t in temperatures]
+            thesis = mc.THESIS[alpha][row]
+            show(axes[row, column], f"MC, alpha {alpha}, {name}", labels, hot, temperatures, structure, kind, thesis)
+        axes[row, 0].set_ylabel(f"nu of {md.NAMES[kind]}")
+    figure.tight_layout()
+    figure.savefig(args.picture, dpi=75)
+
+
+if __name__ == "__main__":
+    main()

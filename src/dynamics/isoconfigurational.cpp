@@ -15,7 +15,8 @@ namespace jam {
 
 namespace {
 
-// Runs between two joins of the threads. One waits for the other at the end, for half a run in the mean: 3 % of the time.
+// Runs between two joins of the threads. One waits for the other at the end, for half a run in the mean: 3 % of the
+// time.
 constexpr size_t batch_of_two = 32;
 
 uint64_t mark_of(const Packing &p) {

@@ -1,9 +1,12 @@
 #!/bin/sh
-# Sets up a bare Debian 12 and runs all tests: a release build with everything, then clang on the library and its C
-# tests, both with warnings as errors, then the address and undefined-behaviour sanitizers over the tests of the library
-# and of the bindings.
-# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-clang and ./build-asan. Uses ccache where it is
-# installed. Parts can be named: `sh tests/run.sh release`, or `release clang`, or `sanitizers`.
+# Sets up a bare Debian 12 and runs all tests, in five parts:
+#   release     everything, warnings as errors
+#   clang       the library and its C tests, warnings as errors
+#   sanitizers  address and undefined behaviour, over the tests of the library and of the bindings
+#   threads     the thread sanitizer over the tests that use several threads
+#   fuzz        libFuzzer on every target for 20 seconds
+# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-clang, ./build-asan, ./build-tsan, ./build-fuzz.
+# Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -14,7 +17,7 @@ need_packages build-essential cmake ninja-build pkg-config clang clang-format \
   python3-h5py python3-pandas python3-tqdm python3-mpi4py openmpi-bin python3-distributed python3-dask \
   doxygen python3-sphinx python3-breathe python3-myst-parser furo locales
 
-parts=${*:-release clang sanitizers}
+parts=${*:-release clang sanitizers threads fuzz}
 wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 jobs=$(nproc)
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
@@ -54,5 +57,22 @@ export ASAN_OPTIONS=detect_stack_use_after_return=1
 # Tests labelled `long` time physics that the release build has already seen.
 ctest --test-dir build-asan -j "$jobs" -L 'unit|capi|physics|bindings' -LE long --timeout 900 \
   --output-on-failure --no-tests=error || status=1
+fi
+
+if wants threads; then
+echo "== thread sanitizer"
+cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
+  -DJAM_SANITIZE=thread -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+# What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on two threads.
+threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
+# shellcheck disable=SC2086
+cmake --build build-tsan -j "$jobs" --target $threaded
+TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$jobs" --timeout 900 --output-on-failure --no-tests=error \
+  -R "^($(echo "$threaded" | sed 's/_/\//; s/ capi_/|capi\//g'))\$" || status=1
+fi
+
+if wants fuzz; then
+echo "== fuzzers"
+sh tests/fuzz/run.sh 20 || status=1
 fi
 exit $status

@@ -43,6 +43,7 @@ autodoc_typehints = "signature"
 python_use_unqualified_type_names = True
 stand_in = types.ModuleType("jam.raw")
 stand_in.jam_version = lambda: version
+stand_in.jam_blas_kernel = lambda: ""
 abi = re.search(r"#define JAM_ABI (\d+)", (root / "include/jam/jam.h").read_text()).group(1)
 stand_in.jam_abi_version = lambda: int(abi)
 stand_in.__getattr__ = lambda name: lambda *a, **k: None

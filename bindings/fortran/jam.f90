@@ -76,6 +76,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_PHASE_DECOMPRESS = 7
   integer(c_int32_t), parameter :: JAM_PHASE_MONTE_CARLO = 8
   integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
+  integer(c_int32_t), parameter :: JAM_PHASE_CREATE = 10
 
   ! jam_log_level: Log levels. @since 0.1
   integer(c_int32_t), parameter :: JAM_LOG_NONE = 0
@@ -283,6 +284,10 @@ module jam
     integer(c_int32_t) :: reserved = 0
     ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
     real(c_double) :: non_additivity = 0
+    ! seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT
+    real(c_double) :: wall_time = 0
+    ! as jam_set_memory_limit; default 0: half the machine's memory
+    real(c_double) :: memory_limit = 0
   end type jam_create_options
 
   ! What the system is now. @since 0.1
@@ -1079,6 +1084,13 @@ module jam
       integer(c_int32_t) :: status
     end function jam_abi_version
 
+    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1
+    function jam_blas_kernel() &
+        bind(c, name="jam_blas_kernel") result(status)
+      import
+      type(c_ptr) :: status
+    end function jam_blas_kernel
+
     ! One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1
     function jam_status_string(code) &
         bind(c, name="jam_status_string") result(status)
@@ -1120,8 +1132,8 @@ module jam
     ! taken as they are. For a random start only their ratios count.
     ! out: the new handle, owned by the caller, freed by jam_destroy.
     ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
-    ! JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
-    ! Threads: any. @since 0.1
+    ! JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
+    ! Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1
     function jam_create(o, positions, positions_len, diameters, diameters_len, out) &
         bind(c, name="jam_create") result(status)
       import
@@ -1295,6 +1307,23 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_progress
 
+    ! jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
+    ! A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
+    ! Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1
+    function jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out) &
+        bind(c, name="jam_create_watched") result(status)
+      import
+      type(jam_create_options), intent(in), optional :: o
+      real(c_double), intent(in), optional :: positions(*)
+      integer(c_size_t), value :: positions_len
+      real(c_double), intent(in), optional :: diameters(*)
+      integer(c_size_t), value :: diameters_len
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function jam_create_watched
+
     ! Sets (or with NULL removes) the log callback and its level. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
     function jam_set_log(sys, callback, level, user) &
@@ -1315,6 +1344,18 @@ module jam
       type(c_ptr), value :: sys
       integer(c_int32_t) :: status
     end function jam_cancel
+
+    ! Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
+    ! that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
+    ! memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+    ! 0.1
+    function jam_set_memory_limit(sys, bytes) &
+        bind(c, name="jam_set_memory_limit") result(status)
+      import
+      type(c_ptr), value :: sys
+      real(c_double), value :: bytes
+      integer(c_int32_t) :: status
+    end function jam_set_memory_limit
 
     ! Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
     ! that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
@@ -2405,6 +2446,19 @@ module jam
       integer(c_size_t), value :: strain_len
       integer(c_int32_t) :: status
     end function c_jam_strain
+    function c_jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out) &
+        bind(c, name="jam_create_watched") result(status)
+      import
+      type(jam_create_options), intent(in), optional :: o
+      type(c_ptr), value :: positions
+      integer(c_size_t), value :: positions_len
+      type(c_ptr), value :: diameters
+      integer(c_size_t), value :: diameters_len
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_create_watched
     function c_jam_read(path, o, out) &
         bind(c, name="jam_read") result(status)
       import
@@ -2949,6 +3003,11 @@ module jam
     module procedure f_jam_strain
   end interface jam_strain
 
+  interface jam_create_watched
+    procedure jam_create_watched
+    module procedure f_jam_create_watched
+  end interface jam_create_watched
+
   interface jam_read
     procedure jam_read
     module procedure f_jam_read
@@ -3191,6 +3250,7 @@ module jam
   private :: c_jam_cell_get, f_jam_cell_get
   private :: c_jam_cell_set, f_jam_cell_set
   private :: c_jam_strain, f_jam_strain
+  private :: c_jam_create_watched, f_jam_create_watched
   private :: c_jam_read, f_jam_read
   private :: c_jam_write, f_jam_write
   private :: c_jam_checkpoint_write, f_jam_checkpoint_write
@@ -3434,6 +3494,34 @@ contains
     end if
     status = c_jam_strain(sys, at_strain, count_strain)
   end function f_jam_strain
+
+  function f_jam_create_watched(o, positions, diameters, callback, user, out) result(status)
+    type(jam_create_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: positions(..)
+    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in) :: user
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_positions
+    integer(c_size_t) :: count_positions
+    type(c_ptr) :: at_diameters
+    integer(c_size_t) :: count_diameters
+    at_positions = c_null_ptr
+    count_positions = 0
+    if (present(positions)) then
+      at_positions = c_loc(positions)
+      count_positions = size(positions, kind=c_size_t)
+    end if
+    at_diameters = c_null_ptr
+    count_diameters = 0
+    if (present(diameters)) then
+      at_diameters = c_loc(diameters)
+      count_diameters = size(diameters, kind=c_size_t)
+    end if
+    status = c_jam_create_watched(o, at_positions, count_positions, at_diameters, count_diameters, callback, &
+      user, out)
+  end function f_jam_create_watched
 
   function f_jam_read(path, o, out) result(status)
     character(*), intent(in) :: path

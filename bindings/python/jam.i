@@ -166,6 +166,23 @@ void set_error_factory(PyObject *callable) {
 }
 %}
 
+// ---- names of files: str, bytes or path-like, as the file system encodes them; a NUL inside is refused
+%typemap(in) const char *path (PyObject *bytes) {
+  bytes = NULL;
+  if (!PyUnicode_FSConverter($input, &bytes)) SWIG_fail;
+  $1 = PyBytes_AS_STRING(bytes);
+}
+%typemap(arginit) const char *path { bytes$argnum = NULL; }
+%typemap(freearg) const char *path { Py_XDECREF(bytes$argnum); }
 
 %include "jam_gen.i"
+%ignore jam_create_watched;
+%inline %{
+/* jam_create with callable(progress), or None: Ctrl-C alone is looked at. */
+jam_status create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
+                          const double *diameters, size_t diameters_len, PyObject *callable, jam_system **out) {
+  return jam_create_watched(o, positions, positions_len, diameters, diameters_len, jam_on_progress,
+                            callable == Py_None ? NULL : (void *)callable, out);
+}
+%}
 %include "jam/jam.h"

@@ -304,6 +304,7 @@ that they touch, N' their number. @since 0.1"
 %feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network. @since 0.1"
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
+%feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_last_error "Text of this thread's last failed call, with the name and value at fault; \"\" when none.
@@ -317,8 +318,8 @@ diameters: n values, or 1 for all, or NULL with length 0 (all equal). With posit
 taken as they are. For a random start only their ratios count.
 out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
-JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
-Threads: any. @since 0.1"
+JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
+Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1"
 %feature("docstring") jam_copy "Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
 they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
 Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
@@ -349,10 +350,17 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1"
 %feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_create_watched "jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
+A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
+Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1"
 %feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_cancel "Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
 stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1"
+%feature("docstring") jam_set_memory_limit "Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
+that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
+memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+0.1"
 %feature("docstring") jam_read "Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
 that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
 refused. XYZ ids are not kept.

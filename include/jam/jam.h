@@ -51,7 +51,17 @@
  *   its callback may use const calls. jam_cancel may be called from any thread or signal
  *   handler at any time.
  * - The same seed, build, options and processor give the same packing bit for bit on one
- *   thread.
+ *   thread. On another processor OpenBLAS may choose another kernel (jam_blas_kernel), whose
+ *   sums round otherwise. Then a crunch can end at another jamming point. The variable
+ *   OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo do not
+ *   depend on it.
+ * - While a call factorises a matrix, OpenBLAS has one thread in the whole process. Its number
+ *   of before is put back afterwards. Host threads that use OpenBLAS meanwhile run on one
+ *   thread each.
+ *
+ * Trust
+ * - Files, checkpoints, arrays and options are checked before use. None of them can do more
+ *   than make a call fail. Pointers, lengths and callbacks are trusted.
  *
  * Limits, checked wherever a value enters (options, arrays, files, checkpoints):
  * - dimension                 2 .. JAM_MAX_DIM
@@ -144,6 +154,9 @@ typedef enum jam_stop_reason {
 JAM_API const char *jam_version(void);
 /* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
 JAM_API int32_t jam_abi_version(void);
+/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1
+ */
+JAM_API const char *jam_blas_kernel(void);
 /* One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_status_string(jam_status code);
 /* One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1 */
@@ -193,6 +206,8 @@ typedef struct jam_create_options {
   int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
                           * default 0. A file's own value wins. */
+  double wall_time; /* seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT */
+  double memory_limit; /* as jam_set_memory_limit; default 0: half the machine's memory */
 } jam_create_options;
 
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
@@ -206,8 +221,8 @@ JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
  * taken as they are. For a random start only their ratios count.
  * out: the new handle, owned by the caller, freed by jam_destroy.
  * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
- * JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
- * Threads: any. @since 0.1 */
+ * JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
+ * Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1 */
 JAM_API jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
                               const double *diameters, size_t diameters_len, jam_system **out);
 /* Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
@@ -282,15 +297,16 @@ JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t stra
 
 /* Which part reports progress. @since 0.1 */
 typedef enum jam_phase {
-  JAM_PHASE_RUN = 1,               /* NVE molecular dynamics */
-  JAM_PHASE_COMPRESS = 2,          /* molecular dynamics with growth */
-  JAM_PHASE_CRUNCH = 3,            /* one LP or re-linearised Newton step done */
-  JAM_PHASE_POLISH = 4,            /* refinement of the final network */
-  JAM_PHASE_ANALYSE = 5,           /* long analysis calls */
-  JAM_PHASE_RELAX = 6,             /* minimising the energy of soft spheres */
-  JAM_PHASE_DECOMPRESS = 7,        /* soft spheres on their way down to jamming; steps: decompressions so far */
-  JAM_PHASE_MONTE_CARLO = 8,       /* Metropolis sweeps */
-  JAM_PHASE_ISOCONFIGURATIONAL = 9 /* runs from one configuration; steps counts those that are done */
+  JAM_PHASE_RUN = 1,                /* NVE molecular dynamics */
+  JAM_PHASE_COMPRESS = 2,           /* molecular dynamics with growth */
+  JAM_PHASE_CRUNCH = 3,             /* one LP or re-linearised Newton step done */
+  JAM_PHASE_POLISH = 4,             /* refinement of the final network */
+  JAM_PHASE_ANALYSE = 5,            /* long analysis calls */
+  JAM_PHASE_RELAX = 6,              /* minimising the energy of soft spheres */
+  JAM_PHASE_DECOMPRESS = 7,         /* soft spheres on their way down to jamming; steps: decompressions so far */
+  JAM_PHASE_MONTE_CARLO = 8,        /* Metropolis sweeps */
+  JAM_PHASE_ISOCONFIGURATIONAL = 9, /* runs from one configuration; steps counts those that are done */
+  JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
 } jam_phase;
 
 /* Given to the progress callback; valid during the call only. @since 0.1 */
@@ -316,6 +332,12 @@ typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 /* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user);
+/* jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
+ * A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
+ * Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1 */
+JAM_API jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
+                                      const double *diameters, size_t diameters_len, jam_progress_fn callback,
+                                      void *user, jam_system **out);
 
 /* Log levels. @since 0.1 */
 typedef enum jam_log_level {
@@ -333,6 +355,11 @@ JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t lev
 /* Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
  * stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_cancel(jam_system *sys);
+/* Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
+ * that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
+ * memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+ * 0.1 */
+JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
 /* ------------------------------------------------------------------ files */
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include "analysis/structure.hpp"
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/pair_rule.hpp"
@@ -31,9 +32,9 @@ void check_pair_count(const Packing &p, double reach) {
   const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.cell.side(), p.dim),
                n = static_cast<double>(p.n());
   const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + 48.0);
-  if (bytes > 8e9)
-    fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than 8e9", pairs, reach,
-         bytes);
+  if (bytes > CallScope::memory_limit())
+    fail(JAM_E_MEMORY, "about %.3g pairs lie within %g: their list needs %.3g bytes, more than %.3g", pairs, reach,
+         bytes, CallScope::memory_limit());
 }
 
 PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, double h_max, bool stable_only) {

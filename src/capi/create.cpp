@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "capi/guard.hpp"
+#include "capi/make_system.hpp"
 #include "core/create.hpp"
 #include "core/limits.hpp"
 #include "core/pairs.hpp"
@@ -54,15 +55,18 @@ jam_status jam_create_options_init(jam_create_options *o, size_t size) {
 
 jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
                       const double *diameters, size_t diameters_len, jam_system **out) {
+  return jam_create_watched(o, positions, positions_len, diameters, diameters_len, nullptr, nullptr, out);
+}
+
+jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
+                              const double *diameters, size_t diameters_len, jam_progress_fn callback, void *user,
+                              jam_system **out) {
   return guard([&]() -> jam_status {
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
-    auto sys = std::make_unique<jam_system>();
-    sys->packing = make_packing(full, positions, positions_len, diameters, diameters_len);
-    sys->note_diameters();
-    *out = sys.release();
-    return JAM_OK;
+    return make_system(full, callback, user, out,
+                       [&] { return make_packing(full, positions, positions_len, diameters, diameters_len); });
   });
 }
 
@@ -75,11 +79,8 @@ jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, s
     take_options(o, full);
     check_dim(full.dim);
     check_matrix_len("cell", cell_len, full.dim);
-    auto sys = std::make_unique<jam_system>();
-    sys->packing = make_packing(full, positions, positions_len, diameters, diameters_len, cell);
-    sys->note_diameters();
-    *out = sys.release();
-    return JAM_OK;
+    return make_system(full, nullptr, nullptr, out,
+                       [&] { return make_packing(full, positions, positions_len, diameters, diameters_len, cell); });
   });
 }
 
@@ -95,6 +96,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->history = src->history;
     sys->has_history = src->has_history;
     sys->soft_history = src->soft_history;
+    sys->memory_limit = src->memory_limit;
     sys->note_diameters();
     sys->sweeps = src->sweeps;
     if (src->runs) sys->runs = std::make_unique<Isoconfigurational>(*src->runs);
@@ -199,6 +201,14 @@ jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void
     sys->monitor.log_fn = callback;
     sys->monitor.log_level = level;
     sys->monitor.log_user = user;
+    return JAM_OK;
+  });
+}
+
+jam_status jam_set_memory_limit(jam_system *sys, double bytes) {
+  return guard_set(sys, [&]() -> jam_status {
+    if (!(bytes > 0.0)) fail(JAM_E_ARGUMENT, "bytes is %g, it must be positive", bytes);
+    sys->memory_limit = bytes;
     return JAM_OK;
   });
 }

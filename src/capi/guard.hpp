@@ -4,7 +4,10 @@
 #include <cstring>
 #include <new>
 #include "capi/system.hpp"
+#include "core/call_scope.hpp"
+#include "core/create.hpp"
 #include "core/error.hpp"
+#include "core/validate.hpp"
 
 namespace jam {
 
@@ -55,8 +58,18 @@ template <class F>
 jam_status guard_const(const jam_system *sys, F &&f) noexcept {
   return guard([&] {
     const Reading reading(sys);
+    const CallScope scope(sys->memory_limit);
     return f();
   });
+}
+
+// In builds of the tests: what a call leaves behind is a packing that could be read back. n is bounded, as the search
+// for overlaps takes as long as some verbs.
+inline void check_state_left([[maybe_unused]] const jam_system *sys) {
+#ifdef JAM_CHECK_PAIRS
+  check_packing(sys->packing, JAM_E_INTERNAL);
+  if (!sys->packing.overlap_allowed && sys->packing.n() <= 2000) refuse_overlaps(sys->packing, overlap_tolerance);
+#endif
 }
 
 // A call that has the handle alone.
@@ -79,7 +92,10 @@ template <class F>
 jam_status guard_set(jam_system *sys, F &&f) noexcept {
   return guard([&] {
     const Busy busy(sys);
-    return f();
+    const CallScope scope(sys->memory_limit);
+    const jam_status status = f();
+    check_state_left(sys);
+    return status;
   });
 }
 
@@ -94,7 +110,10 @@ jam_status guard_verb(jam_system *sys, F &&f) noexcept {
       ~Release() { monitor.end(); }
     } release{sys->monitor};
     sys->monitor.begin();
-    return f();
+    const CallScope scope(sys->memory_limit);
+    const jam_status status = f();
+    check_state_left(sys);
+    return status;
   });
 }
 

@@ -1,7 +1,6 @@
 // Header section "files": jam_read, jam_write.
-#include <memory>
-
 #include "capi/guard.hpp"
+#include "capi/make_system.hpp"
 #include "core/create.hpp"
 #include "io/files.hpp"
 
@@ -20,12 +19,10 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_system **
     full.n = static_cast<int64_t>(file.position.size() / static_cast<size_t>(file.dim));
     if (file.box > 0.0) full.box = file.box;
     if (file.has_non_additivity) full.non_additivity = file.non_additivity;
-    auto sys = std::make_unique<jam_system>();
-    sys->packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
-                                file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data());
-    sys->note_diameters();
-    *out = sys.release();
-    return JAM_OK;
+    return make_system(full, nullptr, nullptr, out, [&] {
+      return make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size(),
+                          file.cell.empty() ? nullptr : file.cell.data());
+    });
   });
 }
 

@@ -1,5 +1,6 @@
 // Status codes, their texts and the thread-local last error.
 #include "capi/guard.hpp"
+#include "linalg/blas.hpp"
 
 namespace jam {
 namespace {
@@ -90,6 +91,7 @@ const char *jam_stop_string(int32_t reason) {
 
 const char *jam_last_error(void) { return jam::last_error; }
 const char *jam_version(void) { return JAM_VERSION_STRING; }
+const char *jam_blas_kernel(void) { return jam::blas_kernel(); }
 int32_t jam_abi_version(void) { return JAM_ABI; }
 
 }  // extern "C"

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include "capi/call_gate.hpp"
+#include "core/call_scope.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "crunch/history.hpp"
@@ -23,6 +24,7 @@ struct jam_system {
   std::vector<jam::SoftRow> soft_history;  // of the last decompression; empty without one
   const jam::CrunchStep *step = nullptr;   // of the crunch that runs
   jam::Monitor monitor;
+  double memory_limit = jam::default_memory_limit();  // bytes that one call may take
   mutable jam::CallGate gate;
   std::unique_ptr<jam::Dynamics> paused;               // was stopped early and can be resumed
   const jam::Dynamics *live = nullptr;                 // runs now, while callbacks are called

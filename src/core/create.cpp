@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -25,6 +26,8 @@ void check_options(const jam_create_options &o) {
     fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
   if (o.masses != JAM_MASSES_EQUAL && o.masses != JAM_MASSES_VOLUME)
     fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
+  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+  if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
   if (o.model == JAM_MODEL_MK && !(o.mk_zeta >= 0.0)) fail(JAM_E_ARGUMENT, "mk_zeta is %g, it must be >= 0", o.mk_zeta);
 }
 
@@ -156,13 +159,37 @@ jam_create_options default_create_options() {
   o.packing_fraction = 0.2;
   o.overlap = JAM_OVERLAP_REFUSE;
   o.model = JAM_MODEL_EUCLID;
-  o.mk_zeta = std::numeric_limits<double>::infinity();
+  o.mk_zeta = o.wall_time = std::numeric_limits<double>::infinity();
   return o;
 }
 
 // The brick of the cell repeats as the cell does, so a uniform point of it will do.
 static void random_point(const Cell &cell, Rng &rng, double *x) {
   for (int c = 0; c < cell.dim(); ++c) x[c] = wrap(cell.edge(c) * rng.uniform(), cell.edge(c));
+}
+
+// Packing fraction of random sequential addition of equal spheres that no further sphere fits into: Zhang and Torquato,
+// Phys. Rev. E 88, 053312 (2013), for d = 2 to 8.
+static void check_below_saturation(const Packing &p) {
+  static constexpr double saturation[] = {0.5470735, 0.3841307, 0.2600781, 0.1707761, 0.109302, 0.068404, 0.0423};
+  const auto [least, most] = std::minmax_element(p.diameter.begin(), p.diameter.end());
+  if (*least < *most) return;  // mixtures pack more densely
+  // Finite systems differ from each other by less than 1 / sqrt(n).
+  const double limit = saturation[p.dim - 2] * (1.0 + 1.0 / std::sqrt(static_cast<double>(p.n())));
+  if (packing_fraction(p) > limit)
+    fail(JAM_E_UNPLACEABLE,
+         "packing fraction %g: random sequential addition ends near %g in d = %d; grow the spheres from a lower one",
+         packing_fraction(p), saturation[p.dim - 2], p.dim);
+}
+
+static void report_placed(double fraction, int64_t spheres, size_t all) {
+  jam_progress q{};
+  q.phase = JAM_PHASE_CREATE;
+  q.packing_fraction = fraction;
+  q.pressure = q.gain = q.max_step = std::numeric_limits<double>::quiet_NaN();
+  q.fraction = static_cast<double>(spheres) / static_cast<double>(all);
+  q.steps = spheres;
+  CallScope::report(q);
 }
 
 void place_at_random(Packing &p) {
@@ -174,6 +201,7 @@ void place_at_random(Packing &p) {
          "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: "
          "0",
          packing_fraction(p), diameter_max(p), p.cell.side());
+  check_below_saturation(p);
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return p.diameter[a] > p.diameter[b]; });
@@ -182,7 +210,7 @@ void place_at_random(Packing &p) {
   double placed = 0.0;
   const int64_t most_tries = 200000;  // for each sphere; well below saturation about one point in a hundred is free
   const int64_t most_total = 20000 * static_cast<int64_t>(n) + most_tries;
-  int64_t total = 0;
+  int64_t total = 0, spheres = 0;
   for (int32_t i : order) {
     double *x = &p.position[static_cast<size_t>(i) * d];
     int64_t tries = 0;
@@ -190,9 +218,11 @@ void place_at_random(Packing &p) {
       if (++tries > most_tries || ++total > most_total)
         fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f",
              placed, packing_fraction(p));
+      if (total % 4096 == 0) report_placed(placed, spheres, n);
       random_point(p.cell, rng, x);
     } while (cells.blocked(x, i));
     cells.add(i);
+    ++spheres;
     placed += unit_sphere_volume(d) * std::pow(p.diameter[i] / p.cell.side(), d);
   }
 }
@@ -213,7 +243,8 @@ void plant(Packing &p) {
   p.mk_redrawn.clear();
   const MkShifts quenched(p);
   double shift[JAM_MAX_DIM];
-  for (int32_t i = 0; i < n; ++i)
+  for (int32_t i = 0; i < n; ++i) {
+    report_placed(std::numeric_limits<double>::quiet_NaN(), i, p.n());
     for (int32_t j = i + 1; j < n; ++j) {
       const double touch = contact_distance(p, i, j);
       int32_t attempt = 0;
@@ -233,6 +264,7 @@ void plant(Packing &p) {
       }
       if (attempt > 0) p.mk_redrawn.push_back({i, j, attempt});
     }
+  }
 }
 
 void refuse_overlaps(const Packing &p, double tolerance) {

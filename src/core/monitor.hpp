@@ -23,6 +23,8 @@ class Monitor {
     start_ = now_seconds();
     last_ = start_ - 1.0;
     wall_time = std::numeric_limits<double>::infinity();
+    last_report_ = jam_progress{};
+    last_report_.phase = JAM_PHASE_ANALYSE;
   }
   // Called by capi at the end of a verb.
   void end() { cancelled_.store(false, std::memory_order_relaxed); }
@@ -39,9 +41,20 @@ class Monitor {
     last_ = t;
     p.struct_size = sizeof p;
     p.seconds = t - start_;
+    last_report_ = p;
     if (progress(&p, progress_user) != 0) cancel();
     return cancelled();
   }
+  // In a long loop between reports: repeats the last one. Returns true when the call must stop.
+  bool look() {
+    if (interrupted()) return true;
+    if (now_seconds() - start_ < 0.05) return false;
+    jam_progress again = last_report_;
+    again.snapshot = 0;
+    return report(again);
+  }
+  // What look() tells before the first report.
+  void expect(const jam_progress &p) { last_report_ = p; }
   __attribute__((format(printf, 3, 4))) void log(int level, const char *format, ...) const {
     if (!log_fn || level > log_level) return;
     char line[400];
@@ -62,6 +75,7 @@ class Monitor {
  private:
   std::atomic<bool> cancelled_{false};
   double start_ = 0.0, last_ = 0.0;
+  jam_progress last_report_{};
 };
 
 }  // namespace jam

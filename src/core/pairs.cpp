@@ -1,14 +1,13 @@
 // Pair lists by cells, and by brute force over all images for small boxes.
 #include "core/pairs.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 
@@ -20,14 +19,9 @@ struct Candidate {
   Cell::Vector offset;
 };
 
-// One list of pairs may take this part of the machine's memory. What is made from it takes about ten times as much.
-constexpr double kShareOfMemory = 1.0 / 16.0;
-
-double list_bytes_max() {
-  static const double bytes =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) * kShareOfMemory;
-  return bytes;
-}
+// One list of pairs may take this part of a call's memory. What is made from it takes about ten times as much.
+constexpr double kShareOfMemory = 1.0 / 8.0;
+double list_bytes_max() { return kShareOfMemory * CallScope::memory_limit(); }
 
 void check_list_size(double pairs, int dim) {
   const double bytes = pairs * static_cast<double>(2 * sizeof(int32_t) + dim * sizeof(double));
@@ -171,6 +165,7 @@ PairList by_brute_force(const Cutoff &cutoff) {
   const ImageScan images(p);
   const int32_t n = static_cast<int32_t>(p.n());
   for (int32_t i = 0; i < n; ++i) {
+    CallScope::look();
     for (int32_t j = i; j < n; ++j) images.scan(i, j, cutoff.of(i, j), found);
     append_sorted(list, i, p.dim, found);
   }
@@ -192,6 +187,7 @@ PairList by_cells(const Cutoff &cutoff) {
   Candidate now{};
   const int d = p.dim;
   for (int32_t i = 0; i < static_cast<int32_t>(p.n()); ++i) {
+    if (i % 1024 == 0) CallScope::look();
     const double *a = &p.position[static_cast<size_t>(i) * d];
     grid.around(i, [&](int32_t j) {
       if (j <= i) return;

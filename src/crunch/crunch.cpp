@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "crunch/state.hpp"
 
@@ -46,6 +47,32 @@ bool CrunchState::show(jam_phase phase, double gain, double step, bool finished)
   return stopped;
 }
 
+// Searches for pairs may throw Cancelled here.
+static void run_phases(CrunchState &s) {
+  jam_progress begun{};
+  begun.phase = JAM_PHASE_CRUNCH;
+  begun.packing_fraction = packing_fraction(s.out.packing);
+  begun.pressure = begun.fraction = std::numeric_limits<double>::quiet_NaN();
+  s.monitor.expect(begun);
+  const CallScope scope(CallScope::memory_limit(), &s.monitor);
+  s.bound = first_bound(s);
+  for (Phase phase = Phase::approach; phase != Phase::done;) {
+    switch (phase) {
+      case Phase::approach:
+        phase = approach(s);
+        break;
+      case Phase::barrier_path:
+        phase = follow_path(s);
+        break;
+      case Phase::identify:
+        phase = identify(s);
+        break;
+      case Phase::done:
+        break;
+    }
+  }
+}
+
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
                     const CrunchHooks *hooks) {
   check_options(start, o);
@@ -60,23 +87,11 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   const CrunchHooks no_hooks;
   CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);
   try {
-    s.bound = first_bound(s);
-    for (Phase phase = Phase::approach; phase != Phase::done;) {
-      switch (phase) {
-        case Phase::approach:
-          phase = approach(s);
-          break;
-        case Phase::barrier_path:
-          phase = follow_path(s);
-          break;
-        case Phase::identify:
-          phase = identify(s);
-          break;
-        case Phase::done:
-          break;
-      }
-    }
+    run_phases(s);
     finish(s);
+  } catch (const Cancelled &) {  // in a search for pairs
+    s.interrupted();
+    finish_failed(s);
   } catch (const Error &e) {
     s.stop(JAM_STOP_SOLVER, e.code());
     s.out.text = e.what();

@@ -192,7 +192,7 @@ void finish_failed(CrunchState &s) {
   std::fill(c.coordination.begin(), c.coordination.end(), 0);
   try {
     certify(s.out.packing, c, s.out.report);
-  } catch (const std::bad_alloc &) {
+  } catch (const std::exception &) {  // out of memory, or over its limit
     s.out.report.packing_fraction = packing_fraction(s.out.packing);
   }
   s.out.report.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/rng.hpp"
+#include "core/validate.hpp"
 #include "io/output_file.hpp"
 
 namespace jam {
@@ -128,17 +129,11 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   check_dim(h.dim);
   const ReducedCell reduced = reduce_cell(h.dim, h.cell);
   p.cell = reduced.cell;
-  check_non_additivity(h.non_additivity);
+  check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
-  for (size_t k = 0; k < p.position.size(); ++k)
-    good = good && p.position[k] >= 0.0 && p.position[k] < p.cell.edge(static_cast<int>(k % d));
-  const double shortest = p.cell.shortest();
-  for (double s : p.diameter) good = good && s > 0.0 && s <= shortest;
   for (int k = 0; k < h.dim; ++k)  // written in normal form
     for (int c = 0; c < h.dim; ++c) good = good && p.cell.row(k)[c] == h.cell[k * h.dim + c];
-  if (good) check_diameters(p.diameter, p.cell.side());
-  for (double v : p.velocity) good = good && std::isfinite(v);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {
     good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 &&

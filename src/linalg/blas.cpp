@@ -5,6 +5,7 @@
 extern "C" {
 void openblas_set_num_threads(int count);
 int openblas_get_num_threads(void);
+char *openblas_get_corename(void);
 }
 
 namespace jam {
@@ -18,6 +19,8 @@ Host &host() {
   return h;
 }
 }  // namespace
+
+const char *blas_kernel() { return openblas_get_corename(); }
 
 BlasSingleThread::BlasSingleThread() {
   Host &h = host();

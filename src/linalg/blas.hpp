@@ -17,6 +17,9 @@ void dtrsv_(const char *uplo, const char *trans, const char *diag, const int *n,
             double *x, const int *incx);
 }
 
+// Name of the kernel in use: the bits of sums depend on it.
+const char *blas_kernel();
+
 // While at least one lives, OpenBLAS runs single-threaded whatever the host set: blocks are small, libjam brings its
 // own threads, and the bits must not depend on the host. OpenBLAS keeps that number per process, so this is the one
 // place where libjam touches process-wide state; the last one out puts the host's number back.

@@ -9,7 +9,7 @@
 #define CHECK(type, member, at, size) \
   typedef char check_##type##_##member[offsetof(type, member) == (at) && sizeof(((type *)0)->member) == (size) ? 1 : -1]
 
-CHECK_SIZE(jam_create_options, 72);
+CHECK_SIZE(jam_create_options, 88);
 CHECK(jam_create_options, struct_size, 0, 4);
 CHECK(jam_create_options, dim, 4, 4);
 CHECK(jam_create_options, n, 8, 8);
@@ -22,6 +22,8 @@ CHECK(jam_create_options, mk_zeta, 48, 8);
 CHECK(jam_create_options, masses, 56, 4);
 CHECK(jam_create_options, reserved, 60, 4);
 CHECK(jam_create_options, non_additivity, 64, 8);
+CHECK(jam_create_options, wall_time, 72, 8);
+CHECK(jam_create_options, memory_limit, 80, 8);
 CHECK_SIZE(jam_info, 80);
 CHECK(jam_info, struct_size, 0, 4);
 CHECK(jam_info, dim, 4, 4);
@@ -385,6 +387,8 @@ int main(void) {
   SHOW(jam_create_options, masses);
   SHOW(jam_create_options, reserved);
   SHOW(jam_create_options, non_additivity);
+  SHOW(jam_create_options, wall_time);
+  SHOW(jam_create_options, memory_limit);
   printf("jam_info sizeof %zu\n", sizeof(jam_info));
   SHOW(jam_info, struct_size);
   SHOW(jam_info, dim);
@@ -786,6 +790,7 @@ int main(void) {
   printf("JAM_PHASE_DECOMPRESS value %d\n", (int)JAM_PHASE_DECOMPRESS);
   printf("JAM_PHASE_MONTE_CARLO value %d\n", (int)JAM_PHASE_MONTE_CARLO);
   printf("JAM_PHASE_ISOCONFIGURATIONAL value %d\n", (int)JAM_PHASE_ISOCONFIGURATIONAL);
+  printf("JAM_PHASE_CREATE value %d\n", (int)JAM_PHASE_CREATE);
   printf("JAM_LOG_NONE value %d\n", (int)JAM_LOG_NONE);
   printf("JAM_LOG_WARNING value %d\n", (int)JAM_LOG_WARNING);
   printf("JAM_LOG_INFO value %d\n", (int)JAM_LOG_INFO);

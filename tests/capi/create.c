@@ -73,9 +73,13 @@ static void shorter_structs_keep_defaults(void **state) {
 
 static void too_dense_starts_are_refused(void **state) {
   jam_create_options o = options();
+  double mixture[500];
+  int k;
   (void)state;
   o.n = 500, o.packing_fraction = 0.55; /* saturation of random sequential addition is 0.384 in d = 3 */
-  refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "reached packing fraction 0.3");
+  refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "ends near 0.384");
+  for (k = 0; k < 500; ++k) mixture[k] = k ? 1.0 : 1.001; /* unequal spheres can pack more densely: they are tried */
+  refused(&o, NULL, 0, mixture, 500, JAM_E_UNPLACEABLE, "reached packing fraction 0.3");
   o.n = 1, o.packing_fraction = 0.9; /* one sphere wider than the box */
   refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "box");
 }

@@ -108,7 +108,7 @@ class JamPack(unittest.TestCase):
             self.refuse(2, text, *args)
 
     def test_refused_requests(self):
-        self.refuse(3, "reached packing fraction", "--n", 50, "--phi0", 0.9)
+        self.refuse(3, "ends near 0.384", "--n", 50, "--phi0", 0.9)
         self.refuse(3, "No such file", "--input", self.dir / "none.dat")
         bad = self.dir / "bad.dat"
         bad.write_text("3\n4\n0.1\n0.1 0.2 0.3\n")

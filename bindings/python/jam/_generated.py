@@ -86,6 +86,7 @@ class Phase(IntEnum):
     DECOMPRESS = 7  # soft spheres on their way down to jamming; steps: decompressions so far
     MONTE_CARLO = 8  # Metropolis sweeps
     ISOCONFIGURATIONAL = 9  # runs from one configuration; steps counts those that are done
+    CREATE = 10  # making a system; steps counts the spheres placed
 
 
 class LogLevel(IntEnum):
@@ -801,6 +802,8 @@ OPTIONS = {
         "mk_zeta": ("float", 'MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'jam_masses, default EQUAL'),
         "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
+        "wall_time": ("float", 'seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT'),
+        "memory_limit": ("float", "as jam_set_memory_limit; default 0: half the machine's memory"),
     },
     "jam_run_options": {
         "resume": ("int", '1: go on with the run that stopped early; default 0'),
@@ -968,6 +971,7 @@ CALLS = {
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
     "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "int32_t"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),
+    "jam_set_memory_limit": (True, (("bytes", "scalar", "double"),)),
     "jam_write": (True, (("path", "string", "char"), ("format", "scalar", "Format"))),
     "jam_run": (True, (("o", "struct_in", "jam_run_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_compress": (True, (("o", "struct_in", "jam_compress_options"), ("report", "struct_out", "jam_md_report"))),

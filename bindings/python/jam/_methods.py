@@ -16,6 +16,13 @@ class Methods:
     def call(self, name: str, *args: Any, progress: Progressing = None, **named: Any) -> Any:
         raise NotImplementedError
 
+    def set_memory_limit(self, bytes: float, *, progress: Progressing = None) -> None:
+        """Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
+        that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
+        memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+        0.1"""
+        return self.call('set_memory_limit', bytes, progress=progress)
+
     def checkpoint_write(self, path: str) -> None:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
         and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is

@@ -46,6 +46,10 @@ class ClosedError(JamError, ValueError):
     """The system was closed."""
 
 
+class StoppedError(JamError, TimeoutError):
+    """A call that makes a system was stopped by wall_time or by its progress callable, so there is none."""
+
+
 # Where a Python name differs from the C function's.
 _NAMES = {
     "create": "System.random or System.from_arrays",

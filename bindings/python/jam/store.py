@@ -16,7 +16,6 @@ see all of a file or none of it, and a writer that is killed leaves only a file 
 """
 from __future__ import annotations
 
-import ctypes
 import functools
 import io
 import json
@@ -89,17 +88,11 @@ def _library() -> str | None:
 @functools.lru_cache(maxsize=None)
 def provenance() -> dict[str, str]:
     """Version, compiler, BLAS kernel, machine and Python of this process."""
-    compiler, kernel, cpu = "unknown", "unknown", platform.machine()
+    compiler, cpu = "unknown", platform.machine()
     path = _library()
     if path:
         found = re.search(rb"(GCC: \([^)]*\) [\d.]+|clang version [\d.]+)", Path(path).read_bytes())
         compiler = found.group(1).decode() if found else compiler
-    try:
-        blas = ctypes.CDLL("libopenblas.so.0")
-        blas.openblas_get_corename.restype = ctypes.c_char_p
-        kernel = blas.openblas_get_corename().decode()
-    except (OSError, AttributeError):
-        pass
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as info:
             cpu = next((line.partition(":")[2].strip() for line in info if line.startswith("model name")), cpu)
@@ -107,9 +100,9 @@ def provenance() -> dict[str, str]:
         pass
     return {
         "version": raw.jam_version(),
+        "blas_kernel": raw.jam_blas_kernel(),
         "abi": str(raw.jam_abi_version()),
         "compiler": compiler,
-        "blas_kernel": kernel,
         "machine": socket.gethostname(),
         "processor": cpu,
         "python": platform.python_version(),

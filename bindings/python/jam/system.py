@@ -9,6 +9,7 @@ from typing import Any
 from . import _calls, errors, raw
 from ._generated import JAM_MAX_DIM
 from ._network import Network
+from ._progress import reporter
 from ._state import State
 from ._verbs import Verbs
 from .results import Contacts, Modes
@@ -47,6 +48,7 @@ class System(State, Verbs, Network):
         *,
         packing_fraction: float | None = None,
         diameters: Any = None,
+        progress: Any = None,
         **options: Any,
     ) -> "System":
         """Random sequential start: spheres are placed one by one where they do not overlap.
@@ -65,8 +67,10 @@ class System(State, Verbs, Network):
             Of the start. Default: 0.2, halved for each dimension above 3.
         diameters : array_like, optional
             n values; only their ratios count. Default: all equal.
+        progress : bool or callable, optional
+            As of `compress`. A true answer of the callable ends the call with StoppedError, as wall_time does.
         **options
-            box or cell, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity.
+            box or cell, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity, wall_time, memory_limit.
 
         Examples
         --------
@@ -77,7 +81,8 @@ class System(State, Verbs, Network):
         sizes = None if diameters is None else _calls.as_array(diameters, name="diameters").reshape(-1)
         if packing_fraction is None:
             packing_fraction = 0.2 * 0.5 ** max(0, dim - 3)
-        return cls._create(dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction), None, sizes)
+        made = dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction)
+        return cls._create(made, None, sizes, progress)
 
     @classmethod
     def from_arrays(
@@ -119,6 +124,8 @@ class System(State, Verbs, Network):
         x = _calls.as_array(positions, name="positions")
         if x.ndim != 2:
             raise ValueError(f"positions must have shape (n, d), not {x.shape}")
+        if len(x) == 0:
+            raise ValueError("positions hold no sphere")
         if (diameters is None) == (radii is None):
             raise TypeError("give either diameters or radii")
         name = "diameters" if radii is None else "radii"
@@ -154,15 +161,25 @@ class System(State, Verbs, Network):
         return cls(raw.jam_checkpoint_read(os.fspath(path))[1])
 
     @classmethod
-    def _create(cls, options: dict, positions: Any, diameters: Any) -> "System":
+    def _create(cls, options: dict, positions: Any, diameters: Any, progress: Any = None) -> "System":
         cell = options.pop("cell", None)
         made = _calls.options("jam_create_options", options)
-        if cell is None:
-            return cls(raw.jam_create(made, positions, diameters)[1])
-        vectors = _calls.as_array(cell, name="cell")
-        if vectors.shape != (options["dim"],) * 2:
+        vectors = None if cell is None else _calls.as_array(cell, name="cell")
+        if vectors is not None and vectors.shape != (options["dim"],) * 2:
             raise ValueError(f"cell must have shape ({options['dim']}, {options['dim']}), not {vectors.shape}")
-        return cls(raw.jam_create_in_cell(made, vectors.reshape(-1), positions, diameters)[1])
+        told = reporter(progress)
+        try:
+            on_progress = told and (lambda p: bool(told(_calls.freeze(p, "jam_progress"))))
+            if vectors is None:
+                status, handle = raw.create_watched(made, positions, diameters, on_progress)
+            else:
+                status, handle = raw.jam_create_in_cell(made, vectors.reshape(-1), positions, diameters)
+        finally:
+            if hasattr(told, "close"):
+                told.close()
+        if status != 0:
+            raise errors.StoppedError(f"no system was made: {raw.jam_status_string(status)}")
+        return cls(handle)
 
     # ---- life
     def close(self) -> None:

@@ -145,7 +145,7 @@ int write_report(const outcome *result, const char *path) {
   fprintf(f, "  \"md_stop_reason\": \"%s\",\n", jam_stop_string(result->md_stop));
   put_number(f, "seconds_md", result->seconds_md);
   put_number(f, "seconds_crunch", crunched ? r->seconds : 0.0);
-  fprintf(f, "  \"version\": \"%s\"\n}\n", jam_version());
+  fprintf(f, "  \"version\": \"%s\",\n  \"blas_kernel\": \"%s\"\n}\n", jam_version(), jam_blas_kernel());
   return close_output(&out);
 }
 

@@ -77,6 +77,7 @@ const JAM_PHASE_RELAX = Int32(6)  # minimising the energy of soft spheres
 const JAM_PHASE_DECOMPRESS = Int32(7)  # soft spheres on their way down to jamming; steps: decompressions so far
 const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
 const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
+const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres placed
 
 # jam_log_level: Log levels. @since 0.1
 const JAM_LOG_NONE = Int32(0)  # silent, the default
@@ -273,7 +274,9 @@ mutable struct jam_create_options
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
     non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
-    jam_create_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    wall_time::Cdouble  # seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT
+    memory_limit::Cdouble  # as jam_set_memory_limit; default 0: half the machine's memory
+    jam_create_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -799,6 +802,13 @@ function jam_abi_version()
 end
 
 """
+Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1
+"""
+function jam_blas_kernel()
+    return ccall((:jam_blas_kernel, libjam), Cstring, ())
+end
+
+"""
 One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1
 """
 function jam_status_string(code)
@@ -836,8 +846,8 @@ diameters: n values, or 1 for all, or NULL with length 0 (all equal). With posit
 taken as they are. For a random start only their ratios count.
 out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
-JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction reached), JAM_E_MEMORY.
-Threads: any. @since 0.1
+JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
+Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1
 """
 function jam_create(o, positions, positions_len, diameters, diameters_len, out)
     return ccall((:jam_create, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)
@@ -958,6 +968,15 @@ function jam_set_progress(sys, callback, user)
 end
 
 """
+jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
+A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
+Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1
+"""
+function jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out)
+    return ccall((:jam_create_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
+end
+
+"""
 Sets (or with NULL removes) the log callback and its level. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
 """
@@ -971,6 +990,16 @@ stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: J
 """
 function jam_cancel(sys)
     return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
+end
+
+"""
+Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
+that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
+memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+0.1
+"""
+function jam_set_memory_limit(sys, bytes)
+    return ccall((:jam_set_memory_limit, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
 end
 
 """

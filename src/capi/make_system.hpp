@@ -1,0 +1,32 @@
+// A new handle whose packing make() gives, within the limits of the options.
+#pragma once
+#include <memory>
+
+#include "capi/guard.hpp"
+
+namespace jam {
+
+template <class Make>
+jam_status make_system(const jam_create_options &o, jam_progress_fn callback, void *user, jam_system **out,
+                       Make &&make) {
+  auto sys = std::make_unique<jam_system>();
+  if (o.memory_limit > 0.0) sys->memory_limit = o.memory_limit;
+  Monitor monitor;
+  monitor.begin();
+  monitor.wall_time = o.wall_time;
+  monitor.progress = callback;
+  monitor.progress_user = user;
+  const CallScope scope(sys->memory_limit, &monitor);
+  try {
+    sys->packing = make();
+  } catch (const Cancelled &) {
+    *out = nullptr;
+    return monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
+  }
+  check_packing(sys->packing, JAM_E_INTERNAL);
+  sys->note_diameters();
+  *out = sys.release();
+  return JAM_OK;
+}
+
+}  // namespace jam

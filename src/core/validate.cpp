@@ -1,0 +1,28 @@
+#include "core/validate.hpp"
+
+#include "core/error.hpp"
+#include "core/limits.hpp"
+
+namespace jam {
+
+void check_packing(const Packing &p, jam_status code) {
+  check_dim(p.dim);
+  check_box(p.cell.side());
+  check_non_additivity(p.non_additivity);
+  const size_t n = p.n(), d = static_cast<size_t>(p.dim);
+  if (n == 0 || p.position.size() != n * d || p.velocity.size() != n * d)
+    fail(code, "%zu diameters, %zu coordinates and %zu velocity components in d = %zu", n, p.position.size(),
+         p.velocity.size(), d);
+  for (size_t k = 0; k < n * d; ++k)
+    if (!(p.position[k] >= 0.0 && p.position[k] < p.cell.edge(static_cast<int>(k % d))))
+      fail(code, "positions[%zu] is %.17g, outside the box %g", k, p.position[k], p.cell.edge(static_cast<int>(k % d)));
+  for (size_t i = 0; i < n; ++i)
+    if (!(p.diameter[i] > 0.0 && p.diameter[i] <= p.cell.shortest()))
+      fail(code, "diameters[%zu] is %g in a box of %g", i, p.diameter[i], p.cell.side());
+  check_diameters(p.diameter, p.cell.side());
+  for (size_t k = 0; k < n * d; ++k)
+    if (!(p.velocity[k] >= -limits::velocity_max && p.velocity[k] <= limits::velocity_max))
+      fail(code, "velocities[%zu] is %g, at most %g is supported", k, p.velocity[k], limits::velocity_max);
+}
+
+}  // namespace jam

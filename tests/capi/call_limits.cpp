@@ -1,0 +1,159 @@
+// Limits of a call: making a system can be watched, cancelled and timed; searches for pairs stop at the memory limit
+// and when the call is cancelled or its time is over. Times here are bounds that a machine under load keeps too.
+#include <jam/jam.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+extern "C" {
+#include "test.h"
+}
+
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+jam_create_options options(int64_t n, double fraction) {
+  jam_create_options o;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n, o.packing_fraction = fraction;
+  return o;
+}
+
+jam_system *make(int64_t n, double fraction) {
+  const jam_create_options o = options(n, fraction);
+  jam_system *sys = nullptr;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  return sys;
+}
+
+struct Seen {
+  int calls = 0, stop_at = 1 << 30;
+  double fraction = -1.0;
+  int64_t steps = -1;
+};
+int32_t watch(const jam_progress *p, void *user) {
+  auto *seen = static_cast<Seen *>(user);
+  assert_int_equal(p->phase, JAM_PHASE_CREATE);
+  assert_true(p->packing_fraction >= seen->fraction && p->steps >= seen->steps);
+  seen->fraction = p->packing_fraction, seen->steps = p->steps;
+  return ++seen->calls >= seen->stop_at;
+}
+
+// Near its limit a random start takes minutes.
+void slow_start_is_watched_and_stopped(void **) {
+  jam_create_options o = options(20000, 0.38);
+  Seen seen;
+  seen.stop_at = 3;
+  jam_system *sys = reinterpret_cast<jam_system *>(1);
+  assert_int_equal(jam_create_watched(&o, nullptr, 0, nullptr, 0, watch, &seen, &sys), JAM_CANCELLED);
+  assert_null(sys);
+  assert_int_equal(seen.calls, 3);
+  assert_true(seen.fraction > 0.0 && seen.fraction < 0.38 && seen.steps > 0);
+
+  o.wall_time = 0.1;
+  sys = reinterpret_cast<jam_system *>(1);
+  const double begin = now();
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_LIMIT);
+  assert_true(now() - begin < 10.0);
+  assert_null(sys);
+  o.wall_time = 0.0;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_E_ARGUMENT);
+  o.wall_time = 1.0, o.memory_limit = -1.0;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_E_ARGUMENT);
+}
+
+void watching_changes_nothing(void **) {
+  const jam_create_options o = options(500, 0.25);
+  Seen seen;
+  jam_system *plain = make(500, 0.25), *watched = nullptr;
+  assert_int_equal(jam_create_watched(&o, nullptr, 0, nullptr, 0, watch, &seen, &watched), JAM_OK);
+  const double *a = nullptr, *b = nullptr;
+  size_t len = 0;
+  jam_positions_view(plain, &a, &len), jam_positions_view(watched, &b, &len);
+  assert_memory_equal(a, b, len * sizeof *a);
+  jam_destroy(plain), jam_destroy(watched);
+}
+
+// Shifts of all pairs of 20000 spheres: 2e8 searches.
+void planting_stops_in_time(void **) {
+  jam_create_options o = options(20000, 1.0);
+  o.model = JAM_MODEL_MK, o.wall_time = 0.1;
+  jam_system *sys = nullptr;
+  const double begin = now();
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_LIMIT);
+  assert_true(now() - begin < 10.0);
+  assert_null(sys);
+}
+
+// Above saturation no number of trials helps: told at once, and not for mixtures or few spheres, which pack otherwise.
+void fractions_out_of_reach(void **) {
+  for (int dim = 2; dim <= 8; ++dim) {
+    static const double saturation[] = {0.547, 0.384, 0.26, 0.171, 0.109, 0.0684, 0.0423};
+    jam_create_options o = options(20000, 1.02 * saturation[dim - 2]);
+    o.dim = dim;
+    jam_system *sys = nullptr;
+    const double begin = now();
+    assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_E_UNPLACEABLE);
+    assert_true(now() - begin < 5.0);
+    assert_non_null(strstr(jam_last_error(), "ends near"));
+  }
+  jam_system *one = make(1, 0.5);  // 1.3 times saturation
+  jam_destroy(one);
+}
+
+void memory_limit_of_a_call(void **) {
+  jam_system *sys = make(2000, 0.2);
+  size_t rows = 0;
+  assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_OK);
+  assert_true(rows > 0);
+  assert_int_equal(jam_set_memory_limit(sys, 1e5), JAM_OK);
+  assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "pairs"));
+  jam_system *copy = nullptr;
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_gaps(copy, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
+  jam_destroy(copy);
+  assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_E_MEMORY);
+  assert_int_equal(jam_set_memory_limit(sys, 0.0), JAM_E_ARGUMENT);
+  assert_int_equal(jam_set_memory_limit(sys, NAN), JAM_E_ARGUMENT);
+  assert_int_equal(jam_set_memory_limit(nullptr, 1.0), JAM_E_NULL);
+  assert_int_equal(jam_set_memory_limit(sys, INFINITY), JAM_OK);
+  assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_OK);
+  jam_destroy(sys);
+
+  jam_create_options o = options(2000, 0.2);
+  o.memory_limit = 1e5;
+  sys = nullptr;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
+  jam_destroy(sys);
+}
+
+// A search for many pairs inside a crunch: its time ends it, and the packing is kept.
+void crunch_of_many_pairs(void **) {
+  jam_system *sys = make(3000, 0.2);
+  jam_crunch_options o;
+  jam_crunch_options_init(&o, sizeof o);
+  o.neighbour_radius = 9.0, o.wall_time = 0.2;
+  assert_int_equal(jam_set_memory_limit(sys, INFINITY), JAM_OK);
+  const double begin = now();
+  assert_int_equal(jam_crunch(sys, &o, nullptr), JAM_LIMIT);
+  assert_true(now() - begin < 20.0);
+  assert_int_equal(jam_run(sys, nullptr, nullptr), JAM_OK);
+  jam_destroy(sys);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(slow_start_is_watched_and_stopped),
+                              cmocka_unit_test(watching_changes_nothing),
+                              cmocka_unit_test(planting_stops_in_time),
+                              cmocka_unit_test(fractions_out_of_reach),
+                              cmocka_unit_test(memory_limit_of_a_call),
+                              cmocka_unit_test(crunch_of_many_pairs)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -56,7 +56,7 @@ def show(axis, title, labels, runs, control, structure, kind, thesis):
         cells = " | ".join("" if np.isnan(v) else f"{v:.2f}({e:.2f})" for v, e in zip(nu[p][::2], error[p][::2]))
         print(f"| {title} | {pair} | {cells} | {thesis:.2f} |")
     axis.axhline(thesis, color="k", ls="--", lw=1)
-    axis.set(title=title, xlabel="K", xlim=(0.2, 0.85), ylim=(0.55 * thesis, 1.3 * thesis))
+    axis.set(title=title, xlabel="K", xlim=(0.2, 0.85))
     axis.legend(fontsize=6)
 
 

@@ -42,6 +42,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     } show{sys->step};
     sys->step = &history.step();
     CrunchResult result = crunch(sys->packing, full, sys->monitor, &history);
+    check_packing(result.packing, JAM_E_SOLVER);  // else all stays as before
     // Also after a failure: the state reached is valid and nothing is lost.
     sys->commit(result.packing);
     sys->contacts = std::move(result.contacts);

@@ -46,6 +46,7 @@ jam_status run_md(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &l
     status = stage->run(limits, listeners);
     report = stage->report;
   }
+  check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
   sys->commit(stage->packing());
   sys->drop_results();
   if (status == JAM_CANCELLED || status == JAM_LIMIT) sys->paused = std::move(stage);

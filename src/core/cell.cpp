@@ -81,8 +81,12 @@ void Cell::wrap(double *x, double *shift) const {
 
 double wrap(double x, double period) {
   if (x >= 0.0 && x < period) return x;
-  x -= period * std::floor(x / period);
-  return x < period ? x : 0.0;
+  const double near = x - period * std::floor(x / period);
+  if (near >= 0.0 && near < period) return near;
+  // Within rounding of a multiple of the period, or so many periods away that the product above is not exact.
+  double rest = std::fmod(x, period);
+  if (rest < 0.0) rest += period;
+  return rest < period ? rest : 0.0;
 }
 
 }  // namespace jam

@@ -192,15 +192,19 @@ static void report_placed(double fraction, int64_t spheres, size_t all) {
   CallScope::report(q);
 }
 
-void place_at_random(Packing &p) {
-  const size_t n = p.n();
-  const int d = p.dim;
-  p.position.assign(n * d, 0.0);
+static void refuse_unplaceable(const Packing &p) {
   if (fitting_factor(p) < 1.0)
     fail(JAM_E_UNPLACEABLE,
          "spheres of packing fraction %g, the largest of diameter %g, do not fit the box %g; packing fraction reached: "
          "0",
          packing_fraction(p), diameter_max(p), p.cell.side());
+}
+
+void place_at_random(Packing &p) {
+  const size_t n = p.n();
+  const int d = p.dim;
+  p.position.assign(n * d, 0.0);
+  refuse_unplaceable(p);
   check_below_saturation(p);
   std::vector<int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
@@ -237,6 +241,7 @@ void place_uniformly(Packing &p) {
 void plant(Packing &p) {
   const int32_t n = static_cast<int32_t>(p.n()), d = p.dim;
   const int32_t most = 2000;
+  refuse_unplaceable(p);
   p.position.resize(p.n() * static_cast<size_t>(d));
   Rng rng(p.seed, Stream::rsa_positions);
   for (size_t i = 0; i < p.n(); ++i) random_point(p.cell, rng, &p.position[i * static_cast<size_t>(p.dim)]);

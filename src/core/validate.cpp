@@ -1,5 +1,6 @@
 #include "core/validate.hpp"
 
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 
@@ -16,8 +17,9 @@ void check_packing(const Packing &p, jam_status code) {
   for (size_t k = 0; k < n * d; ++k)
     if (!(p.position[k] >= 0.0 && p.position[k] < p.cell.edge(static_cast<int>(k % d))))
       fail(code, "positions[%zu] is %.17g, outside the box %g", k, p.position[k], p.cell.edge(static_cast<int>(k % d)));
+  const double widest = p.cell.shortest() * (1.0 + overlap_tolerance);
   for (size_t i = 0; i < n; ++i)
-    if (!(p.diameter[i] > 0.0 && p.diameter[i] <= p.cell.shortest()))
+    if (!(p.diameter[i] > 0.0 && p.diameter[i] <= widest))
       fail(code, "diameters[%zu] is %g in a box of %g", i, p.diameter[i], p.cell.side());
   check_diameters(p.diameter, p.cell.side());
   for (size_t k = 0; k < n * d; ++k)

@@ -38,7 +38,8 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   positive(o.lp_tolerance, "lp_tolerance");
   positive(o.wall_time, "wall_time");
   check_range("neighbour_radius", o.neighbour_radius, 0.0, limits::radius_max);
-  if (!(o.step_bound >= 0.0)) fail(JAM_E_ARGUMENT, "step_bound is %g, it must be >= 0", o.step_bound);
+  // Smaller steps are lost in the rounding of positions; larger ones leave the numbers that the LP solvers take.
+  if (o.step_bound != 0.0) check_range("step_bound", o.step_bound, 1e-15, limits::radius_max);
   if (o.full_lps != 0 && o.full_lps != 1) fail(JAM_E_ARGUMENT, "full_lps is %d, it must be 0 or 1", o.full_lps);
   if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
   if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());

@@ -24,6 +24,11 @@ class StopWhenInterrupted : public ClpEventHandler {
   const Monitor *monitor_;
 };
 
+// Clp asserts that all numbers are below 1e100, which ends the host. Far below that its tolerances mean nothing.
+bool clp_can_take(const std::vector<double> &numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::fabs(x) < 1e30; });
+}
+
 }  // namespace
 
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
@@ -54,6 +59,13 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *mo
   }
   low.back() = -COIN_DBL_MAX, high.back() = COIN_DBL_MAX, cost.back() = -1.0;
   for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k] / scale;
+  if (!clp_can_take(row_low) || !clp_can_take(value)) {
+    LpSolution none;  // no step, and not solved
+    none.s.assign(static_cast<size_t>(columns - 1), 0.0);
+    none.y.assign(static_cast<size_t>(rows), 0.0);
+    none.w = lp.c;
+    return none;
+  }
 
   ClpSimplex model;
   CoinMessageHandler silent;
@@ -99,6 +111,7 @@ std::vector<double> solve_small_lp(const std::vector<double> &cost, const std::v
       index[k * count + r] = r, value[k * count + r] = rows[static_cast<size_t>(r) * columns + k];
   }
   start[columns] = columns * count;
+  if (!clp_can_take(cost) || !clp_can_take(rows) || !clp_can_take(rhs)) return {};
   const std::vector<double> low(columns, 0.0), high(columns, COIN_DBL_MAX);
   ClpSimplex model;
   CoinMessageHandler silent;

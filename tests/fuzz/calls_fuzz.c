@@ -70,7 +70,7 @@ static jam_system *create(input *in) {
 
 static void step(input *in, jam_system *sys) {
   size_t needed = 0;
-  switch (byte(in) % 8) {
+  switch (byte(in) % 10) {
     case 0: {
       jam_run_options o;
       jam_run_options_init(&o, sizeof o);
@@ -116,6 +116,22 @@ static void step(input *in, jam_system *sys) {
       check_status(jam_set_positions(sys, x, len < 48 ? len : 48));
       return;
     }
+    case 7: {
+      jam_monte_carlo_options o;
+      jam_monte_carlo_options_init(&o, sizeof o);
+      o.sweeps = 5, o.wall_time = 0.02;
+      damage(in, &o, sizeof o);
+      if (!(o.wall_time <= 0.02)) o.wall_time = 0.02;
+      check_status(jam_monte_carlo(sys, &o, NULL));
+      return;
+    }
+    case 8: {
+      double strain[64];
+      int k;
+      for (k = 0; k < 64; ++k) strain[k] = 0.01 * number(in);
+      check_status(jam_strain(sys, strain, (size_t)(1 + byte(in) % 64)));
+      return;
+    }
     default: {
       jam_system *copy = NULL;
       check_status(jam_copy(sys, &copy));
@@ -132,6 +148,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   jam_system *sys = create(&in);
   if (!sys) return 0;
   check_state(sys);
+  jam_set_memory_limit(sys, 1e8); /* and with it the time of searches for pairs */
   for (calls = 0; calls < 6 && in.left > 0; ++calls) {
     step(&in, sys);
     check_state(sys);

@@ -1,5 +1,8 @@
-/* Fuzz target over jam_checkpoint_read: the input is a checkpoint without its magic and checksum, which are put right
- * here, so that every field is reached. The answer is an error with a text, or a valid system that runs on. */
+/* Fuzz target over jam_checkpoint_read: the input changes a good checkpoint, and the checksum is put right, so that
+ * every field is reached. The answer is an error with a text, or a valid system that runs on.
+ *
+ * Input: a byte that chooses the checkpoint, then changes: two bytes of place, one of kind, and what it needs. The good
+ * checkpoints are written by the library under test, so they have its format. */
 #define _GNU_SOURCE
 #include <stdint.h>
 #include <stdio.h>
@@ -8,6 +11,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 #include "fuzz.h"
+
+#define BASES 6
+#define LARGEST (1 << 16)
+static uint8_t base[BASES][LARGEST];
+static size_t base_size[BASES];
 
 static uint64_t mix64(uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
@@ -27,26 +35,115 @@ static uint64_t checksum(const uint8_t *data, size_t size) {
   return sum;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *input, size_t size) {
-  static const char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '3'};
+static int32_t stop_at_once(const jam_progress *progress, void *user) {
+  (void)progress, (void)user;
+  return 1;
+}
+
+/* 0: created. 1: Mari-Kurchan. 2: a run, 3: a compression, 4: Monte Carlo, 5: runs from one configuration; all of these
+ * were stopped and go on. */
+static jam_system *make(int kind) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = kind == 3 ? 3 : 2;
+  o.n = 8;
+  if (kind == 1) o.model = JAM_MODEL_MK, o.packing_fraction = 1.0;
+  demand(jam_create(&o, NULL, 0, NULL, 0, &sys) == JAM_OK, "create");
+  jam_set_progress(sys, stop_at_once, NULL);
+  if (kind == 2) demand(jam_run(sys, NULL, NULL) == JAM_CANCELLED, "run");
+  if (kind == 3) demand(jam_compress(sys, NULL, NULL) == JAM_CANCELLED, "compress");
+  if (kind == 4) demand(jam_monte_carlo(sys, NULL, NULL) == JAM_CANCELLED, "monte_carlo");
+  if (kind == 5) {
+    const double instant[2] = {1.0, 2.0};
+    jam_isoconf_options runs;
+    jam_isoconf_options_init(&runs, sizeof runs);
+    demand(jam_isoconfigurational(sys, &runs, NULL, instant, 2, NULL, 0, NULL) == JAM_CANCELLED, "runs");
+  }
+  jam_set_progress(sys, NULL, NULL);
+  return sys;
+}
+
+static jam_status read_back(const uint8_t *data, size_t size, jam_system **sys) {
   char path[64];
+  jam_status status;
+  const int fd = memfd_create("input", 0);
+  demand(fd >= 0 && write(fd, data, size) == (ssize_t)size, "memfd_create");
+  snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+  status = jam_checkpoint_read(path, sys);
+  close(fd);
+  return status;
+}
+
+static void prepare(void) {
+  int k;
+  if (base_size[0]) return;
+  for (k = 0; k < BASES; ++k) {
+    jam_system *sys = make(k), *again = NULL;
+    const char *folder = getenv("TMPDIR");
+    char path[4096];
+    uint64_t sum;
+    FILE *f;
+    snprintf(path, sizeof path, "%s/jam-fuzz-%ld.jam", folder ? folder : "/tmp", (long)getpid());
+    demand(jam_checkpoint_write(sys, path) == JAM_OK, "checkpoint_write");
+    jam_destroy(sys);
+    f = fopen(path, "rb");
+    demand(f != NULL, "open");
+    base_size[k] = fread(base[k], 1, LARGEST, f);
+    fclose(f);
+    unlink(path);
+    demand(base_size[k] > 16 && base_size[k] < LARGEST, "size");
+    memcpy(&sum, base[k] + base_size[k] - 8, 8);
+    demand(sum == checksum(base[k], base_size[k] - 8), "the checksum is the one that the target puts right");
+    demand(read_back(base[k], base_size[k], &again) == JAM_OK, "a good checkpoint is read");
+    jam_destroy(again);
+  }
+}
+
+/* The changed checkpoint; returns its size. Kinds: a byte, 4 bytes, 8 bytes of the input, one of the special doubles,
+ * one bit, a shorter file. */
+static size_t change(uint8_t *data, size_t size, const uint8_t *in, size_t left) {
+  static const double special[] = {0.0, -1.0, NAN, INFINITY, 1e300, -1e300, 1e-300, 5e-324};
+  size -= 8;
+  while (left >= 4) {
+    const size_t at = (in[0] | (size_t)in[1] << 8) % size;
+    const int kind = in[2] % 6;
+    const size_t given = kind == 1 ? 4 : kind == 2 ? 8 : 1;
+    const size_t length = kind == 3 ? 8 : given;
+    const uint8_t *what = in + 3;
+    if (left < 3 + given) break;
+    if (kind == 5) {
+      if (at > 8) size = at;
+    } else if (at + length <= size) {
+      if (kind == 3)
+        memcpy(data + at, &special[*what % 8], 8);
+      else if (kind == 4)
+        data[at] ^= (uint8_t)(1u << *what % 8);
+      else
+        memcpy(data + at, what, given);
+    }
+    in += 3 + given, left -= 3 + given;
+  }
+  {
+    const uint64_t sum = checksum(data, size);
+    memcpy(data + size, &sum, 8);
+  }
+  return size + 8;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *input, size_t size) {
+  static uint8_t data[LARGEST];
   jam_system *sys = NULL;
   jam_status status;
   jam_run_options run;
   jam_compress_options compress;
-  uint64_t sum;
-  uint8_t *data = malloc(size + 16);
-  const int fd = memfd_create("input", 0);
-  demand(data && fd >= 0, "memory");
-  memcpy(data, magic, 8);
-  if (size) memcpy(data + 8, input, size);
-  sum = checksum(data, size + 8);
-  memcpy(data + 8 + size, &sum, 8);
-  demand(write(fd, data, size + 16) == (ssize_t)(size + 16), "write");
-  free(data);
-  snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-  status = jam_checkpoint_read(path, &sys);
-  close(fd);
+  jam_monte_carlo_options sweeps;
+  int kind;
+  prepare();
+  if (!size) return 0;
+  kind = input[0] % BASES;
+  memcpy(data, base[kind], base_size[kind]);
+  status = read_back(data, change(data, base_size[kind], input + 1, size - 1), &sys);
   check_status(status);
   if (status != JAM_OK) {
     demand(!sys, "no handle with an error");
@@ -55,12 +152,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *input, size_t size) {
   check_state(sys);
   jam_run_options_init(&run, sizeof run);
   jam_compress_options_init(&compress, sizeof compress);
-  run.resume = compress.resume = 1;
+  jam_monte_carlo_options_init(&sweeps, sizeof sweeps);
+  run.resume = compress.resume = sweeps.resume = kind >= 2;
   run.collisions_per_particle = compress.collisions_per_particle = 5.0;
-  run.wall_time = compress.wall_time = 0.05;
+  sweeps.sweeps = 5;
+  run.wall_time = compress.wall_time = sweeps.wall_time = 0.05;
   check_status(jam_run(sys, &run, NULL));
   check_state(sys);
   check_status(jam_compress(sys, &compress, NULL));
+  check_state(sys);
+  check_status(jam_monte_carlo(sys, &sweeps, NULL));
   check_state(sys);
   jam_destroy(sys);
   return 0;

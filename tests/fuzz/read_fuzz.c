@@ -21,8 +21,11 @@ static void check_round_trip(const jam_system *sys, int32_t format) {
   const double *x, *y;
   size_t x_len, y_len;
   char path[64];
+  jam_status written;
   snprintf(path, sizeof path, "/tmp/jam-fuzz-%ld", (long)getpid());
-  demand(jam_write(sys, path, format) == JAM_OK, "what was read can be written");
+  written = jam_write(sys, path, format);
+  if (format == JAM_FORMAT_PLAIN && written == JAM_E_UNSUPPORTED) return; /* a cell or Delta that it cannot hold */
+  demand(written == JAM_OK, "what was read can be written");
   demand(jam_read(path, NULL, &back) == JAM_OK, "what was written can be read");
   jam_positions_view(sys, &x, &x_len);
   jam_positions_view(back, &y, &y_len);

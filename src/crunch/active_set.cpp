@@ -7,26 +7,19 @@
 #include "network/rattlers.hpp"
 
 namespace jam {
-namespace {
-
-// A slack far below the narrowest gap of spheres that do not touch, above what an LP leaves open of a contact.
-constexpr double closed_slack = 1e-11;
-
-}  // namespace
-
 // At a strictly complementary optimum a row has either force or slack. Both are compared in their own units: y times
 // d n, about the number of carrying rows, is a force over the mean force; w is twice a relative gap. A solver that
 // ends at a vertex may leave a closed row without force: no slack counts as well.
-std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &x) {
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &x, double closed) {
   std::vector<char> on(lp.rows());
   const double carrying = static_cast<double>(lp.dim) * static_cast<double>(lp.n);
-  for (size_t k = 0; k < on.size(); ++k) on[k] = x.y[k] * carrying > std::max(x.w[k], 1e-9) || x.w[k] < closed_slack;
+  for (size_t k = 0; k < on.size(); ++k) on[k] = x.y[k] * carrying > x.w[k] || x.w[k] < closed;
   return on;
 }
 
-ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x) {
+ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x, double closed) {
   const PairList &pairs = *lp.pairs;
-  std::vector<char> on = force_carrying(lp, x);
+  std::vector<char> on = force_carrying(lp, x, closed);
   std::vector<double> normal(lp.a);
   for (size_t k = 0; k < on.size(); ++k) {
     on[k] = on[k] && pairs.i[k] != pairs.j[k];

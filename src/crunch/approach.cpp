@@ -22,15 +22,6 @@ double reach_of(const CrunchState &s) {
   return s.tuning.reach_per_bound * s.bound * unit;
 }
 
-void build_lp(CrunchState &s, double reach) {
-  s.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
-  PairList pairs = find_pairs(s.out.packing, reach, 1.0);
-  if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", s.o.neighbour_radius);
-  s.pairs = std::move(pairs);
-  s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing));
-  s.lp.bound = s.bound;
-}
-
 // What an answer must fulfil to be used. One that ended early leans on bounds that it has not reached: any feasible
 // point is a safe step.
 bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
@@ -42,7 +33,7 @@ bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &
 // One solver's answer. True when it is kept (`solved`), or when the call was interrupted.
 bool ask(CrunchState &s, jam_lp_solver solver, const IpmControl &control, bool &solved) {
   s.answer = solver == JAM_LP_IPM ? InteriorPoint(s.system).solve(s.lp, control, &s.monitor)
-                                  : solve_lp_clp(s.lp, 1e-9, &s.monitor);
+                                  : solve_lp_clp(s.lp, clp_tolerance, &s.monitor);
   if (s.hooks.answer) s.hooks.answer(s.answer, solver);
   LpCheck check;
   const bool good = acceptable(s, s.answer, control.early_fraction > 0.0, check);
@@ -126,6 +117,15 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
 
 }  // namespace
 
+void build_lp(CrunchState &s, double reach) {
+  s.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
+  PairList pairs = find_pairs(s.out.packing, reach, 1.0);
+  if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", s.o.neighbour_radius);
+  s.pairs = std::move(pairs);
+  s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing));
+  s.lp.bound = s.bound;
+}
+
 // The free spacing of a dilute start, down to a tenth of a diameter near jamming and less where gaps are closed.
 double first_bound(const CrunchState &s) {
   if (s.o.step_bound > 0.0) return s.o.step_bound;
@@ -134,30 +134,35 @@ double first_bound(const CrunchState &s) {
   return std::min(spacing, std::max(s.tuning.min_bound, closed));
 }
 
-Phase approach(CrunchState &s) {
-  const double unit = diameter_mean(s.out.packing), reach = reach_of(s);
-  build_lp(s, reach);
-  if (!solve(s)) return s.interrupted(), Phase::done;
-  s.multipliers = {s.pairs, s.answer.y};
-  s.active = find_active_set(s.lp, s.answer);
+LpStep make_step(CrunchState &s, double reach) {
+  const double unit = diameter_mean(s.out.packing);
+  // What a simplex solver leaves of a closed row, and rounding.
+  s.active = find_active_set(s.lp, s.answer, std::max(2.0 * clp_tolerance * s.bound, s.tuning.closed_gap));
   s.at_bound =
       std::count_if(s.answer.s.begin(), s.answer.s.end(), [&](double x) { return std::fabs(x) > 0.999 * s.lp.bound; });
   if (s.history.details()) s.history.take_network(s.out.packing, s.lp, s.answer);
   const double alpha = take_step(s.out.packing, s.pairs, reach, s.answer, unit);
   const double gain = gain_of(s.answer), step = largest_step(s.answer, s.active, s.lp.dim);
-  s.out.report.gain = gain;
-  s.out.report.max_step = s.moved = step;
   s.monitor.log(
       JAM_LOG_INFO,
       "LP %lld: gain %.3e step %.3e alpha %.3f pairs %zu iterations %d contacts %zu stable %lld bound %.3g phi %.12f",
       static_cast<long long>(s.out.report.lp_solves), gain, step, alpha, s.pairs.size(), s.answer.iterations,
       s.active.rows.size(), static_cast<long long>(s.active.stable), s.lp.bound, packing_fraction(s.out.packing));
   add_history_row(s, alpha, unit);
-  if (s.show(JAM_PHASE_CRUNCH, gain, step)) {
-    s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
-    return Phase::identify;
-  }
-  return next_phase(s, gain, step, alpha);
+  return {gain, step, alpha};
+}
+
+Phase approach(CrunchState &s) {
+  const double reach = reach_of(s);
+  build_lp(s, reach);
+  if (!solve(s)) return s.interrupted(), Phase::done;
+  s.multipliers = {s.pairs, s.answer.y};
+  const LpStep step = make_step(s, reach);
+  s.out.report.gain = step.gain;
+  s.out.report.max_step = s.moved = step.longest;
+  if (s.show(JAM_PHASE_CRUNCH, step.gain, step.longest))
+    return s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED), Phase::identify;
+  return next_phase(s, step.gain, step.longest, step.part);
 }
 
 }  // namespace jam

@@ -67,6 +67,9 @@ static void run_phases(CrunchState &s) {
       case Phase::identify:
         phase = identify(s);
         break;
+      case Phase::exact_vertex:
+        phase = exact_vertex(s);
+        break;
       case Phase::done:
         break;
     }

@@ -66,7 +66,7 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
 }
 
 void History::take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer) {
-  const std::vector<char> on = force_carrying(lp, answer);
+  const std::vector<char> on = force_carrying(lp, answer, 0.0);
   const PairList &pairs = *lp.pairs;
   double r[JAM_MAX_DIM];
   step_.pair.clear(), step_.vector.clear(), step_.multiplier.clear();

@@ -14,7 +14,7 @@
 #include "core/pair_rule.hpp"
 #include "crunch/polish.hpp"
 #include "crunch/state.hpp"
-#include "network/rigidity_test.hpp"
+#include "network/rattlers.hpp"
 
 namespace jam {
 namespace {
@@ -44,130 +44,101 @@ void add_history_row(CrunchState &s) {
   if (s.history.details()) s.show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
 }
 
-// Closes the contacts and balances the forces. False: refused, one more LP decides anew.
+// Closes the contacts and balances the forces, as far as they do. False when the call was interrupted.
 bool last_digits(CrunchState &s) {
   if (s.show(JAM_PHASE_POLISH, s.out.report.gain, s.out.report.max_step, false))
-    return s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED), true;
+    return s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED), false;
   if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
-  PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, s.tuning, &s.monitor);
-  if (end != PolishEnd::done && end != PolishEnd::interrupted) {
-    // No LP in doubles tells a gap of 1e-8 from a force of 1e-8: all such pairs are closed together and tested.
-    ContactNetwork all = with_near_pairs(s.out.packing, s.out.contacts, s.tuning.undecided_gap);
-    if (all.size() > s.out.contacts.size()) {
-      const PolishEnd wider = polish(s.out.packing, all, s.system, s.o.threads, s.tuning, &s.monitor);
-      if (wider == PolishEnd::done) s.out.contacts = std::move(all);
-      if (wider == PolishEnd::done || wider == PolishEnd::interrupted) end = wider;
-    }
-  }
+  const PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, s.tuning, &s.monitor);
   s.pairs.clear();  // polish left another graph in the system
-  if (end == PolishEnd::interrupted) return s.interrupted(), true;
+  if (end == PolishEnd::interrupted) return s.interrupted(), false;
   s.polished = end == PolishEnd::done;
-  if (s.polished) return add_history_row(s), true;
-  const bool again = ++s.stalled < s.tuning.max_stalled_lps && s.out.report.lp_solves < s.o.max_lps;
-  s.monitor.log(JAM_LOG_WARNING, "polish refused: %s; %s", text_of(end),
-                again ? "one more LP" : "the LP's answer stays");
-  return !again;
-}
-
-// The longest part of the motion v, at most `most`, that no pair blocks. v is zero for spheres that do not move.
-double free_length(const Packing &p, const std::vector<double> &v, double most) {
-  const PairList pairs = find_pairs(p, 2.2 * most, 1.0);
-  const size_t d = p.dim;
-  double length = most, r[JAM_MAX_DIM];
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
-    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]), r2 = pair_vector(p, pairs, k, r);
-    double rv = 0.0, vv = 0.0;
-    for (size_t c = 0; c < d; ++c)
-      rv += r[c] * (v[i + c] - v[j + c]), vv += (v[i + c] - v[j + c]) * (v[i + c] - v[j + c]);
-    const double gap = std::max(0.0, r2 - sigma * sigma), disc = rv * rv - vv * gap;
-    if (rv < -1e-9 * sigma * std::sqrt(vv) && disc > 0.0) length = std::min(length, gap / (-rv + std::sqrt(disc)));
-  }
-  return length;
-}
-
-// Moves along the flex of a saddle. False where a pair blocks at once or the kicks are used up.
-bool leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
-  Packing &p = s.out.packing;
-  const double now = packing_fraction(p);
-  if (verdict.result.flex.empty() || s.kicks >= s.tuning.max_kicks) return false;
-  ++s.kicks;
-  std::vector<double> v(p.position.size(), 0.0);
-  const size_t d = p.dim;
-  for (size_t q = 0; q < verdict.sphere.size(); ++q)
-    for (size_t c = 0; c < d; ++c) v[verdict.sphere[q] * d + c] = verdict.result.flex[q * d + c];
-  const double unit = diameter_mean(p), length = 0.9 * free_length(p, v, s.tuning.kick * unit);
-  s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along one of them", now,
-                static_cast<long long>(verdict.result.flexes), length / unit);
-  if (length < 1e-6 * unit) return --s.kicks, false;
-  for (size_t k = 0; k < v.size(); ++k) p.position[k] += length * v[k];
-  wrap_positions(p);
-  s.bound = first_bound(s);
-  s.last_gain = s.moved = 1.0;
-  s.stalled = 0;
+  if (s.polished)
+    add_history_row(s);
+  else
+    s.monitor.log(JAM_LOG_WARNING, "polish refused: %s", text_of(end));
   return true;
 }
 
-// A cold LP: a warm one leads to the same corner where multipliers are not unique.
-Phase one_more_lp(CrunchState &s) {
-  s.moved = 1.0;
-  s.last_gain = 0.0;
-  return Phase::approach;
+// All closed pairs as contacts, of spheres that they hold; the forces are left to the test.
+ContactNetwork closed_pairs(const Packing &p) {
+  ContactNetwork net;
+  net.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
+  measure_contacts(p, net);
+  net.coordination.assign(p.n(), 0);
+  net.force.assign(net.size(), 1.0);
+  std::vector<char> on(net.size(), 1);
+  drop_unbalanced(p.dim, p.n(), net.pairs.i, net.pairs.j, net.vector, on);
+  return subset(net, on, p.dim);
 }
 
-// Collectively jammed or not, from positions alone; LPs go on from a saddle.
-Phase judge(CrunchState &s) {
-  const PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, Jamming::collective);
-  s.monitor.log(
-      JAM_LOG_INFO,
-      "test: jammed %d, stressed %d, contacts %lld of %zu, needed %lld, self-stresses %lld, flexes %lld, margin "
-      "%.1e, undecided contacts %lld, residual %.1e",
-      static_cast<int>(verdict.result.jammed), static_cast<int>(verdict.result.stressed),
-      static_cast<long long>(verdict.result.contacts), s.out.contacts.size(),
-      static_cast<long long>(verdict.result.contacts_needed), static_cast<long long>(verdict.result.self_stresses),
-      static_cast<long long>(verdict.result.flexes), verdict.result.margin,
-      static_cast<long long>(verdict.undecided_contacts), verdict.result.force_residual);
-  double open = 0.0;
-  for (size_t k = 0; k < verdict.contacts.size(); ++k)
-    if (verdict.result.carrying[k]) open = std::max(open, std::fabs(verdict.contacts.gap[k]));
-  // A contact that stays open is none: only closed ones make a packing jammed.
-  if (verdict.result.jammed == Verdict::yes && open < contact_gap_limit) {
-    // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
-    // balances forces that polish refused.
-    if (s.o.polish && (!s.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0)) {
-      const double scale = s.out.contacts.force_scale;
-      s.out.contacts = verdict.carrying(s.out.packing.dim);
-      s.out.contacts.force_scale = scale;
-    }
-    s.jammed = true;
-    report_verdict(verdict, s.out.packing.dim, s.out.report);
-    return s.stop(JAM_STOP_CONVERGED, JAM_OK), Phase::done;
+void log_verdict(const CrunchState &s, const PackingVerdict &v) {
+  const RigidityResult &r = v.result;
+  const auto wide = [](int64_t x) { return static_cast<long long>(x); };
+  s.monitor.log(JAM_LOG_INFO,
+                "test: jammed %d, stressed %d, contacts %lld of %zu, needed %lld, self-stresses %lld, flexes %lld, "
+                "margin %.1e, undecided contacts %lld, residual %.1e",
+                static_cast<int>(r.jammed), static_cast<int>(r.stressed), wide(r.contacts), s.out.contacts.size(),
+                wide(r.contacts_needed), wide(r.self_stresses), wide(r.flexes), r.margin, wide(v.undecided_contacts),
+                r.force_residual);
+}
+
+Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
+  // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
+  // balances forces that polish refused.
+  if (s.o.polish && (!s.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0)) {
+    const double scale = s.out.contacts.force_scale;
+    s.out.contacts = verdict.carrying(s.out.packing.dim);
+    s.out.contacts.force_scale = scale;
   }
-  if (leave_saddle(s, verdict)) return Phase::approach;
-  if (++s.stalled < s.tuning.max_stalled_lps) return one_more_lp(s);
+  s.jammed = true;
   report_verdict(verdict, s.out.packing.dim, s.out.report);
-  if (verdict.result.jammed != Verdict::no)
-    s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
-  else if (verdict.result.flexes > 0)
-    s.stop(JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
-  else if (verdict.result.stressed == Verdict::yes)
-    s.stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
-  else
-    s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
-  return Phase::done;
+  return s.stop(JAM_STOP_CONVERGED, JAM_OK), Phase::done;
 }
 
 }  // namespace
 
+// Collectively jammed or not, from positions alone. LPs go on from a saddle, narrow ones where contacts are in doubt.
+Phase judge(CrunchState &s) {
+  for (;;) {
+    const PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, Jamming::collective);
+    log_verdict(s, verdict);
+    double open = 0.0;
+    for (size_t k = 0; k < verdict.contacts.size(); ++k)
+      if (verdict.result.carrying[k]) open = std::max(open, std::fabs(verdict.contacts.gap[k]));
+    // A contact that stays open is none: only closed ones make a packing jammed.
+    if (verdict.result.jammed == Verdict::yes && open < contact_gap_limit) return end_jammed(s, verdict);
+    const Kick kick = leave_saddle(s, verdict);
+    if (kick == Kick::free) return Phase::approach;
+    if (kick == Kick::blocked && s.o.polish) {
+      s.out.contacts = closed_pairs(s.out.packing);
+      if (!last_digits(s)) return Phase::done;
+      continue;
+    }
+    if (!s.exact && s.o.polish) return Phase::exact_vertex;
+    report_verdict(verdict, s.out.packing.dim, s.out.report);
+    if (verdict.result.jammed != Verdict::no)
+      s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+    else if (verdict.result.flexes > 0)
+      s.stop(JAM_STOP_SADDLE, JAM_NOT_CONVERGED);
+    else if (verdict.result.stressed == Verdict::yes)
+      s.stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED);
+    else
+      s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+    return Phase::done;
+  }
+}
+
 Phase identify(CrunchState &s) {
   if (s.active.rows.empty()) {
+    if (s.out.report.stop_reason == JAM_STOP_NONE && !s.exact && s.o.polish) return Phase::exact_vertex;
     if (s.out.report.stop_reason == JAM_STOP_NONE) s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
     return Phase::done;
   }
   s.out.contacts = make_contacts(s.out.packing, s.pairs, s.answer, s.active);
   if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
-  if (s.o.polish && !last_digits(s)) return one_more_lp(s);
-  if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
+  if (s.o.polish && !last_digits(s)) return Phase::done;
+  if (s.o.polish && !s.polished && !s.exact) return Phase::exact_vertex;
   return judge(s);
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/exact_vertex.hpp"
 #include "crunch/gap_rows.hpp"
 
 namespace jam {
@@ -58,37 +57,6 @@ class Polish {
     }
     if (closest_pair(p).gap < allowed_) return PolishEnd::overlap;
     return largest(net.gap) > closed_limit(p, t_) ? PolishEnd::open_contact : PolishEnd::done;
-  }
-
-  // Closing the contacts of one vertex may turn other forces negative, where vertices lie so near each other that the
-  // step between them changes the weakest forces. Such a vertex is kept with its weakest contacts open, when their
-  // weighted gap is below rounding.
-  PolishEnd at_vertex(Packing &p, ContactNetwork &net, PolishEnd end) {
-    for (int k = 0; k < t_.max_vertices; ++k) {
-      Vertex vertex;
-      if (!find_vertex(p, net, system_, threads_, t_, monitor_, vertex))
-        return monitor_ && monitor_->interrupted() ? PolishEnd::interrupted : end;
-      Packing moved = p;
-      ContactNetwork others = vertex.net;
-      move(moved, others.pairs, vertex.step);
-      measure_contacts(moved, others);
-      end = close_and_balance(moved, others);
-      const bool exact = end == PolishEnd::done;
-      const bool enough =
-          vertex.open < closed_limit(p, t_) && pushes_only(vertex.net) && closest_pair(p).gap >= allowed_;
-      log("vertex: %zu contacts, weighted gap %.1e, step %.1e, %s", vertex.net.size(), vertex.open,
-          largest(vertex.step.s), exact ? "closed" : "open");
-      if (end == PolishEnd::interrupted) return end;
-      if (!exact && enough) {
-        net = std::move(vertex.net);
-        system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
-        balance_forces(p, net);
-        return pushes_only(net) ? PolishEnd::done : PolishEnd::negative_force;
-      }
-      p = std::move(moved), net = std::move(others);
-      if (exact) return end;
-    }
-    return end;
   }
 
  private:
@@ -158,11 +126,7 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   Polish polisher(system, threads, tuning, std::min(-1e-14, closest_pair(p).gap), monitor);
   Packing q = p;
   ContactNetwork better = net;
-  PolishEnd end = polisher.close_and_balance(q, better);
-  if (end != PolishEnd::done && end != PolishEnd::interrupted) {
-    better = net;  // the LP's forces: one misidentified contact changes every force
-    end = polisher.at_vertex(q, better, end);
-  }
+  const PolishEnd end = polisher.close_and_balance(q, better);
   if (end != PolishEnd::done) return end;
   if (monitor && largest(better.gap) > closed_limit(q, tuning))
     monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),

@@ -6,11 +6,13 @@
 #include "crunch/tuning.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
+#include "network/rigidity_test.hpp"
 
 namespace jam {
 
 // approach: sequential LPs. barrier_path: Newton steps on the true gaps. identify: contacts, last digits, verdict.
-enum class Phase { approach, barrier_path, identify, done };
+// exact_vertex: narrow LPs where these leave it open.
+enum class Phase { approach, barrier_path, identify, exact_vertex, done };
 
 // Rows of an LP that carry force, and the spheres that they touch.
 struct ActiveSet {
@@ -18,9 +20,9 @@ struct ActiveSet {
   std::vector<int32_t> coordination;  // n
   int64_t stable = 0;                 // spheres with a force
 };
-// One flag a row: it carries force.
-std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer);
-ActiveSet find_active_set(const PackingLp &lp, const LpSolution &answer);
+// One flag a row: it carries force, or its slack is below `closed`.
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer, double closed);
+ActiveSet find_active_set(const PackingLp &lp, const LpSolution &answer, double closed);
 // Largest |s| over spheres with a force, their mean taken out; over all spheres if no sphere has one.
 double largest_step(const LpSolution &answer, const ActiveSet &active, int dim);
 // Contacts above those of one state of self-stress.
@@ -58,6 +60,7 @@ struct CrunchState {
   double last_gain = 1.0;
   double moved = 1.0;  // longest step since `multipliers`; 0 after a path that reached its end
   int stalled = 0, paths = 0, kicks = 0;
+  bool exact = false;     // the last LPs were narrow ones
   bool polished = false;  // the last polish closed its contacts
   bool jammed = false;    // by the test of the final network
 };
@@ -65,11 +68,24 @@ struct CrunchState {
 // approach.cpp. Each phase function returns the phase that follows.
 Phase approach(CrunchState &s);
 double first_bound(const CrunchState &s);
+// The LP of this bound at the present packing, into s.pairs and s.lp.
+void build_lp(CrunchState &s, double reach);
+// Moves by the answer, and records it.
+struct LpStep {
+  double gain, longest, part;
+};
+LpStep make_step(CrunchState &s, double reach);
+// exact_vertex.cpp
+Phase exact_vertex(CrunchState &s);
+// saddle.cpp: moves along the flex of a saddle until pairs block it.
+enum class Kick { none, blocked, free };
+Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict);
 // path_phase.cpp
 Phase follow_path(CrunchState &s);
 bool path_is_shorter(const CrunchState &s, double gain, double step);
 // identify.cpp
 Phase identify(CrunchState &s);
+Phase judge(CrunchState &s);
 void finish(CrunchState &s);
 void finish_failed(CrunchState &s);
 

@@ -54,12 +54,10 @@ struct Tuning {
   double farthest_reach = 2.4;
 
   // ---- identify: active set, exact vertex, verdict
-  double closing_gap = 1e-8;                  // a contact that stays wider when all are closed is none
-  double closed_gap = 3e-14;                  // rounding of closed contacts in a box of ten diameters
-  double weak_force = 1e-3, near_gap = 2e-6;  // of the mean; weaker contacts and nearer pairs are undecided
-  double undecided_gap = 1e-7;  // where the LP's contacts do not close, all pairs nearer than this are tried
-  size_t max_undecided = 800;
-  int max_vertices = 4;
+  double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
+  double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
+  double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
+  int max_narrow_lps = 20;
   int max_kicks = 10;  // motions along a flex
   double kick = 0.02;  // the longest
 };

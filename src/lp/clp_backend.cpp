@@ -1,5 +1,4 @@
-// LPs by Clp's dual simplex: the packing LP as the independent check, and small dense ones. The only file that includes
-// Clp.
+// LPs by Clp's dual simplex: the packing LP, and motions of a packing. The only file that includes Clp.
 #include <ClpEventHandler.hpp>
 #include <ClpSimplex.hpp>
 #include <CoinMessageHandler.hpp>
@@ -9,10 +8,12 @@
 #include <cmath>
 
 #include "lp/packing_lp.hpp"
-#include "lp/small_lp.hpp"
 
 namespace jam {
 namespace {
+
+// More pivots a row than any packing needed: degenerate LPs can go round.
+constexpr int most_pivots_a_row = 10;
 
 class StopWhenInterrupted : public ClpEventHandler {
  public:
@@ -29,105 +30,126 @@ bool clp_can_take(const std::vector<double> &numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::fabs(x) < 1e30; });
 }
 
-}  // namespace
-
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
-// follow the size of the step. Variables: s (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0. Clp minimises, so
-// the objective is -g.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor) {
-  const double scale = std::isfinite(lp.bound) ? lp.bound : 1.0;
-  const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
-  std::vector<int> row_of, column_of;
-  std::vector<double> value;
-  for (int k = 0; k < rows; ++k) {
-    const int i = lp.pairs->i[k], j = lp.pairs->j[k];
-    for (int c = 0; c < d && i != j; ++c) {
-      const double a = lp.a[static_cast<size_t>(k) * d + c];
-      row_of.insert(row_of.end(), {k, k});
-      column_of.insert(column_of.end(), {i * d + c, j * d + c});
-      value.insert(value.end(), {a, -a});
+// follow the size of the step, and the objective makes the mean multiplier of a carrying row one. Variables: s
+// (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0.
+class PackingModel {
+ public:
+  PackingModel(const PackingLp &lp, double tolerance, const Monitor *monitor)
+      : lp_(lp), scale_(std::isfinite(lp.bound) ? lp.bound : 1.0), stop_(monitor) {
+    const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
+    std::vector<int> row_of, column_of;
+    std::vector<double> value;
+    for (int k = 0; k < rows; ++k) {
+      const int i = lp.pairs->i[k], j = lp.pairs->j[k];
+      for (int c = 0; c < d && i != j; ++c) {
+        const double a = lp.a[static_cast<size_t>(k) * d + c];
+        row_of.insert(row_of.end(), {k, k});
+        column_of.insert(column_of.end(), {i * d + c, j * d + c});
+        value.insert(value.end(), {a, -a});
+      }
+      row_of.push_back(k), column_of.push_back(columns - 1), value.push_back(-1.0);
     }
-    row_of.push_back(k), column_of.push_back(columns - 1), value.push_back(-1.0);
+    // Triples with the same row and column (images of one pair never share a row) do not occur.
+    const CoinPackedMatrix matrix(true, row_of.data(), column_of.data(), value.data(),
+                                  static_cast<CoinBigIndex>(value.size()));
+    const double most = std::isfinite(lp.bound) ? 1.0 : COIN_DBL_MAX;
+    std::vector<double> low(columns, -most), high(columns, most), cost(columns, 0.0), row_low(rows),
+        row_high(rows, COIN_DBL_MAX);
+    low.back() = -COIN_DBL_MAX, high.back() = COIN_DBL_MAX;
+    for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k] / scale_;
+    usable = clp_can_take(row_low) && clp_can_take(value);
+    if (!usable) return;
+    silent_.setLogLevel(0);
+    model.passInMessageHandler(&silent_);
+    model.setLogLevel(0);
+    model.passInEventHandler(&stop_);
+    model.loadProblem(matrix, low.data(), high.data(), cost.data(), row_low.data(), row_high.data());
+    model.setPrimalTolerance(tolerance);
+    model.setDualTolerance(tolerance);
+    model.setMaximumIterations(most_pivots_a_row * rows);
   }
-  // Triples with the same row and column (images of one pair never share a row) do not occur.
-  CoinPackedMatrix matrix(true, row_of.data(), column_of.data(), value.data(), static_cast<CoinBigIndex>(value.size()));
-  std::vector<double> low(columns, -1.0), high(columns, 1.0), cost(columns, 0.0), row_low(rows),
-      row_high(rows, COIN_DBL_MAX);
-  if (!std::isfinite(lp.bound)) {
-    std::fill(low.begin(), low.end(), -COIN_DBL_MAX);
-    std::fill(high.begin(), high.end(), COIN_DBL_MAX);
+  // Displacements and g, with the slack of every row; where some rows miss the tolerance, all hold for a g less by as
+  // much.
+  // warm: from a basis near the optimum, where the primal simplex copes better with many closed rows at once.
+  LpSolution solve(bool warm) {
+    LpSolution out;
+    if (warm)
+      model.primal();
+    else
+      model.dual();
+    out.solved = model.status() == 0;
+    out.iterations = model.numberIterations();
+    const int d = lp_.dim, columns = model.numberColumns();
+    const double *x = model.primalColumnSolution();
+    out.s.assign(x, x + columns - 1);
+    out.g = x[columns - 1] * scale_;
+    for (double &s : out.s) s = std::min(std::max(s * scale_, -lp_.bound), lp_.bound);
+    out.w.resize(lp_.rows());
+    double missed = 0.0;
+    for (size_t k = 0; k < out.w.size(); ++k) {
+      const size_t i = static_cast<size_t>(lp_.pairs->i[k]) * d, j = static_cast<size_t>(lp_.pairs->j[k]) * d;
+      out.w[k] = lp_.c[k] - out.g;
+      for (int c = 0; c < d; ++c) out.w[k] += lp_.a[k * d + c] * (out.s[i + c] - out.s[j + c]);
+      missed = std::max(missed, -out.w[k]);
+    }
+    out.g -= missed;
+    for (double &w : out.w) w += missed;
+    return out;
   }
-  low.back() = -COIN_DBL_MAX, high.back() = COIN_DBL_MAX, cost.back() = -1.0;
-  for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k] / scale;
-  if (!clp_can_take(row_low) || !clp_can_take(value)) {
-    LpSolution none;  // no step, and not solved
-    none.s.assign(static_cast<size_t>(columns - 1), 0.0);
-    none.y.assign(static_cast<size_t>(rows), 0.0);
-    none.w = lp.c;
-    return none;
+
+  // No step, and not solved.
+  LpSolution none() const {
+    LpSolution out;
+    out.s.assign(static_cast<size_t>(lp_.n) * lp_.dim, 0.0);
+    out.y.assign(lp_.rows(), 0.0);
+    out.w = lp_.c;
+    return out;
   }
 
   ClpSimplex model;
-  CoinMessageHandler silent;
-  silent.setLogLevel(0);
-  model.passInMessageHandler(&silent);
-  model.setLogLevel(0);
-  const StopWhenInterrupted stop(monitor);
-  model.passInEventHandler(&stop);
-  model.loadProblem(matrix, low.data(), high.data(), cost.data(), row_low.data(), row_high.data());
-  model.setPrimalTolerance(tolerance);
-  model.setDualTolerance(tolerance);
-  LpSolution out;
-  model.dual();
-  out.solved = model.status() == 0;
-  out.iterations = model.numberIterations();
-  const double *x = model.primalColumnSolution(), *dual = model.dualRowSolution();
-  out.s.assign(x, x + columns - 1);
-  out.g = x[columns - 1] * scale;
-  for (double &s : out.s) s = std::min(std::max(s * scale, -lp.bound), lp.bound);
-  out.y.resize(rows);
-  out.w.resize(rows);
-  for (int k = 0; k < rows; ++k) {
-    out.y[k] = std::max(dual[k], 0.0);
-    const size_t i = static_cast<size_t>(lp.pairs->i[k]) * d, j = static_cast<size_t>(lp.pairs->j[k]) * d;
-    out.w[k] = lp.c[k] - out.g;
-    for (int c = 0; c < d; ++c) out.w[k] += lp.a[static_cast<size_t>(k) * d + c] * (out.s[i + c] - out.s[j + c]);
+  bool usable = false;
+
+ private:
+  const PackingLp &lp_;
+  const double scale_;
+  CoinMessageHandler silent_;
+  StopWhenInterrupted stop_;
+};
+
+}  // namespace
+
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor, const LpSolution *start) {
+  PackingModel packing(lp, tolerance, monitor);
+  if (!packing.usable) return packing.none();
+  ClpSimplex &model = packing.model;
+  const int columns = model.numberColumns(), rows = model.numberRows();
+  const double carrying = static_cast<double>(columns);
+  model.setObjectiveCoefficient(columns - 1, -carrying);
+  if (start && !start->basis_columns.empty()) {
+    const auto status = [](double v) { return static_cast<ClpSimplex::Status>(static_cast<int>(v) - 1); };
+    model.createStatus();
+    for (int k = 0; k < rows; ++k)
+      model.setRowStatus(k, start->basis_rows[k] > 0.0 ? status(start->basis_rows[k]) : ClpSimplex::basic);
+    for (int k = 0; k < columns; ++k) model.setColumnStatus(k, status(start->basis_columns[k]));
   }
-  // Some rows may miss the tolerance: all hold for a g less by as much.
-  const double missed = out.w.empty() ? 0.0 : -std::min(0.0, *std::min_element(out.w.begin(), out.w.end()));
-  out.g -= missed;
-  for (double &w : out.w) w += missed;
+  LpSolution out = packing.solve(start && !start->basis_columns.empty());
+  const double *dual = model.dualRowSolution();
+  for (int k = 0; k < rows; ++k) out.y.push_back(std::max(dual[k] / carrying, 0.0));
+  for (int k = 0; k < rows; ++k) out.basis_rows.push_back(1.0 + model.getRowStatus(k));
+  for (int k = 0; k < columns; ++k) out.basis_columns.push_back(1.0 + model.getColumnStatus(k));
   return out;
 }
 
-std::vector<double> solve_small_lp(const std::vector<double> &cost, const std::vector<double> &rows,
-                                   const std::vector<double> &rhs) {
-  const int columns = static_cast<int>(cost.size()), count = static_cast<int>(rhs.size());
-  std::vector<int> start(columns + 1), length(columns, count), index(rows.size());
-  std::vector<double> value(rows.size());
-  for (int k = 0; k < columns; ++k) {
-    start[k] = k * count;
-    for (int r = 0; r < count; ++r)
-      index[k * count + r] = r, value[k * count + r] = rows[static_cast<size_t>(r) * columns + k];
-  }
-  start[columns] = columns * count;
-  if (!clp_can_take(cost) || !clp_can_take(rows) || !clp_can_take(rhs)) return {};
-  const std::vector<double> low(columns, 0.0), high(columns, COIN_DBL_MAX);
-  ClpSimplex model;
-  CoinMessageHandler silent;
-  silent.setLogLevel(0);
-  model.passInMessageHandler(&silent);
-  model.setLogLevel(0);
-  model.loadProblem(columns, count, start.data(), index.data(), value.data(), low.data(), high.data(), cost.data(),
-                    rhs.data(), rhs.data());
-  model.setPrimalTolerance(1e-10);
-  model.setDualTolerance(1e-10);
-  model.dual();
-  if (model.status() != 0) return {};
-  std::vector<double> x(columns, 0.0);
-  for (int k = 0; k < columns; ++k)
-    if (model.getColumnStatus(k) == ClpSimplex::basic) x[k] = std::max(0.0, model.primalColumnSolution()[k]);
-  return x;
+LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed,
+                            const Monitor *monitor) {
+  PackingModel packing(lp, clp_tolerance, monitor);
+  if (!packing.usable) return packing.none();
+  for (size_t k = 0; k < direction.size(); ++k)
+    packing.model.setObjectiveCoefficient(static_cast<int>(k), -direction[k]);
+  for (int c = 0; c < lp.dim; ++c) packing.model.setColumnBounds(fixed * lp.dim + c, 0.0, 0.0);
+  packing.model.setColumnBounds(packing.model.numberColumns() - 1, 0.0, 0.0);
+  return packing.solve(false);
 }
 
 }  // namespace jam

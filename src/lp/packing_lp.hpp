@@ -31,7 +31,8 @@ struct LpSolution {
   double g = 0.0;
   std::vector<double> y, w;  // multipliers and slacks of the rows
   int iterations = 0, factorisations = 0;
-  bool solved = false;  // the solver's own word; check_lp decides
+  bool solved = false;                            // the solver's own word; check_lp decides
+  std::vector<double> basis_rows, basis_columns;  // of Clp: the status of each, plus 1; 0: not known
 };
 
 // Where the next problem on nearly the same rows may start.
@@ -65,7 +66,13 @@ inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
 }
 
 // Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
-// can interrupt it between two pivots.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *monitor = nullptr);
+// can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0: not known), or
+// NULL. tolerance: of rows, over the bound; of multipliers, over their mean.
+constexpr double clp_tolerance = 1e-9, basis_inside = 2.0, basis_at_lower = 4.0;
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
+                        const LpSolution *start = nullptr);
+// The vertex farthest along `direction`, g = 0; sphere `fixed` stays.
+LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &direction, int32_t fixed,
+                            const Monitor *monitor);
 
 }  // namespace jam

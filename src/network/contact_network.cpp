@@ -32,30 +32,6 @@ int64_t excess_contacts(const ContactNetwork &net, int dim) {
   return static_cast<int64_t>(net.size()) - (dim * (stable - 1) + 1);
 }
 
-void drop_loose(const PairList &pairs, std::vector<char> &on, size_t n, int dim) {
-  std::vector<int32_t> z;
-  for (bool again = true; again;) {
-    again = false;
-    z.assign(n, 0);
-    for (size_t k = 0; k < on.size(); ++k)
-      if (on[k]) ++z[pairs.i[k]], ++z[pairs.j[k]];
-    for (size_t k = 0; k < on.size(); ++k)
-      if (on[k] && std::min(z[pairs.i[k]], z[pairs.j[k]]) <= dim) on[k] = 0, again = true;
-  }
-}
-
-ContactNetwork with_near_pairs(const Packing &p, const ContactNetwork &net, double gap) {
-  ContactNetwork all;
-  all.pairs = find_pairs(p, 0.0, 1.0 + gap);
-  all.force = carry_over(net.pairs, net.force, all.pairs);
-  all.force_scale = net.force_scale;
-  all.coordination.assign(p.n(), 0);
-  measure_contacts(p, all);
-  std::vector<char> on(all.size(), 1);
-  drop_loose(all.pairs, on, p.n(), p.dim);
-  return subset(all, on, p.dim);
-}
-
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim) {
   ContactNetwork out;
   out.force_scale = net.force_scale;

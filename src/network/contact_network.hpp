@@ -26,13 +26,6 @@ void measure_contacts(const Packing &p, ContactNetwork &net);
 // Contacts above those of one state of self-stress, d (stable - 1) + 1.
 int64_t excess_contacts(const ContactNetwork &net, int dim);
 
-// Those of net and every other pair that is nearer than the relative gap, without force; of spheres that d + 1 of them
-// hold.
-ContactNetwork with_near_pairs(const Packing &p, const ContactNetwork &net, double gap);
-
-// Turns off those of spheres that fewer than d + 1 hold, again and again: they carry no force.
-void drop_loose(const PairList &pairs, std::vector<char> &on, size_t n, int dim);
-
 // Only those that are `on`, one flag a contact.
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim);
 

@@ -5,6 +5,7 @@
 
 #include "core/pair_rule.hpp"
 #include "linalg/blas.hpp"
+#include "network/rigid_part.hpp"
 #include "network/softest_modes.hpp"
 #include "network/stress_cone.hpp"
 
@@ -69,13 +70,12 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
   out.flex = std::move(v);
 }
 
-// On K+: counts, rank and verdict. modes: of K+.
-void judge(const RigidityMatrix &carrying, int strains, const SoftestModes &modes, RigidityResult &out) {
+// Counts of K+ with this many flexes.
+void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult &out) {
   const int d = carrying.dim;
   out.spheres = carrying.nodes;
   out.contacts = static_cast<int64_t>(carrying.contacts());
-  out.flexes = static_cast<int64_t>(modes.flexes.size());
-  out.margin = modes.margin;
+  out.idle_contacts -= out.contacts;
   const int64_t motions = d * (out.spheres - 1) + strains;
   out.contacts_needed = motions + 1;
   out.self_stresses = out.contacts - (motions - out.flexes);
@@ -83,7 +83,13 @@ void judge(const RigidityMatrix &carrying, int strains, const SoftestModes &mode
   for (size_t k = 0; k < carrying.contacts(); ++k)
     if (carrying.a[k] != carrying.b[k]) ++z[carrying.a[k]], ++z[carrying.b[k]];
   out.bridges = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
-  out.jammed = out.flexes > 0 ? Verdict::no : modes.margin < undecided_eigenvalue ? Verdict::undecided : Verdict::yes;
+}
+
+// Flags and forces of the rows that are `on` into those of all.
+void spread(const std::vector<char> &on, const std::vector<char> &carrying, const std::vector<double> &force,
+            RigidityResult &out) {
+  for (size_t k = 0, at = 0; k < on.size(); ++k)
+    if (on[k]) out.carrying[k] = carrying[at], out.force[k] = force[at++];
 }
 
 }  // namespace
@@ -114,17 +120,20 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const Cancel
   const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(sub.contacts()) - rank) : -1;
   const StressCone cone = find_stress_cone(rows, solver, states, cancel_point);
   if (!cone.decided) {
+    RigidityResult part;
     out.jammed = out.stressed = Verdict::undecided;
     out.margin = modes.margin;
+    if (!test_from_rigid_part(sub, cone, kind, cancel_point, part)) return out;
+    out.jammed = part.jammed, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;
+    out.force_residual = part.force_residual;
+    spread(on, part.carrying, part.force, out);
+    count_carrying(subset(sub, part.carrying), rows.strains, out);
+    if (out.jammed == Verdict::yes && !(out.force_residual < most_residual)) out.jammed = Verdict::undecided;
+    if (!part.flex.empty()) complete_flex(g, sub, rows, part.flex, released, false, out);
     return out;
   }
-  size_t at = 0, count = 0;
-  for (size_t k = 0; k < m; ++k)
-    if (on[k]) {
-      count += out.carrying[k] = cone.carrying[at];
-      out.force[k] = cone.force[at++];
-    }
-  out.idle_contacts -= static_cast<int64_t>(count);
+  spread(on, cone.carrying, cone.force, out);
+  const auto count = static_cast<size_t>(std::count(cone.carrying.begin(), cone.carrying.end(), 1));
   if (count == 0) {
     complete_flex(g, sub, rows, cone.motion, released, strain, out);
     return out;
@@ -137,7 +146,10 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const Cancel
     inner.factorise(std::vector<double>(count, 1.0), flex_eigenvalue);
     modes = softest_modes(kept, inner, flex_eigenvalue, most_flexes, cancel_point);
   }
-  judge(carrying, rows.strains, modes, out);
+  out.flexes = static_cast<int64_t>(modes.flexes.size());
+  out.margin = modes.margin;
+  out.jammed = out.flexes > 0 ? Verdict::no : modes.margin < undecided_eigenvalue ? Verdict::undecided : Verdict::yes;
+  count_carrying(carrying, rows.strains, out);
   std::vector<double> f;
   for (size_t k = 0; k < sub.contacts(); ++k)
     if (cone.carrying[k]) f.push_back(cone.force[k]);
@@ -226,11 +238,9 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   out.result = test_part(g, undecided ? closed : all, kind, cancel_point);
   if (undecided && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
     RigidityResult shut = test_rigidity(g, kind, cancel_point);
-    if (shut.jammed != Verdict::yes || out.result.jammed != Verdict::yes) {
-      const bool same = shut.jammed == out.result.jammed;
-      out.result = std::move(shut);
-      if (!same) out.result.jammed = Verdict::undecided;
-    }
+    const bool same = shut.jammed == out.result.jammed;
+    if (same || out.result.jammed == Verdict::yes) out.result = std::move(shut);  // else the flex of the open ones
+    if (!same) out.result.jammed = Verdict::undecided;
   }
   net.force = out.result.force;
   double sum = 0.0;

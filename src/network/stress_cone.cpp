@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/rng.hpp"
+#include "network/central_path.hpp"
 
 namespace jam {
 namespace {
@@ -84,96 +85,6 @@ double best_length(const std::vector<double> &w, const std::vector<double> &dw) 
   return low;
 }
 
-// The central path of the self-dual problem A^T f = mu x, w = A x + mu, f w = mu, f > 0, w > 0. As mu falls, f stays
-// finite on K+ and falls as mu on all others, where x opens them (Goldman and Tucker 1956; path following with
-// Mehrotra's corrector as in S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997).
-class CentralPath {
- public:
-  CentralPath(const ConstraintRows &rows, const CancellationPoint &cancel_point)
-      : rows_(rows),
-        cancel_point_(cancel_point),
-        solver_(rows),
-        x_(rows.columns(), 0.0),
-        f_(rows.rows(), 1.0),
-        w_(rows.rows(), 1.0) {}
-
-  // One step towards a smaller mu. False where steps have become too short to go on.
-  bool step() {
-    cancel_point_();
-    const size_t m = f_.size();
-    std::vector<double> weight(m);
-    for (size_t k = 0; k < m; ++k) weight[k] = f_[k] / w_[k];
-    solver_.factorise(weight, mu_);
-    std::vector<double> df, dw, dx, correction(m, 0.0);
-    direction(0.0, correction, df, dw, dx);
-    const double reach = std::min(longest(f_, df), longest(w_, dw));
-    const double target = mu_ * std::max(1e-3, std::min(0.95, std::pow(1.0 - reach, 2.0)));
-    for (size_t k = 0; k < m; ++k)
-      correction[k] = std::max(-10.0 * target, std::min(0.9 * target, -reach * reach * df[k] * dw[k]));
-    direction(target, correction, df, dw, dx);
-    double length = std::min(1.0, 0.99 * std::min(longest(f_, df), longest(w_, dw)));
-    while (length > least_step && worst_product(length, df, dw) < neighbourhood) length *= 0.8;
-    for (size_t k = 0; k < m; ++k) f_[k] += length * df[k], w_[k] += length * dw[k];
-    for (size_t k = 0; k < x_.size(); ++k) x_[k] += length * dx[k];
-    mu_ += length * (target - mu_);
-    ++steps_;
-    return length > least_step;
-  }
-
-  double mu() const { return mu_; }
-  int steps() const { return steps_; }
-  const std::vector<double> &f() const { return f_; }
-  const std::vector<double> &w() const { return w_; }
-  const std::vector<double> &x() const { return x_; }
-
- private:
-  // No product f w falls below this part of their mean, so that no contact is stuck at the boundary.
-  static constexpr double neighbourhood = 1e-3, least_step = 1e-3;
-
-  static double longest(const std::vector<double> &v, const std::vector<double> &dv) {
-    double t = 1.0;
-    for (size_t k = 0; k < v.size(); ++k)
-      if (v[k] + t * dv[k] < 0.0) t = -v[k] / dv[k];
-    return t;
-  }
-  double worst_product(double t, const std::vector<double> &df, const std::vector<double> &dw) const {
-    double least = std::numeric_limits<double>::infinity(), sum = 0.0;
-    for (size_t k = 0; k < f_.size(); ++k) {
-      const double product = (f_[k] + t * df[k]) * (w_[k] + t * dw[k]);
-      least = std::min(least, product), sum += product;
-    }
-    return least * static_cast<double>(f_.size()) / sum;
-  }
-  // Newton towards mu: A^T (f + df) = mu x + mu_ dx, w + dw = A (x + dx) + mu, f w + w df + f dw = mu + correction.
-  void direction(double mu, const std::vector<double> &correction, std::vector<double> &df, std::vector<double> &dw,
-                 std::vector<double> &dx) const {
-    const size_t m = f_.size();
-    std::vector<double> gap(m), g(m);
-    rows_.multiply(x_.data(), gap.data());
-    for (size_t k = 0; k < m; ++k) {
-      gap[k] += mu - w_[k];
-      g[k] = (mu + correction[k] - f_[k] * gap[k]) / w_[k];  // f + df without the part of A dx
-    }
-    dx.resize(x_.size());
-    rows_.transpose(g.data(), dx.data());
-    for (size_t k = 0; k < dx.size(); ++k) dx[k] -= mu * x_[k];
-    solver_.solve(dx.data());
-    dw.resize(m), df.resize(m);
-    rows_.multiply(dx.data(), dw.data());
-    for (size_t k = 0; k < m; ++k) {
-      df[k] = g[k] - f_[k] / w_[k] * dw[k] - f_[k];
-      dw[k] += gap[k];
-    }
-  }
-
-  const ConstraintRows &rows_;
-  const CancellationPoint &cancel_point_;
-  NormalSolver solver_;
-  std::vector<double> x_, f_, w_;
-  double mu_ = 1.0;
-  int steps_ = 0;
-};
-
 // Guesses of K+ from a point of the path. First all contacts: weak forces fall for long before they stay. Then those
 // with f > w, and those above the largest jump of the sorted forces, for a few that are much weaker or open much less.
 std::vector<std::vector<char>> guess_support(const CentralPath &path) {
@@ -192,9 +103,12 @@ std::vector<std::vector<char>> guess_support(const CentralPath &path) {
   return out;
 }
 
+enum class Support { no, positive, whole };
+
 // Both certificates of a guess of K+: a positive stress on it, and a motion that opens the others and keeps it closed.
-bool certify_support(const ConstraintRows &rows, const NormalSolver &solver, const CentralPath &path,
-                     const std::vector<char> &guess, StressCone &out, const CancellationPoint &cancel_point) {
+// positive: the first alone.
+Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, const CentralPath &path,
+                        const std::vector<char> &guess, StressCone &out, const CancellationPoint &cancel_point) {
   const size_t m = rows.rows();
   out.carrying = guess;
   const auto count = static_cast<size_t>(std::count(guess.begin(), guess.end(), 1));
@@ -222,11 +136,10 @@ bool certify_support(const ConstraintRows &rows, const NormalSolver &solver, con
     for (size_t k = 0; k < m; ++k)
       if (out.carrying[k]) out.force[k] = f[at++] / mean;
     // A guess that carries nothing loses its forces in the projection.
-    if (!(mean > least_projection)) return false;
-    for (const double v : f)
-      if (!(v > zero_force * mean)) return false;
+    if (!(mean > least_projection)) return Support::no;
+    if (!(*std::min_element(f.begin(), f.end()) > zero_force * mean)) return Support::no;
   }
-  if (count == m) return true;
+  if (count == m) return Support::whole;
   // Opens what does not carry; what carries is closed again by the nearest correction.
   std::vector<double> x = path.x(), y(m);
   rows.multiply(x.data(), y.data());
@@ -250,7 +163,18 @@ bool certify_support(const ConstraintRows &rows, const NormalSolver &solver, con
     else
       least = std::min(least, y[k]);
   out.motion = std::move(x);
-  return least > sure_opening * size && closed < zero_opening * size;
+  const bool opens = least > sure_opening * size && closed < zero_opening * size;
+  return opens ? Support::whole : count > 0 ? Support::positive : Support::no;
+}
+
+// A set with a positive state, and the forces of the path on all other contacts.
+void keep_positive(const CentralPath &path, const std::vector<char> &guess, StressCone &out) {
+  out.positive = guess;
+  out.path_force = path.f();
+  double sum = 0.0, count = 0.0;
+  for (size_t k = 0; k < guess.size(); ++k)
+    if (guess[k]) sum += path.f()[k], count += 1.0;
+  for (size_t k = 0; k < guess.size(); ++k) out.path_force[k] = guess[k] ? out.force[k] : path.f()[k] * count / sum;
 }
 
 // The analytic centre of the states on K+: minimises - sum log w over w = w0 + A u, whose gradient is - A^T f with
@@ -323,8 +247,13 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     going = path.step();
     if (path.mu() > next) continue;
     next = 0.1 * path.mu();
-    for (const std::vector<char> &guess : guess_support(path))
-      if (!out.decided) out.decided = certify_support(rows, solver, path, guess, out, cancel_point);
+    for (const std::vector<char> &guess : guess_support(path)) {
+      if (out.decided) break;
+      const Support found = certify_support(rows, solver, path, guess, out, cancel_point);
+      out.decided = found == Support::whole;
+      const auto size = [](const std::vector<char> &on) { return std::count(on.begin(), on.end(), 1); };
+      if (found == Support::positive && size(guess) > size(out.positive)) keep_positive(path, guess, out);
+    }
   }
   out.factorisations += path.steps();
   if (!out.decided || std::count(out.carrying.begin(), out.carrying.end(), 1) == 0) return out;

@@ -12,6 +12,9 @@ struct StressCone {
   std::vector<char> carrying;  // K+: contacts with a positive force in some state
   std::vector<double> force;   // positive on K+, 0 elsewhere, mean 1 on K+; A^T f = 0 to rounding
   std::vector<double> motion;  // A x = 0 on K+, > 0 on all other contacts; empty when all contacts carry
+  // Where not decided: the largest set with a positive state that was found, and forces > 0 near it on all contacts.
+  std::vector<char> positive;
+  std::vector<double> path_force;
   int factorisations = 0;
 };
 // states: dimension of the null space of A^T, -1 when not known. solver: of `rows`, factored with unit weights.

@@ -6,7 +6,6 @@
 
 #include "core/pair_rule.hpp"
 #include "linalg/double_double.hpp"
-#include "network/contact_network.hpp"
 
 namespace jam {
 namespace {
@@ -194,6 +193,24 @@ SoftContacts SoftState::contacts() const {
   }
   return out;
 }
+
+namespace {
+
+// Turns off contacts of spheres that fewer than d + 1 hold, again and again. The rule of network/rattlers asks for
+// forces that balance; here they need not yet, and it would take out spheres that are on their way.
+void drop_loose(const PairList &pairs, std::vector<char> &on, size_t n, int dim) {
+  std::vector<int32_t> z;
+  for (bool again = true; again;) {
+    again = false;
+    z.assign(n, 0);
+    for (size_t k = 0; k < on.size(); ++k)
+      if (on[k]) ++z[pairs.i[k]], ++z[pairs.j[k]];
+    for (size_t k = 0; k < on.size(); ++k)
+      if (on[k] && std::min(z[pairs.i[k]], z[pairs.j[k]]) <= dim) on[k] = 0, again = true;
+  }
+}
+
+}  // namespace
 
 std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &contacts) {
   PairList list;

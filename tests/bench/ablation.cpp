@@ -97,7 +97,7 @@ const Mechanism mechanisms[] = {
     {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.max_increases = 0; }},
     {"nearly centred", [](Tuning &t, jam_crunch_options &) { t.nearly_centred = 0.0; }},
     {"neighbours of uncovered spheres", [](Tuning &t, jam_crunch_options &) { t.farthest_reach = 0.0; }},
-    {"exact vertex", [](Tuning &t, jam_crunch_options &) { t.max_vertices = 0; }},
+    {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},
     {"kicks along flexes", [](Tuning &t, jam_crunch_options &) { t.max_kicks = 0; }},
 };
 
@@ -107,8 +107,8 @@ void run(const Start &start, const Mechanism &mechanism) {
   mechanism.off(hooks.tuning, o);
   Monitor monitor;
   monitor.begin();
-  if (std::getenv("ABLATION_LOG")) {
-    monitor.log_level = JAM_LOG_INFO;
+  if (std::getenv("ABLATION_LOG")) {  // a jam_log_level
+    monitor.log_level = std::atoi(std::getenv("ABLATION_LOG"));
     monitor.log_fn = [](int32_t, const char *line, void *) { std::fprintf(stderr, "%s\n", line); };
   }
   const std::clock_t before = std::clock();

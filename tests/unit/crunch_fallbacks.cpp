@@ -51,7 +51,7 @@ void clp_takes_over(void **) {
   const CrunchResult r = run(p, o, &hooks);
   assert_int_equal(r.status, JAM_OK);
   assert_int_equal(r.report.lp_solver, JAM_LP_CLP);
-  assert_true(clp == r.report.lp_solves && ipm == 2 * clp);
+  assert_true(clp == r.report.lp_solves && ipm > 0 && ipm <= 2 * clp);  // narrow LPs ask Clp alone
   assert_true(r.report.jammed && r.report.max_overlap < 1e-12 && r.report.force_residual < 1e-12);
   o.lp_solver = JAM_LP_CLP;
   same_bits(r, run(p, o));
@@ -89,8 +89,8 @@ void nobody_solves(void **) {
   assert_true(closest_pair(r.packing).gap > -1e-13);
 }
 
-// A refusal of the polish is followed by one more LP, whose network is as good as any. The log says so.
-void refused_polish_takes_one_more_lp(void **) {
+// A refusal of the polish is followed by narrow LPs, whose network is as good as any. The log says so.
+void refused_polish_takes_narrow_lps(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   const jam_crunch_options o = default_crunch_options();
   const CrunchResult plain = run(p, o);
@@ -104,8 +104,8 @@ void refused_polish_takes_one_more_lp(void **) {
   Monitor monitor;
   listen(monitor, log);
   const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
-  assert_true(log.find("polish refused: a force turns negative; one more LP") != std::string::npos);
-  assert_true(asked == 2 && r.report.lp_solves == plain.report.lp_solves + 1);
+  assert_true(log.find("polish refused: a force turns negative") != std::string::npos);
+  assert_true(asked == 2 && r.report.lp_solves > plain.report.lp_solves);
   assert_true(r.report.jammed && r.report.contacts == plain.report.contacts && r.report.force_residual < 1e-13);
   assert_true(std::fabs(r.report.packing_fraction - plain.report.packing_fraction) < 1e-12);
 }
@@ -123,8 +123,8 @@ void refused_polish_ends(void **) {
   Monitor monitor;
   listen(monitor, log);
   const CrunchResult r = crunch(p, default_crunch_options(), monitor, nullptr, &hooks);
-  assert_true(log.find("the LP's answer stays") != std::string::npos);
-  assert_int_equal(asked, Tuning().max_stalled_lps);
+  assert_true(log.find("polish refused") != std::string::npos);
+  assert_int_equal(asked, 2);
   assert_true(r.report.jammed && r.report.min_force > 0.0 && r.report.force_residual < 1e-9);
   assert_true(r.report.max_overlap < 1e-12 && r.report.max_contact_gap < 1e-10);
 }
@@ -136,7 +136,7 @@ int main() {
                               cmocka_unit_test(clp_takes_over),
                               cmocka_unit_test(clp_alone),
                               cmocka_unit_test(nobody_solves),
-                              cmocka_unit_test(refused_polish_takes_one_more_lp),
+                              cmocka_unit_test(refused_polish_takes_narrow_lps),
                               cmocka_unit_test(refused_polish_ends)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

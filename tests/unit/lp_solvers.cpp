@@ -100,7 +100,7 @@ void warm_starts(void **) {
     }
     known = {pairs, cold.y};
     assert_true(take_step(p, pairs, reach, cold, unit) > 0.0);
-    step = largest_step(cold, find_active_set(lp, cold), 3);
+    step = largest_step(cold, find_active_set(lp, cold, 1e-11), 3);
     bound = std::min(0.3, std::max({5.0 * step, cold.g, 1e-6}));
   }
   assert_true(settled > 2 && 2 * warm_iterations < cold_iterations);

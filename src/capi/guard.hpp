@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <new>
 #include "capi/system.hpp"
 #include "core/call_scope.hpp"
@@ -67,6 +68,7 @@ jam_status guard_const(const jam_system *sys, F &&f) noexcept {
 // for overlaps takes as long as some verbs.
 inline void check_state_left([[maybe_unused]] const jam_system *sys) {
 #ifdef JAM_CHECK_PAIRS
+  const CallScope unlimited(std::numeric_limits<double>::infinity());
   check_packing(sys->packing, JAM_E_INTERNAL);
   if (!sys->packing.overlap_allowed && sys->packing.n() <= 2000) refuse_overlaps(sys->packing, overlap_tolerance);
 #endif

@@ -1,5 +1,6 @@
 // Cancel flag, time limit, progress and log callbacks, and clock of a long call.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdarg>
@@ -45,10 +46,11 @@ class Monitor {
     if (progress(&p, progress_user) != 0) cancel();
     return cancelled();
   }
-  // In a long loop between reports: repeats the last one. Returns true when the call must stop.
+  // In a long loop between reports: repeats the last one after a silence of half a second, so that Ctrl-C is heard.
+  // Returns true when the call must stop.
   bool look() {
     if (interrupted()) return true;
-    if (now_seconds() - start_ < 0.05) return false;
+    if (now_seconds() - std::max(last_, start_) < 0.5) return false;
     jam_progress again = last_report_;
     again.snapshot = 0;
     return report(again);

@@ -200,7 +200,7 @@ void never_overlaps(void **) {
     Monitor monitor;
     monitor.begin();
     jam_md_report report{};
-    const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 20.0}, monitor, report);
+    const jam_status status = run_stage(p, {c.growth, c.pressure, never, 1e4, 300.0}, monitor, report);
     const double gap = closest_pair(p).gap;
     if (status != JAM_OK || !(gap > -1e-14))
       print_error("d=%d n=%d ratio=%g: status %d, p %g, gap %g\n", c.dim, c.n, c.ratio, status, report.pressure, gap);

@@ -54,6 +54,7 @@ double contact_gap(const Packing &p);
 // step.cpp: moves p by alpha (s, g) with the largest alpha <= 1 for which no pair outside the list overlaps.
 // Offsets follow when spheres are wrapped. s in units of sigma_unit. Returns alpha (0: even tiny steps overlap, which
 // only bad input can do).
-double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &answer, double sigma_unit);
+double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &answer, double sigma_unit,
+                 const StrainBasis &basis = {});
 
 }  // namespace jam

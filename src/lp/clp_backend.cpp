@@ -32,12 +32,13 @@ bool clp_can_take(const std::vector<double> &numbers) {
 
 // Clp's tolerances are absolute: with a finite bound the LP is scaled by it (s, g and c over the bound), so that they
 // follow the size of the step, and the objective makes the mean multiplier of a carrying row one. Variables: s
-// (n * dim), then g. Rows: c + a . (s_i - s_j) - g >= 0.
+// (n * dim), strain amplitudes, then g. Rows: c + a . (s_i - s_j) + b . e - g >= 0.
 class PackingModel {
  public:
   PackingModel(const PackingLp &lp, double tolerance, const Monitor *monitor)
       : lp_(lp), scale_(std::isfinite(lp.bound) ? lp.bound : 1.0), stop_(monitor) {
-    const int d = lp.dim, columns = lp.n * d + 1, rows = static_cast<int>(lp.rows());
+    const int d = lp.dim, strains = lp.strains, spheres = lp.n * d, columns = spheres + strains + 1,
+              rows = static_cast<int>(lp.rows());
     std::vector<int> row_of, column_of;
     std::vector<double> value;
     for (int k = 0; k < rows; ++k) {
@@ -48,6 +49,9 @@ class PackingModel {
         column_of.insert(column_of.end(), {i * d + c, j * d + c});
         value.insert(value.end(), {a, -a});
       }
+      for (int q = 0; q < strains; ++q)
+        row_of.push_back(k), column_of.push_back(spheres + q),
+            value.push_back(lp.strain[static_cast<size_t>(k) * strains + q]);
       row_of.push_back(k), column_of.push_back(columns - 1), value.push_back(-1.0);
     }
     // Triples with the same row and column (images of one pair never share a row) do not occur.
@@ -80,17 +84,19 @@ class PackingModel {
       model.dual();
     out.solved = model.status() == 0;
     out.iterations = model.numberIterations();
-    const int d = lp_.dim, columns = model.numberColumns();
+    const int d = lp_.dim, columns = model.numberColumns(), strains = lp_.strains;
     const double *x = model.primalColumnSolution();
-    out.s.assign(x, x + columns - 1);
+    out.s.assign(x, x + columns - 1 - strains), out.strain.assign(x + columns - 1 - strains, x + columns - 1);
     out.g = x[columns - 1] * scale_;
-    for (double &s : out.s) s = std::min(std::max(s * scale_, -lp_.bound), lp_.bound);
+    for (auto *v : {&out.s, &out.strain})
+      for (double &s : *v) s = std::min(std::max(s * scale_, -lp_.bound), lp_.bound);
     out.w.resize(lp_.rows());
     double missed = 0.0;
     for (size_t k = 0; k < out.w.size(); ++k) {
       const size_t i = static_cast<size_t>(lp_.pairs->i[k]) * d, j = static_cast<size_t>(lp_.pairs->j[k]) * d;
       out.w[k] = lp_.c[k] - out.g;
       for (int c = 0; c < d; ++c) out.w[k] += lp_.a[k * d + c] * (out.s[i + c] - out.s[j + c]);
+      for (int q = 0; q < strains; ++q) out.w[k] += lp_.strain[k * strains + q] * out.strain[q];
       missed = std::max(missed, -out.w[k]);
     }
     out.g -= missed;

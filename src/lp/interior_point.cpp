@@ -35,9 +35,10 @@ void InteriorPoint::start() {
   lp_ = &split_.near;
   const PackingLp &lp = *lp_;
   system_.set_graph(lp.dim, lp.n, split_.near_pairs, control_.threads);
+  system_.set_strain(lp.strain.data(), lp.strains);
   box_ = std::isfinite(lp.bound);
   rows_ = lp.rows();
-  unknowns_ = static_cast<size_t>(lp.n) * lp.dim;
+  unknowns_ = lp.unknowns();
   for (auto *v : {&s_, &rd_, &diagonal_, &rhs_, &targets_u_, &targets_v_}) v->assign(unknowns_, 0.0);
   for (auto *v : {&y_, &w_, &rp_, &weight_, &row_, &targets_}) v->assign(rows_, 0.0);
   for (auto *d : {&main_, &extra_, &trial_}) d->resize(rows_, unknowns_);
@@ -51,26 +52,27 @@ void InteriorPoint::start() {
   measure_far();
 }
 
-void InteriorPoint::measure_far() {
+// a . (s_i - s_j) + b . e of a row that stands outside the normal equations.
+double InteriorPoint::far_row(size_t k, const std::vector<double> &s) const {
   const int d = whole_->dim;
+  const size_t i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
+  const size_t strains = static_cast<size_t>(whole_->strains), spheres = s.size() - strains;
+  double row = 0.0;
+  for (int c = 0; c < d; ++c) row += whole_->a[k * d + c] * (s[i + c] - s[j + c]);
+  for (size_t q = 0; q < strains; ++q) row += whole_->strain[k * strains + q] * s[spheres + q];
+  return row;
+}
+
+void InteriorPoint::measure_far() {
   far_w_.resize(split_.far.size());
-  for (size_t q = 0; q < far_w_.size(); ++q) {
-    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d,
-                 j = static_cast<size_t>(whole_->pairs->j[k]) * d;
-    far_w_[q] = whole_->c[k] - g_;
-    for (int c = 0; c < d; ++c) far_w_[q] += whole_->a[k * d + c] * (s_[i + c] - s_[j + c]);
-  }
+  for (size_t q = 0; q < far_w_.size(); ++q) far_w_[q] = whole_->c[split_.far[q]] - g_ + far_row(split_.far[q], s_);
 }
 
 double InteriorPoint::longest_far(const Direction &x, double wanted) {
-  const int d = whole_->dim;
   double step = wanted;
   crossed_.clear();
   for (size_t q = 0; q < far_w_.size(); ++q) {
-    const size_t k = split_.far[q], i = static_cast<size_t>(whole_->pairs->i[k]) * d,
-                 j = static_cast<size_t>(whole_->pairs->j[k]) * d;
-    double dw = -x.g;
-    for (int c = 0; c < d; ++c) dw += whole_->a[k * d + c] * (x.s[i + c] - x.s[j + c]);
+    const double dw = far_row(split_.far[q], x.s) - x.g;
     if (!(wanted * dw < -0.9 * far_w_[q])) continue;
     step = std::min(step, -0.9 * far_w_[q] / dw);
     crossed_.push_back(q);
@@ -103,6 +105,7 @@ bool InteriorPoint::admit_far() {
   w_.resize(rows_), y_.resize(rows_);
   for (size_t q = 0; q < rows_; ++q) w_[q] = w[split_.index[q]], y_[q] = y[split_.index[q]];
   system_.set_graph(lp_->dim, lp_->n, split_.near_pairs, control_.threads, true);
+  system_.set_strain(lp_->strain.data(), lp_->strains);
   measure_far();
   return true;
 }
@@ -148,6 +151,8 @@ bool InteriorPoint::converged() const {
 LpSolution InteriorPoint::answer() const {
   LpSolution out;
   out.s = s_, out.g = g_;
+  out.strain.assign(s_.end() - whole_->strains, s_.end());
+  out.s.resize(s_.size() - out.strain.size());
   out.y.assign(whole_->rows(), 0.0), out.w.assign(whole_->rows(), 0.0);
   for (size_t q = 0; q < rows_; ++q) out.y[split_.index[q]] = y_[q], out.w[split_.index[q]] = w_[q];
   for (size_t q = 0; q < far_w_.size(); ++q) out.w[split_.far[q]] = far_w_[q];
@@ -160,7 +165,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
   start();
   LpSolution out;
   const int before = system_.factorisations;
-  double best_merit = std::numeric_limits<double>::infinity();
+  double best_merit = std::numeric_limits<double>::infinity(), best_balance = best_merit;
   int stalled_iterations = 0;
   const int max_stalled_iterations = control.multipliers ? 3 : 8;  // a cold start is at hand where a warm one stalls
   bool asked = false;
@@ -179,8 +184,8 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     }
     // Nothing more to win: rounding rules. Good enough if the gap is near the tolerance all the same.
     const double merit = gap + std::min(1.0, gap_scale_ * dual_norm_);
-    stalled_iterations = merit < 0.9 * best_merit ? 0 : stalled_iterations + 1;
-    best_merit = std::min(best_merit, merit);
+    stalled_iterations = merit < 0.9 * best_merit || dual_norm_ < 0.9 * best_balance ? 0 : stalled_iterations + 1;
+    best_merit = std::min(best_merit, merit), best_balance = std::min(best_balance, dual_norm_);
     if (monitor && monitor->interrupted()) break;
     if (stalled_iterations >= max_stalled_iterations || out.iterations >= control.max_iterations) {
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;

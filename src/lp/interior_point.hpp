@@ -63,6 +63,7 @@ class InteriorPoint {
   void move(const Direction &d, const Steps &a);
   // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near
   // joins.
+  double far_row(size_t k, const std::vector<double> &s) const;
   void measure_far();
   double longest_far(const Direction &d, double wanted);
   bool admit_far();

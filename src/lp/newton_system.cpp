@@ -1,5 +1,7 @@
 #include "lp/newton_system.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -16,6 +18,7 @@ double dot(const std::vector<double> &x, const double *y) { return std::inner_pr
 }  // namespace
 
 void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order) {
+  set_strain(nullptr, 0);
   if (dim == dim_ && n == n_ && threads == threads_ && pairs.i == pair_i_ && pairs.j == pair_j_) return;
   const double t0 = now_seconds();
   dim_ = dim;
@@ -45,10 +48,16 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
   const size_t block = static_cast<size_t>(dim) * dim, unknowns = static_cast<size_t>(n) * dim;
   diag_.resize(block * n);
   off_.resize(block * edges_);
-  box_.resize(unknowns);
-  for (auto *v : {&column_, &column_solved_, &work_, &residual_, &correction_}) v->resize(unknowns);
+  for (auto *v : {&box_, &column_, &column_solved_, &work_, &residual_, &correction_}) v->resize(unknowns);
   row_work_.resize(pairs.size());
   seconds_assemble += now_seconds() - t0;
+}
+
+void NewtonSystem::set_strain(const double *strain, int count) {
+  strain_ = strain, strains_ = count;
+  const size_t spheres = static_cast<size_t>(n_) * dim_;
+  for (auto *v : {&box_, &work_, &residual_, &correction_, &column_}) v->resize(spheres + count);
+  border_.resize(spheres * count), border_solved_.resize(spheres * count);
 }
 
 template <int D>
@@ -115,20 +124,60 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   transpose_times(a, weight, column_.data());
   delta_ = 0.0;
   for (size_t k = 0; k < pair_i_.size(); ++k) delta_ += weight[k];
-  column_solved_ = column_;
+  column_solved_.assign(column_.begin(), column_.end() - strains_);
   cholesky_.solve(column_solved_.data());
-  schur_ = delta_ - dot(column_, column_solved_.data());
+  schur_ = delta_ - dot(column_solved_, column_.data());
   // In exact arithmetic schur > 0; what rounding leaves below eps * delta says nothing.
   if (!(schur_ > 1e-14 * delta_)) schur_ = 1e-14 * delta_;
+  if (strains_ > 0) border();
   seconds_solve += now_seconds() - t2;
   return std::isfinite(schur_);
 }
 
+// Schur complement of (g, e): C^T D C + diag - (A^T D C)^T K^-1 (A^T D C) with the columns C = (-1, B).
+void NewtonSystem::border() {
+  const size_t spheres = column_solved_.size(), m = pair_i_.size(), q = static_cast<size_t>(strains_);
+  Eigen::MatrixXd s = Eigen::MatrixXd::Zero(strains_ + 1, strains_ + 1);
+  s(0, 0) = schur_;
+  for (int c = 0; c < strains_; ++c) {
+    double *f = &border_[c * spheres], *k = &border_solved_[c * spheres];
+    for (size_t e = 0; e < m; ++e) row_work_[e] = weight_[e] * strain_[e * q + c];
+    jam::transpose_times(dim_, n_, pair_i_, pair_j_, a_, row_work_.data(), f);
+    std::copy(f, f + spheres, k);
+    cholesky_.solve(k);
+    s(0, c + 1) = std::inner_product(k, k + spheres, column_.begin(), 0.0);
+    for (size_t e = 0; e < m; ++e) s(0, c + 1) -= row_work_[e];
+    for (int b = 0; b <= c; ++b) {
+      double &x = s(b + 1, c + 1);
+      for (size_t e = 0; e < m; ++e) x += row_work_[e] * strain_[e * q + b];
+      x -= std::inner_product(k, k + spheres, &border_[b * spheres], 0.0);
+      if (b == c) x += box_[spheres + c];
+    }
+  }
+  s.triangularView<Eigen::StrictlyLower>() = s.transpose();
+  const Eigen::MatrixXd inverse = s.ldlt().solve(Eigen::MatrixXd::Identity(strains_ + 1, strains_ + 1));
+  corner_.assign(inverse.data(), inverse.data() + inverse.size());
+}
+
 void NewtonSystem::solve_once(const double *rhs, double h, double *ds, double *dg) {
-  std::copy(rhs, rhs + column_.size(), ds);
+  const size_t spheres = column_solved_.size();
+  std::copy(rhs, rhs + spheres, ds);
   cholesky_.solve(ds);
-  *dg = (h + dot(column_, ds)) / schur_;
-  for (size_t k = 0; k < column_.size(); ++k) ds[k] += *dg * column_solved_[k];
+  if (strains_ == 0) {
+    *dg = (h + dot(column_, ds)) / schur_;
+  } else {
+    Eigen::VectorXd x(strains_ + 1);
+    x[0] = h + std::inner_product(ds, ds + spheres, column_.begin(), 0.0);
+    for (int c = 0; c < strains_; ++c)
+      x[c + 1] = rhs[spheres + c] - std::inner_product(ds, ds + spheres, &border_[c * spheres], 0.0);
+    x = (Eigen::Map<const Eigen::MatrixXd>(corner_.data(), strains_ + 1, strains_ + 1) * x).eval();
+    *dg = x[0];
+    for (int c = 0; c < strains_; ++c) {
+      for (size_t k = 0; k < spheres; ++k) ds[k] -= x[c + 1] * border_solved_[c * spheres + k];
+      ds[spheres + c] = x[c + 1];
+    }
+  }
+  for (size_t k = 0; k < spheres; ++k) ds[k] += *dg * column_solved_[k];
 }
 
 void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, int refine) {
@@ -159,10 +208,19 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
 
 void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {
   jam::rows_times(dim_, pair_i_, pair_j_, a, s, out);
+  const size_t q = static_cast<size_t>(strains_);
+  const double *e = s + static_cast<size_t>(n_) * dim_;
+  for (size_t k = 0; q > 0 && k < pair_i_.size(); ++k)
+    for (size_t c = 0; c < q; ++c) out[k] += strain_[k * q + c] * e[c];
 }
 
 void NewtonSystem::transpose_times(const double *a, const double *y, double *out) const {
   jam::transpose_times(dim_, n_, pair_i_, pair_j_, a, y, out);
+  const size_t q = static_cast<size_t>(strains_);
+  double *e = out + static_cast<size_t>(n_) * dim_;
+  std::fill(e, e + q, 0.0);
+  for (size_t k = 0; q > 0 && k < pair_i_.size(); ++k)
+    for (size_t c = 0; c < q; ++c) e[c] += strain_[k * q + c] * y[k];
 }
 
 }  // namespace jam

@@ -2,7 +2,8 @@
 // re-linearising crunch:
 //     [ A^T D A + diag(box)   -A^T D 1 ] [ds]   [R]
 //     [ -1^T D A               1^T D 1 ] [dg] = [h]
-// A^T D A has one d x d block a particle and a pair of particles; the Gamma column goes by a Schur complement.
+// A^T D A has one d x d block a particle and a pair of particles; the Gamma column goes by a Schur complement. So do
+// the few columns of strain amplitudes in a free cell; vectors of unknowns then hold them behind the displacements.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -17,8 +18,10 @@ class NewtonSystem {
   // Symbolic part; reused by every factorise() until the pairs change (nothing is done for the same pairs). Images of
   // one pair share a block. keep_order: the elimination order stays, for a graph that got a few pairs more.
   void set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order = false);
-  // a: (pairs, dim) rows; weight: D of each pair; box: n * dim values added to the diagonal. Keeps the pointers
-  // a and weight and a copy of box until the next call. False when the numbers are no longer finite.
+  // Columns of strain for the pairs of set_graph, (pairs, count); kept by pointer. set_graph takes them away.
+  void set_strain(const double *strain, int count);
+  // a: (pairs, dim) rows; weight: D of each pair; box: a value for each unknown, added to the diagonal. Keeps the
+  // pointers a and weight and a copy of box until the next call. False when the numbers are no longer finite.
   bool factorise(const double *a, const double *weight, const double *box);
   // Solves with up to `refine` steps of iterative refinement against the unassembled operator, as long as the residual
   // is above 1e-9 of the right-hand side.
@@ -37,6 +40,7 @@ class NewtonSystem {
   template <int D>
   void assemble(const double *a, const double *weight);
   void solve_once(const double *rhs, double h, double *ds, double *dg);
+  void border();
 
   int dim_ = 0, threads_ = 0;
   int32_t n_ = 0;
@@ -47,6 +51,10 @@ class NewtonSystem {
   std::vector<double> column_, column_solved_;  // q = A^T D 1 and K^-1 q
   double delta_ = 0.0, schur_ = 0.0;            // 1^T D 1, and minus q . K^-1 q
   const double *a_ = nullptr, *weight_ = nullptr;
+  // With strain: F = A^T D B and K^-1 F, column by column, and the inverse of the Schur complement of (g, e).
+  const double *strain_ = nullptr;
+  int strains_ = 0;
+  std::vector<double> border_, border_solved_, corner_;
   std::vector<double> row_work_, work_, residual_, correction_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace jam {
 
-PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit) {
+PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, const StrainBasis &basis) {
   PackingLp lp;
   const int d = p.dim;
   lp.dim = d;
@@ -23,6 +23,15 @@ PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit) {
     const double scale = pairs.i[k] == pairs.j[k] ? 0.0 : 2.0 * sigma_unit / (sigma * sigma);
     for (int c = 0; c < d; ++c) lp.a[k * d + c] = scale * r[c];
   }
+  lp.strains = basis.count();
+  if (lp.strains == 0) return lp;
+  std::vector<double> vectors(pairs.size() * d), scale(pairs.size());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    pair_vector(p, pairs, k, &vectors[k * d]);
+    const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
+    scale[k] = 2.0 / (sigma * sigma);
+  }
+  lp.strain = strain_rows(basis, vectors, scale);
   return lp;
 }
 
@@ -41,7 +50,8 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
   LpCheck out{0.0, 0.0, 0.0, 0.0};
   const int d = lp.dim;
   const PairList &pairs = *lp.pairs;
-  std::vector<double> force(static_cast<size_t>(lp.n) * d, 0.0);
+  const size_t strains = static_cast<size_t>(lp.strains), spheres = static_cast<size_t>(lp.n) * d;
+  std::vector<double> force(lp.unknowns(), 0.0);
   double sum_y = 0.0, sum_yc = 0.0, sum_ya = 0.0;
   for (size_t k = 0; k < lp.rows(); ++k) {
     const double *a = &lp.a[k * d];
@@ -53,6 +63,10 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
       force[j + c] -= x.y[k] * a[c];
       a2 += a[c] * a[c];
     }
+    for (size_t q = 0; q < strains; ++q) {
+      row += lp.strain[k * strains + q] * x.strain[q];
+      force[spheres + q] += x.y[k] * lp.strain[k * strains + q];
+    }
     out.infeasibility = std::max(out.infeasibility, std::max(-row, -x.y[k]));
     sum_y += x.y[k];
     sum_yc += x.y[k] * lp.c[k];
@@ -60,8 +74,9 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
   }
   double unbalanced = 0.0, at_bound = 0.0;
   for (size_t k = 0; k < force.size(); ++k) {
-    out.infeasibility = std::max(out.infeasibility, std::fabs(x.s[k]) - lp.bound);
-    if (std::fabs(x.s[k]) > 0.999 * lp.bound)
+    const double moved = std::fabs(k < spheres ? x.s[k] : x.strain[k - spheres]);
+    out.infeasibility = std::max(out.infeasibility, moved - lp.bound);
+    if (moved > 0.999 * lp.bound)
       at_bound += std::fabs(force[k]);  // the bound carries it
     else
       unbalanced = std::max(unbalanced, std::fabs(force[k]));

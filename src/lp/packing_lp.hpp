@@ -5,6 +5,9 @@
 //     maximise g   subject to   w_e = c_e + a_e . (s_i - s_j) - g >= 0,   |s_ik| <= bound,
 //     a_e = 2 r_ij / sigma_ij^2,   c_e = |r_ij|^2 / sigma_ij^2 - 1.
 // Multipliers y_e = lambda_e sigma_e^2 then obey sum_e y_e = 1 and sum_j y_e a_e = 0 on every particle.
+// In a free cell strain amplitudes e_k join, within the same bound: w_e gets sum_k b_ek e_k with
+// b_ek = 2 r_ij . (B_k r_ij) / sigma_ij^2, B_k from lp/strain.hpp. Then also sum_e y_e b_ek = 0 (Donev, Torquato,
+// Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004)).
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -13,6 +16,7 @@
 #include "core/monitor.hpp"
 #include "core/pairs.hpp"
 #include "linalg/pair_products.hpp"
+#include "lp/strain.hpp"
 
 namespace jam {
 
@@ -22,12 +26,16 @@ struct PackingLp {
   const PairList *pairs = nullptr;
   std::vector<double> a;                                   // (pairs, dim)
   std::vector<double> c;                                   // pairs
+  int strains = 0;                                         // amplitudes of strain, 0 in a fixed cell
+  std::vector<double> strain;                              // b, (pairs, strains)
   double bound = std::numeric_limits<double>::infinity();  // on each |s_ik|, mean diameters
   size_t rows() const { return c.size(); }
+  size_t unknowns() const { return static_cast<size_t>(n) * static_cast<size_t>(dim) + static_cast<size_t>(strains); }
 };
 
 struct LpSolution {
-  std::vector<double> s;  // (n, dim)
+  std::vector<double> s;       // (n, dim)
+  std::vector<double> strain;  // amplitudes
   double g = 0.0;
   std::vector<double> y, w;  // multipliers and slacks of the rows
   int iterations = 0, factorisations = 0;
@@ -55,7 +63,7 @@ struct LpCheck {
 };
 
 // Rows from the true distances of p. sigma_unit: the length that counts as 1.
-PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit);
+PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, const StrainBasis &basis = {});
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
 inline void rows_times(const PackingLp &lp, const double *s, double *out) {

@@ -65,6 +65,9 @@ void WorkingSet::gather(const PackingLp &lp, const std::vector<char> &is_near) {
   near_pairs = PairList();
   near.dim = lp.dim, near.n = lp.n, near.bound = lp.bound;
   near.pairs = &near_pairs;
+  near.strains = lp.strains;
+  const size_t strains = static_cast<size_t>(lp.strains);
+  near.strain.resize(index.size() * strains);
   near.a.resize(index.size() * d);
   near.c.resize(index.size());
   for (size_t q = 0; q < index.size(); ++q) {
@@ -73,6 +76,7 @@ void WorkingSet::gather(const PackingLp &lp, const std::vector<char> &is_near) {
     near_pairs.j.push_back(lp.pairs->j[k]);
     near.c[q] = lp.c[k];
     std::copy(&lp.a[k * d], &lp.a[k * d] + d, &near.a[q * d]);
+    std::copy_n(lp.strain.begin() + k * strains, strains, near.strain.begin() + q * strains);
   }
 }
 

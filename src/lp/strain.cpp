@@ -1,0 +1,69 @@
+#include "lp/strain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+
+StrainBasis strain_basis(int dim, bool edges, bool tilts) {
+  StrainBasis basis;
+  basis.dim = dim;
+  const size_t block = static_cast<size_t>(dim) * dim;
+  const auto matrix = [&]() {
+    basis.matrices.resize(basis.matrices.size() + block, 0.0);
+    return basis.matrices.data() + basis.matrices.size() - block;
+  };
+  for (int c = 0; edges && c + 1 < dim; ++c) {
+    double *m = matrix();
+    m[c * (dim + 1)] = 1.0, m[block - 1] = -1.0;
+  }
+  for (int c = 0; tilts && c < dim; ++c)
+    for (int k = c + 1; k < dim; ++k) matrix()[c * dim + k] = 1.0;
+  return basis;
+}
+
+std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<double> &amplitude, double scale) {
+  const size_t block = static_cast<size_t>(basis.dim) * basis.dim;
+  std::vector<double> e(block, 0.0);
+  for (size_t k = 0; k < amplitude.size(); ++k)
+    for (size_t c = 0; c < block; ++c) e[c] += scale * amplitude[k] * basis.matrices[k * block + c];
+  return e;
+}
+
+std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<double> &vectors,
+                                const std::vector<double> &scale) {
+  const int d = basis.dim;
+  const size_t count = static_cast<size_t>(basis.count()), block = static_cast<size_t>(d) * d;
+  std::vector<double> rows(scale.size() * count, 0.0);
+  for (size_t e = 0; e < scale.size(); ++e)
+    for (size_t k = 0; k < count; ++k) {
+      const double *r = &vectors[e * d], *m = &basis.matrices[k * block];
+      double product = 0.0;
+      for (int a = 0; a < d; ++a)
+        for (int b = a; b < d; ++b) product += r[a] * m[a * d + b] * r[b];
+      rows[e * count + k] = scale[e] * product;
+    }
+  return rows;
+}
+
+void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain) {
+  const int d = p.dim;
+  double volume = 1.0;
+  for (int c = 0; c < d; ++c) volume *= 1.0 + strain[c * (d + 1)];
+  const double back = std::pow(volume, -1.0 / d);
+  const auto deform = [&](double *x) {  // upper-triangular: component a needs those from a on
+    for (int a = 0; a < d; ++a) {
+      double sum = x[a];
+      for (int b = a; b < d; ++b) sum += strain[a * d + b] * x[b];
+      x[a] = back * sum;
+    }
+  };
+  for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
+  for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
+  std::vector<double> rows;
+  for (int c = 0; c < d; ++c) rows.insert(rows.end(), p.cell.row(c), p.cell.row(c) + d);
+  for (int c = 0; c < d; ++c) deform(&rows[c * d]);
+  p.cell = Cell::from_triangle(d, rows.data());
+}
+
+}  // namespace jam

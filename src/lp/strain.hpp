@@ -1,0 +1,30 @@
+// Strains of a free cell that a linear program may choose: r -> (1 + E) r with E upper-triangular, so that the cell
+// stays lower-triangular, and traceless, because growth of all diameters already stands for a change of volume.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/packing.hpp"
+#include "core/pairs.hpp"
+
+namespace jam {
+
+struct StrainBasis {
+  int dim = 0;
+  std::vector<double> matrices;  // (count, dim, dim)
+  int count() const { return dim ? static_cast<int>(matrices.size()) / (dim * dim) : 0; }
+};
+
+// Which components of the cell may change: the edges a_cc, the tilts a_ck, or both.
+StrainBasis strain_basis(int dim, bool edges, bool tilts);
+// E = sum_k amplitude_k B_k, (dim, dim).
+std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<double> &amplitude, double scale);
+// r . (B_k r) of every pair, times scale_e: (pairs, count).
+std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<double> &vectors,
+                                const std::vector<double> &scale);
+// Deforms positions, cell and offsets by 1 + E, divided by det^(1/d): the volume stays. det <= 1 for a traceless E, so
+// this opens gaps.
+void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<double> &strain);
+
+}  // namespace jam

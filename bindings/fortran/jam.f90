@@ -140,6 +140,12 @@ module jam
   integer(c_int32_t), parameter :: JAM_CRUNCH_BARRIER_PATH = 0
   integer(c_int32_t), parameter :: JAM_CRUNCH_SEQUENTIAL_LP = 1
 
+  ! jam_free_strain: What of the cell jam_crunch may change, at fixed volume. @since 0.1
+  integer(c_int32_t), parameter :: JAM_STRAIN_NONE = 0
+  integer(c_int32_t), parameter :: JAM_STRAIN_EDGES = 1
+  integer(c_int32_t), parameter :: JAM_STRAIN_TILTS = 2
+  integer(c_int32_t), parameter :: JAM_STRAIN_FREE = 3
+
   ! jam_step_phase: What kind of step a row of the history is. @since 0.1
   integer(c_int32_t), parameter :: JAM_STEP_PATH = 1
   integer(c_int32_t), parameter :: JAM_STEP_LP = 2
@@ -615,6 +621,10 @@ module jam
     integer(c_int32_t) :: steps = 0
     ! 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
     integer(c_int32_t) :: full_lps = 0
+    ! jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
+    integer(c_int32_t) :: strain = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1

@@ -721,6 +721,14 @@ typedef enum jam_crunch_method {
   JAM_CRUNCH_SEQUENTIAL_LP = 1 /* LPs alone, as published */
 } jam_crunch_method;
 
+/* What of the cell jam_crunch may change, at fixed volume. @since 0.1 */
+typedef enum jam_free_strain {
+  JAM_STRAIN_NONE = 0,  /* a fixed cell */
+  JAM_STRAIN_EDGES = 1, /* the diagonal of the cell: lengths of a brick */
+  JAM_STRAIN_TILTS = 2, /* what is off the diagonal */
+  JAM_STRAIN_FREE = 3   /* both */
+} jam_free_strain;
+
 /* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
  * CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
  * sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
@@ -745,6 +753,9 @@ typedef struct jam_crunch_options {
   int32_t steps;           /* 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default */
   int32_t full_lps; /* 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP
                      * that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
+  int32_t strain;   /* jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
+                     * optimum; FREE ends strictly jammed */
+  int32_t reserved; /* 0 */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */

@@ -112,17 +112,18 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
     s.bound = std::min(std::max({s.tuning.bound_per_step * step, gain, s.tuning.min_bound}), most);
   }
   s.last_gain = gain;
-  return path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;
+  return s.strain.count() == 0 && path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;
 }
 
 }  // namespace
 
 void build_lp(CrunchState &s, double reach) {
   s.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
+  if (s.strain.count() > 0) shorten_cell(s.out.packing);
   PairList pairs = find_pairs(s.out.packing, reach, 1.0);
   if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", s.o.neighbour_radius);
   s.pairs = std::move(pairs);
-  s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing));
+  s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing), s.strain);
   s.lp.bound = s.bound;
 }
 
@@ -141,7 +142,7 @@ LpStep make_step(CrunchState &s, double reach) {
   s.at_bound =
       std::count_if(s.answer.s.begin(), s.answer.s.end(), [&](double x) { return std::fabs(x) > 0.999 * s.lp.bound; });
   if (s.history.details()) s.history.take_network(s.out.packing, s.lp, s.answer);
-  const double alpha = take_step(s.out.packing, s.pairs, reach, s.answer, unit);
+  const double alpha = take_step(s.out.packing, s.pairs, reach, s.answer, unit, s.strain);
   const double gain = gain_of(s.answer), step = largest_step(s.answer, s.active, s.lp.dim);
   s.monitor.log(
       JAM_LOG_INFO,

@@ -83,6 +83,20 @@ void log_verdict(const CrunchState &s, const PackingVerdict &v) {
                 r.force_residual);
 }
 
+// In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
+void judge_strictly(CrunchState &s) {
+  const PackingVerdict strict = test_packing(s.out.packing, &s.out.contacts, Jamming::strict);
+  log_verdict(s, strict);
+  s.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
+  if (strict.result.jammed == Verdict::yes) {
+    const double scale = s.out.contacts.force_scale;
+    s.out.contacts = strict.carrying(s.out.packing.dim);
+    s.out.contacts.force_scale = scale;
+  } else if (s.o.strain == JAM_STRAIN_FREE) {
+    s.stop(strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
+  }
+}
+
 Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
   // balances forces that polish refused.
@@ -93,7 +107,9 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   }
   s.jammed = true;
   report_verdict(verdict, s.out.packing.dim, s.out.report);
-  return s.stop(JAM_STOP_CONVERGED, JAM_OK), Phase::done;
+  s.stop(JAM_STOP_CONVERGED, JAM_OK);
+  if (s.strain.count() > 0) judge_strictly(s);
+  return Phase::done;
 }
 
 }  // namespace
@@ -130,6 +146,7 @@ Phase judge(CrunchState &s) {
 }
 
 Phase identify(CrunchState &s) {
+  if (frees_cell(s)) return free_cell(s);
   if (s.active.rows.empty()) {
     if (s.out.report.stop_reason == JAM_STOP_NONE && !s.exact && s.o.polish) return Phase::exact_vertex;
     if (s.out.report.stop_reason == JAM_STOP_NONE) s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
@@ -147,6 +164,7 @@ void finish(CrunchState &s) {
   r.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(s.out.packing, s.out.contacts, r);
   r.jammed = s.jammed && r.force_residual < (s.o.polish ? 1e-6 : 1e-5) && r.min_force >= 0.0;
+  r.strictly_jammed = s.strictly_jammed;
   if (s.jammed && !r.jammed) s.stop(JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
   r.factorisations = s.system.factorisations;
   r.seconds = s.monitor.seconds();

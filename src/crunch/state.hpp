@@ -57,14 +57,20 @@ struct CrunchState {
   int64_t at_bound = 0;     // displacements that its bound ended
   Multipliers multipliers;  // of the last LP or path
   double bound = 0.0;       // of the next LP
+  StrainBasis strain;       // of the LPs, once the cell is free
   double last_gain = 1.0;
   double moved = 1.0;  // longest step since `multipliers`; 0 after a path that reached its end
   int stalled = 0, paths = 0, kicks = 0;
   bool exact = false;     // the last LPs were narrow ones
   bool polished = false;  // the last polish closed its contacts
   bool jammed = false;    // by the test of the final network
+  int32_t strictly_jammed = JAM_VERDICT_UNTESTED;
 };
 
+// free_cell.cpp: the cell joins the LPs, after the packing has reached its optimum at fixed cell.
+bool frees_cell(const CrunchState &s);
+Phase free_cell(CrunchState &s);
+void shorten_cell(Packing &p);  // where strains made its vectors long
 // approach.cpp. Each phase function returns the phase that follows.
 Phase approach(CrunchState &s);
 double first_bound(const CrunchState &s);

@@ -127,13 +127,15 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
   stage.assign(at, static_cast<size_t>(h.stage));
   check_dim(h.dim);
-  const ReducedCell reduced = reduce_cell(h.dim, h.cell);
-  p.cell = reduced.cell;
+  reduce_cell(h.dim, h.cell);  // for its checks
+  p.cell = Cell::from_triangle(h.dim, h.cell);
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
-  for (int k = 0; k < h.dim; ++k)  // written in normal form
-    for (int c = 0; c < h.dim; ++c) good = good && p.cell.row(k)[c] == h.cell[k * h.dim + c];
+  for (int r = 0; r < h.dim; ++r) {
+    good = good && h.cell[r * (h.dim + 1)] > 0.0;
+    for (int c = r + 1; c < h.dim; ++c) good = good && h.cell[r * h.dim + c] == 0.0;
+  }
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {
     good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 &&

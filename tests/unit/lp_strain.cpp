@@ -92,7 +92,7 @@ void ends_with_the_strict_count(void **) {
         lp.bound = bound;
         const LpSolution x = interior(lp);
         assert_true(x.solved);
-        const ActiveSet active = find_active_set(lp, x);
+        const ActiveSet active = find_active_set(lp, x, 3e-14);
         take_step(p, pairs, reach, x, unit, basis);
         gain = x.g, bound = std::min(bound, std::max(0.01, 5.0 * largest_step(x, active, dim)));
         if (gain <= 1e-12) assert_int_equal(active.rows.size(), dim * (active.stable - 1) + dim * (dim + 1) / 2);

@@ -171,6 +171,14 @@ class CrunchMethod(IntEnum):
     SEQUENTIAL_LP = 1  # LPs alone, as published
 
 
+class FreeStrain(IntEnum):
+    """What of the cell jam_crunch may change, at fixed volume. @since 0.1"""
+    NONE = 0  # a fixed cell
+    EDGES = 1  # the diagonal of the cell: lengths of a brick
+    TILTS = 2  # what is off the diagonal
+    FREE = 3  # both
+
+
 class StepPhase(IntEnum):
     """What kind of step a row of the history is. @since 0.1"""
     PATH = 1  # a Newton step of the barrier path (the first row: all steps that open it)
@@ -875,6 +883,7 @@ OPTIONS = {
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
         "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*. 0, the default'),
         "full_lps": ("int", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
+        "strain": ("FreeStrain", "jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"),
     },
     "jam_relax_options": {
         "minimiser": ("Minimiser", 'jam_minimiser, default NEWTON'),

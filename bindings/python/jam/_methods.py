@@ -126,7 +126,7 @@ class Methods:
         @since 0.1"""
         return self.call('isoconf_kept', instant)
 
-    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None, full_lps: int | None = None) -> Estimate:
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None, full_lps: int | None = None, strain: int | str | None = None) -> Estimate:
         """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
         same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
         JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
@@ -144,8 +144,9 @@ class Methods:
         step_bound: bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
         wall_time: limit in seconds, > 0, default infinity
         steps: 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
-        full_lps: 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain"""
-        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps)
+        full_lps: 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
+        strain: jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"""
+        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain)
 
     def crunch_history(self, column: int | str) -> np.ndarray:
         """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential

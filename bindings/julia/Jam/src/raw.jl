@@ -141,6 +141,12 @@ const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
 const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # LPs alone, as published
 
+# jam_free_strain: What of the cell jam_crunch may change, at fixed volume. @since 0.1
+const JAM_STRAIN_NONE = Int32(0)  # a fixed cell
+const JAM_STRAIN_EDGES = Int32(1)  # the diagonal of the cell: lengths of a brick
+const JAM_STRAIN_TILTS = Int32(2)  # what is off the diagonal
+const JAM_STRAIN_FREE = Int32(3)  # both
+
 # jam_step_phase: What kind of step a row of the history is. @since 0.1
 const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path (the first row: all steps that open it)
 const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
@@ -502,7 +508,9 @@ mutable struct jam_crunch_options
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
-    jam_crunch_options() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
+    reserved::Int32  # 0
+    jam_crunch_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """

@@ -1,6 +1,9 @@
 // A free cell: LPs with strain amplitudes go on from the packing that fits the fixed one. They end in a strictly jammed
 // packing, with d (N' - 1) + d (d + 1) / 2 contacts when it is disordered (Torquato and Jiao, Phys. Rev. E 82, 061302
 // (2010)). The barrier path has no strain: near its optimum a few LPs do.
+#include <algorithm>
+#include <cmath>
+
 #include "core/cell_reduction.hpp"
 #include "crunch/state.hpp"
 
@@ -15,20 +18,76 @@ Phase free_cell(CrunchState &s) {
   s.strain = strain_basis(s.out.packing.dim, edges, tilts);
   s.monitor.log(JAM_LOG_INFO, "fixed cell: phi %.12f; %d strains join", packing_fraction(s.out.packing),
                 s.strain.count());
-  s.bound = s.tuning.strain_bound;
+  s.bound = s.tuning.first_bound;
   s.last_gain = s.moved = 1.0;
   s.stalled = 0;
   s.exact = false;
   return Phase::approach;
 }
 
-void shorten_cell(Packing &p) {
-  const ReducedCell reduced = [&] {
-    std::vector<double> rows;
-    for (int c = 0; c < p.dim; ++c) rows.insert(rows.end(), p.cell.row(c), p.cell.row(c) + p.dim);
-    return reduce_cell(p.dim, rows.data());
-  }();
-  enter_cell(p, reduced);
+namespace {
+
+std::vector<double> rows_of(const Cell &cell) {
+  std::vector<double> rows;
+  for (int c = 0; c < cell.dim(); ++c) rows.insert(rows.end(), cell.row(c), cell.row(c) + cell.dim());
+  return rows;
 }
+
+// r -> r + t (eps r + v) for all vectors r between spheres, then back to the old volume.
+Packing deformed(const Packing &p, const std::vector<double> &v, const std::vector<double> &eps, double t) {
+  Packing q = p;
+  const int d = p.dim;
+  std::vector<double> rows = rows_of(p.cell);
+  const auto deform = [&](double *x) {
+    Cell::Vector y{};
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b) y[a] += t * eps[a * d + b] * x[b];
+    for (int a = 0; a < d; ++a) x[a] += y[a];
+  };
+  for (int c = 0; c < d; ++c) deform(&rows[c * d]);
+  for (size_t k = 0; k < q.position.size(); k += d) deform(&q.position[k]);
+  for (size_t k = 0; k < v.size(); ++k) q.position[k] += t * v[k];
+  enter_cell(q, reduce_cell(d, rows.data()));
+  const double back = p.cell.side() / q.cell.side();
+  rows = rows_of(q.cell);
+  for (double &x : rows) x *= back;
+  for (double &x : q.position) x *= back;
+  q.cell = Cell::from_triangle(d, rows.data());
+  wrap_positions(q);
+  return q;
+}
+
+}  // namespace
+
+// |r + t (eps r + v)|^2 = r^2 + 2 t r . (eps r + v) + t^2 |eps r + v|^2: contacts open, so only near pairs can block.
+bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict) {
+  const RigidityResult &r = strict.result;
+  if (r.flex.empty() || r.strain.empty() || s.kicks >= s.tuning.max_kicks) return false;
+  ++s.kicks;
+  Packing &p = s.out.packing;
+  const size_t d = static_cast<size_t>(p.dim);
+  double largest = 0.0;
+  std::vector<double> v(p.position.size(), 0.0), eps = r.strain;
+  for (size_t q = 0; q < strict.sphere.size(); ++q)
+    for (size_t c = 0; c < d; ++c) v[strict.sphere[q] * d + c] = r.flex[q * d + c];
+  const double unit = diameter_mean(p);
+  for (double x : v) largest = std::max(largest, std::fabs(x));
+  for (double x : eps) largest = std::max(largest, unit * std::fabs(x));
+  for (double t = s.tuning.kick * unit / largest; t * largest > 1e-6 * unit; t *= 0.5) {
+    Packing q = deformed(p, v, eps, t);
+    if (closest_pair(q).gap < -1e-13) continue;
+    s.monitor.log(JAM_LOG_INFO, "saddle of the free cell at phi %.12f with %lld flexes: moves %.1e diameters",
+                  packing_fraction(p), static_cast<long long>(r.flexes), t * largest / unit);
+    p = std::move(q);
+    s.bound = s.tuning.first_bound;
+    s.last_gain = s.moved = 1.0;
+    s.stalled = 0;
+    s.exact = s.jammed = false;
+    return true;
+  }
+  return false;
+}
+
+void shorten_cell(Packing &p) { enter_cell(p, reduce_cell(p.dim, rows_of(p.cell).data())); }
 
 }  // namespace jam

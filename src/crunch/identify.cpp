@@ -84,7 +84,7 @@ void log_verdict(const CrunchState &s, const PackingVerdict &v) {
 }
 
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
-void judge_strictly(CrunchState &s) {
+Phase judge_strictly(CrunchState &s) {
   const PackingVerdict strict = test_packing(s.out.packing, &s.out.contacts, Jamming::strict);
   log_verdict(s, strict);
   s.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
@@ -93,8 +93,10 @@ void judge_strictly(CrunchState &s) {
     s.out.contacts = strict.carrying(s.out.packing.dim);
     s.out.contacts.force_scale = scale;
   } else if (s.o.strain == JAM_STRAIN_FREE) {
+    if (leave_strained_saddle(s, strict)) return s.stop(JAM_STOP_NONE, JAM_OK), Phase::approach;
     s.stop(strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   }
+  return Phase::done;
 }
 
 Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
@@ -108,8 +110,7 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   s.jammed = true;
   report_verdict(verdict, s.out.packing.dim, s.out.report);
   s.stop(JAM_STOP_CONVERGED, JAM_OK);
-  if (s.strain.count() > 0) judge_strictly(s);
-  return Phase::done;
+  return s.strain.count() > 0 ? judge_strictly(s) : Phase::done;
 }
 
 }  // namespace

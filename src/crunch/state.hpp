@@ -70,6 +70,8 @@ struct CrunchState {
 // free_cell.cpp: the cell joins the LPs, after the packing has reached its optimum at fixed cell.
 bool frees_cell(const CrunchState &s);
 Phase free_cell(CrunchState &s);
+// Moves along the flex of a strict test. False without one, or where near pairs block it.
+bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict);
 void shorten_cell(Packing &p);  // where strains made its vectors long
 // approach.cpp. Each phase function returns the phase that follows.
 Phase approach(CrunchState &s);

@@ -49,10 +49,6 @@ struct Tuning {
   double increase = 10.0;  // of mu at a saddle
   int max_increases = 16;
 
-  // ---- free cell
-  // Bound of the first LP with strains, mean diameters and absolute strain. Wider ones find denser, crystalline packings.
-  double strain_bound = 0.02;
-
   // ---- neighbours of spheres in wide holes
   double covered = 0.9;  // a direction is covered by a line to a neighbour within 1/sqrt(d) times this
   double farthest_reach = 2.4;

@@ -18,7 +18,7 @@ LpSolution basis_of(const CrunchState &s) {
   for (const char tight : on) out.basis_rows.push_back(tight ? basis_at_lower : basis_inside);
   for (const int32_t z : s.active.coordination)
     for (int c = 0; c < s.lp.dim; ++c) out.basis_columns.push_back(z > 0 ? basis_inside : basis_at_lower);
-  out.basis_columns.push_back(basis_inside);
+  out.basis_columns.insert(out.basis_columns.end(), static_cast<size_t>(s.lp.strains) + 1, basis_inside);
   return out;
 }
 

@@ -48,7 +48,8 @@ else
   JULIA_LIBRARIES=$lib/julia:$lib:$blas
   export JULIA_BINDIR="$home/tree/usr/bin"
 fi
-run() { LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" "$@"; }
+# Debian 11's Julia loads libunwind, whose unwinder aborts in C++ exceptions. libgcc's must come first.
+run() { LD_PRELOAD=${JULIA_LIBRARIES:+libgcc_s.so.1} LD_LIBRARY_PATH=${JULIA_LIBRARIES:-} "$julia" "$@"; }
 run --version
 export JULIA_DEPOT_PATH="$home/depot" JULIA_LOAD_PATH="$root/bindings/julia:@stdlib" JAM_LIBRARY="$build/libjam.so"
 work=$home/work

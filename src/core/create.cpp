@@ -104,7 +104,14 @@ class GrowingCells {
       Cell::Vector dx{};
       for (int c = 0; c < p_.dim; ++c) dx[c] = x[c] - p_.position[static_cast<size_t>(j) * p_.dim + c];
       bool near = false;
-      p_.cell.images(dx.data(), touch, [&](const double *) { near = true; });
+      if (side_ > 1) {  // then the nearest image alone is within reach
+        p_.cell.nearest(dx.data());
+        double r2 = 0.0;
+        for (int c = 0; c < p_.dim; ++c) r2 += dx[c] * dx[c];
+        near = r2 < touch * touch;
+      } else {
+        p_.cell.images(dx.data(), touch, [&](const double *) { near = true; });
+      }
       if (near) return true;
     }
     return false;

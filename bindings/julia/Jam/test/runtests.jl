@@ -50,4 +50,5 @@ end
     cancel(s)
     crunch!(s)
     @test s.status == Jam.JAM_CANCELLED
+    @test_throws Jam.JamError crunch!(s; lp_tolerance = -1.0)  # a C++ exception inside
 end

@@ -613,7 +613,7 @@ module jam
     real(c_double) :: lp_tolerance = 0
     ! largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
     real(c_double) :: neighbour_radius = 0
-    ! bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
+    ! bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
     real(c_double) :: step_bound = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0

@@ -748,7 +748,7 @@ typedef struct jam_crunch_options {
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units) */
   double lp_tolerance;     /* relative complementarity and residual of one LP, default 1e-15 (solver_attributes) */
   double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0, default 4 R) */
-  double step_bound;       /* bound on each |s_i| component; 0, the default: adapts (sbound, in radii) */
+  double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii) */
   double wall_time;        /* limit in seconds, > 0, default infinity */
   int32_t steps;           /* 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default */
   int32_t full_lps; /* 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP

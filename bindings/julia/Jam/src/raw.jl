@@ -504,7 +504,7 @@ mutable struct jam_crunch_options
     step_tolerance::Cdouble  # on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
     lp_tolerance::Cdouble  # relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
     neighbour_radius::Cdouble  # largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
-    step_bound::Cdouble  # bound on each |s_i| component; 0, the default: adapts (sbound, in radii)
+    step_bound::Cdouble  # bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain

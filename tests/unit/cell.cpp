@@ -136,7 +136,7 @@ void pairs_do_not_depend_on_the_basis(void **) {
       for (int k = 0; k < dim; ++k) rows.push_back(p.cell.row(c)[k] + (c == dim - 1 ? 5.0 * p.cell.row(0)[k] : 0.0));
     q.cell = Cell::from_triangle(dim, rows.data());
     wrap_positions(q);
-    const auto lengths = [dim](const Packing &a, const PairList &pairs) {
+    const auto lengths = [](const Packing &a, const PairList &pairs) {
       std::vector<double> r(pairs.size());
       double v[JAM_MAX_DIM];
       for (size_t k = 0; k < r.size(); ++k) r[k] = std::sqrt(pair_vector(a, pairs, k, v));

@@ -15,12 +15,14 @@ namespace {
 
 // Whether pair k of `all` is a contact. Both lists are sorted by (i, j); `at` advances through the network.
 bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNetwork &net, size_t &at) {
+  const double same_image =
+      0.25 * p.cell.shortest();  // a lattice vector has a component of shortest / sqrt(d) at least
   const int32_t i = all.i[k], j = all.j[k];
   while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;
   for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j; ++q) {
     bool same = true;
     for (int c = 0; c < p.dim; ++c)
-      same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < 0.5 * p.cell.side();
+      same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < same_image;
     if (same) return true;
   }
   return false;

@@ -30,7 +30,7 @@ class Cell {
   double volume() const { return volume_; }
   const double *row(int c) const { return rows_[c].data(); }
   double edge(int c) const { return rows_[c][c]; }
-  // Distance of the two faces that a_c joins: a sphere wider than that meets its image.
+  // Distance of the two faces that a_c joins.
   double height(int c) const;
   double height_min() const;
   // Length of the shortest lattice vector: a sphere wider than that overlaps its image.
@@ -38,7 +38,7 @@ class Cell {
   // No point is farther than this from the nearest image of another.
   double half_diagonal() const;
 
-  // x = sum_c s_c a_c; x and s may be the same.
+  // s from x = sum_c s_c a_c; x and s may be the same.
   void fraction(const double *x, double *s) const {
     for (int c = dim_ - 1; c >= 0; --c) {
       double rest = x[c];

@@ -30,7 +30,7 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &r
         double apart = 0.0;
         for (int c = 0; c < d; ++c)
           apart = std::max(apart, std::fabs(net.pairs.offset[q * d + c] - pairs.offset[k * d + c]));
-        contact = apart < 0.5 * p.cell.side();
+        contact = apart < 0.25 * p.cell.shortest();  // the same image
       }
       if (!contact && i != j && net.coordination[i] > 0 && net.coordination[j] > 0)
         report.min_gap = std::min(report.min_gap, gap);

@@ -171,6 +171,8 @@ module jam
   integer(c_int32_t), parameter :: JAM_HISTORY_HELD = 15
   integer(c_int32_t), parameter :: JAM_HISTORY_PART = 16
   integer(c_int32_t), parameter :: JAM_HISTORY_BOUND = 17
+  integer(c_int32_t), parameter :: JAM_HISTORY_STEP_MSD_STABLE = 18
+  integer(c_int32_t), parameter :: JAM_HISTORY_TOTAL_MSD_STABLE = 19
 
   ! jam_soft_scale: Factor c and length l of the energy. @since 0.1
   integer(c_int32_t), parameter :: JAM_SOFT_RELATIVE = 0
@@ -255,6 +257,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_PLUS = 2
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_STAR = 3
   integer(c_int32_t), parameter :: JAM_FLOPPY_STABILITY = 4
+  integer(c_int32_t), parameter :: JAM_FLOPPY_S_RETURN = 5
 
   ! jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1
   integer(c_int32_t), parameter :: JAM_DOS_OMEGA = 0
@@ -651,9 +654,9 @@ module jam
     real(c_double) :: diameter_mean = 0
     ! pairs with a force, rattlers left out
     integer(c_int64_t) :: contacts = 0
-    ! spheres that no force-carrying contact touches
+    ! spheres that no force-carrying contact touches; -1: stopped before contacts were known
     integer(c_int64_t) :: rattlers = 0
-    ! n - rattlers = N'
+    ! n - rattlers = N'; 0 where contacts are unknown
     integer(c_int64_t) :: stable = 0
     ! stable spheres with exactly d+1 contacts
     integer(c_int64_t) :: bucklers = 0
@@ -1028,7 +1031,7 @@ module jam
   ! What jam_compare found; contacts only when both have a network. @since 0.1
   type, bind(c) :: jam_comparison
     ! set by the caller: sizeof(jam_comparison)
-    integer(c_int32_t) :: struct_size = 72
+    integer(c_int32_t) :: struct_size = 80
     ! 0
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: contacts_a = 0
@@ -1040,6 +1043,8 @@ module jam
     integer(c_int64_t) :: stable_in_both = 0
     ! common over union
     real(c_double) :: overlap = 0
+    ! common over contacts_a: sys as the reference
+    real(c_double) :: overlap_a = 0
     ! phi of other minus phi of sys
     real(c_double) :: packing_fraction_change = 0
     ! over these spheres, mean displacement taken out, in mean diameters of sys
@@ -2294,7 +2299,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_floppy_mode
 
-    ! The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+    ! The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
     ! JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
     function jam_floppy_modes(sys, table, table_len, needed) &
         bind(c, name="jam_floppy_modes") result(status)

@@ -574,7 +574,7 @@ JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since
 %feature("docstring") jam_floppy_mode "Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
 all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
 a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
-%feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+%feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
 JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
 %feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_density_of_states "Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are

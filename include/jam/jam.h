@@ -766,15 +766,15 @@ typedef struct jam_crunch_report {
   int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
   int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs
                      ran */
-  int32_t stationary;         /* 1: non-negative contact forces balance, so no small motion lets the diameters grow */
-  int32_t strictly_jammed;    /* jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
-  int32_t reserved;           /* 0 */
-  double packing_fraction;    /* phi_J when jammed */
-  double diameter_mean;       /* unit of box */
-  int64_t contacts;           /* pairs with a force, rattlers left out */
-  int64_t rattlers;           /* spheres that no force-carrying contact touches */
-  int64_t stable;             /* n - rattlers = N' */
-  int64_t bucklers;           /* stable spheres with exactly d+1 contacts */
+  int32_t stationary;      /* 1: non-negative contact forces balance, so no small motion lets the diameters grow */
+  int32_t strictly_jammed; /* jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
+  int32_t reserved;        /* 0 */
+  double packing_fraction; /* phi_J when jammed */
+  double diameter_mean;    /* unit of box */
+  int64_t contacts;        /* pairs with a force, rattlers left out */
+  int64_t rattlers;        /* spheres that no force-carrying contact touches; -1: stopped before contacts were known */
+  int64_t stable;          /* n - rattlers = N'; 0 where contacts are unknown */
+  int64_t bucklers;        /* stable spheres with exactly d+1 contacts */
   int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
   int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
   int64_t flexes;        /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
@@ -860,7 +860,9 @@ typedef enum jam_history_column {
   JAM_HISTORY_HELD = 15, /* LP: displacement components at the step bound; forces on these spheres do not balance */
   JAM_HISTORY_PART =
       16, /* LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap */
-  JAM_HISTORY_BOUND = 17 /* LP: step bound */
+  JAM_HISTORY_BOUND = 17,           /* LP: step bound */
+  JAM_HISTORY_STEP_MSD_STABLE = 18, /* LP, polish: STEP_MSD over stable spheres alone, their mean taken out */
+  JAM_HISTORY_TOTAL_MSD_STABLE = 19 /* LP, polish: TOTAL_MSD over the spheres that are stable now */
 } jam_history_column;
 
 /* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
@@ -1319,14 +1321,16 @@ JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
 /* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1 */
 typedef enum jam_floppy_column {
-  JAM_FLOPPY_MEDIAN = 0,   /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
-  JAM_FLOPPY_WEIGHT = 1,   /* W = f / median |dr_i|: f equals W times the displacement far away */
-  JAM_FLOPPY_S_PLUS = 2,   /* opening at which, to first order, the next contact forms */
-  JAM_FLOPPY_S_STAR = 3,   /* opening f / B at which, to second order, the diameters are least; B = sum_k f_k
-                            * |dr_perp|^2 / r_k */
-  JAM_FLOPPY_STABILITY = 4 /* s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F) */
+  JAM_FLOPPY_MEDIAN = 0,    /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
+  JAM_FLOPPY_WEIGHT = 1,    /* W = f / median |dr_i|: f equals W times the displacement far away */
+  JAM_FLOPPY_S_PLUS = 2,    /* opening at which, to first order, the next contact forms */
+  JAM_FLOPPY_S_STAR = 3,    /* opening f / B at which, to second order, the diameters are least; B = sum_k f_k
+                             * |dr_perp|^2 / r_k */
+  JAM_FLOPPY_STABILITY = 4, /* s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F) */
+  JAM_FLOPPY_S_RETURN = 5   /* opening 2 s_star at which, to second order, the diameters are back at their start: s* of
+                             * R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability */
 } jam_floppy_column;
-/* The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+/* The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
  * JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed);
 
@@ -1360,6 +1364,7 @@ typedef struct jam_comparison {
   int64_t common_contacts;        /* pairs in both */
   int64_t stable_in_both;         /* spheres that are rattlers in neither */
   double overlap;                 /* common over union */
+  double overlap_a;               /* common over contacts_a: sys as the reference */
   double packing_fraction_change; /* phi of other minus phi of sys */
   double displacement_rms;        /* over these spheres, mean displacement taken out, in mean diameters of sys */
   double displacement_max;        /* likewise */

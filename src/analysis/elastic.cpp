@@ -149,7 +149,9 @@ jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, cons
   c.contacts_a = static_cast<int64_t>(na->size());
   c.contacts_b = static_cast<int64_t>(nb->size());
   const int64_t all = c.contacts_a + c.contacts_b - c.common_contacts;
-  c.overlap = all > 0 ? static_cast<double>(c.common_contacts) / static_cast<double>(all) : 1.0;
+  const auto common = static_cast<double>(c.common_contacts);
+  c.overlap = all > 0 ? common / static_cast<double>(all) : 1.0;
+  c.overlap_a = c.contacts_a > 0 ? common / static_cast<double>(c.contacts_a) : 1.0;
   return c;
 }
 

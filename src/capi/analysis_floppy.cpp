@@ -23,7 +23,7 @@ jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t
 
 jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed) {
   return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
-    constexpr size_t columns = JAM_FLOPPY_STABILITY + 1;
+    constexpr size_t columns = JAM_FLOPPY_S_RETURN + 1;
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const bool wanted = table_wanted(g.contacts(), columns, table, table_len, needed);
@@ -35,6 +35,7 @@ jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, si
     put_column(f.s_plus, JAM_FLOPPY_S_PLUS, columns, table);
     put_column(f.s_star, JAM_FLOPPY_S_STAR, columns, table);
     put_column(f.stability, JAM_FLOPPY_STABILITY, columns, table);
+    for (size_t l = 0; l < g.contacts(); ++l) table[l * columns + JAM_FLOPPY_S_RETURN] = 2.0 * f.s_star[l];
     return JAM_OK;
   });
 }

@@ -94,6 +94,7 @@ void add_history_row(CrunchState &s, double alpha, double unit) {
   row[JAM_HISTORY_HELD] = static_cast<double>(s.at_bound);
   row[JAM_HISTORY_PART] = alpha;
   row[JAM_HISTORY_BOUND] = s.lp.bound;
+  s.history.over_stable(s.active.coordination, s.lp.dim, diameter_mean(s.out.packing));
 }
 
 // What follows an LP with this gain and longest step, of which the part alpha was made.

@@ -10,19 +10,30 @@
 namespace jam {
 namespace {
 
-// Largest and mean square of the displacements x (n, d) without their mean: a translation of all spheres means nothing.
-void spread(const std::vector<double> &x, int dim, double unit, double &largest, double &mean_square) {
+struct Spread {
+  double largest = 0.0, mean_square = 0.0;
+};
+
+// Of the displacements x (n, d) without their mean: a translation of all spheres means nothing. With `coordination`
+// only spheres that have a contact count.
+Spread spread(const std::vector<double> &x, int dim, double unit, const std::vector<int32_t> *coordination = nullptr) {
   const size_t n = x.size() / static_cast<size_t>(dim);
+  const auto counts = [&](size_t i) { return !coordination || (*coordination)[i] > 0; };
   std::array<double, JAM_MAX_DIM> mean{};
-  for (size_t k = 0; k < x.size(); ++k) mean[k % dim] += x[k] / static_cast<double>(n);
-  double sum = 0.0, most = 0.0;
+  double number = 0.0;
+  for (size_t i = 0; i < n; ++i) number += counts(i);
+  for (size_t k = 0; k < x.size(); ++k) mean[k % dim] += counts(k / dim) ? x[k] / number : 0.0;
+  Spread out;
+  double sum = 0.0;
   for (size_t i = 0; i < n; ++i) {
+    if (!counts(i)) continue;
     double r2 = 0.0;
     for (int c = 0; c < dim; ++c) r2 += (x[i * dim + c] - mean[c]) * (x[i * dim + c] - mean[c]);
-    sum += r2, most = std::max(most, r2);
+    sum += r2, out.largest = std::max(out.largest, r2);
   }
-  largest = std::sqrt(most) / unit;
-  mean_square = sum / (static_cast<double>(n) * unit * unit);
+  out.largest = std::sqrt(out.largest) / unit;
+  out.mean_square = sum / (number * unit * unit);  // not a number without a sphere
+  return out;
 }
 
 }  // namespace
@@ -47,8 +58,9 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
   HistoryRow row;
   row.fill(std::numeric_limits<double>::quiet_NaN());
   const double unit = diameter_mean(now);
-  spread(last_, now.dim, unit, row[JAM_HISTORY_STEP_MAX], row[JAM_HISTORY_STEP_MSD]);
-  spread(total_, now.dim, unit, row[JAM_HISTORY_TOTAL_MAX], row[JAM_HISTORY_TOTAL_MSD]);
+  const Spread step = spread(last_, now.dim, unit), total = spread(total_, now.dim, unit);
+  row[JAM_HISTORY_STEP_MAX] = step.largest, row[JAM_HISTORY_STEP_MSD] = step.mean_square;
+  row[JAM_HISTORY_TOTAL_MAX] = total.largest, row[JAM_HISTORY_TOTAL_MSD] = total.mean_square;
   row[JAM_HISTORY_PHASE] = phase;
   row[JAM_HISTORY_GAIN] = (now.diameter.front() - diameter_) / diameter_;
   row[JAM_HISTORY_PHI] = packing_fraction(now);
@@ -63,6 +75,12 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
     if (phase != JAM_STEP_LP) step_.pair.clear(), step_.vector.clear(), step_.multiplier.clear();
   }
   return rows_.back();
+}
+
+void History::over_stable(const std::vector<int32_t> &coordination, int dim, double unit) {
+  HistoryRow &row = rows_.back();
+  row[JAM_HISTORY_STEP_MSD_STABLE] = spread(last_, dim, unit, &coordination).mean_square;
+  row[JAM_HISTORY_TOTAL_MSD_STABLE] = spread(total_, dim, unit, &coordination).mean_square;
 }
 
 void History::take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer) {

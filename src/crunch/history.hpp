@@ -11,7 +11,7 @@
 
 namespace jam {
 
-constexpr size_t history_columns = JAM_HISTORY_BOUND + 1;
+constexpr size_t history_columns = JAM_HISTORY_TOTAL_MSD_STABLE + 1;
 using HistoryRow = std::array<double, history_columns>;  // by jam_history_column
 
 // Details of one step, kept only on request: they cost as much memory as the LP.
@@ -32,6 +32,8 @@ class History {
   // are NaN.
   HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                     const double *displacement = nullptr);
+  // Mean squares of the last row over stable spheres alone: those with a contact.
+  void over_stable(const std::vector<int32_t> &coordination, int dim, double unit);
   // Did any sphere move, or grow, since the last row?
   bool behind(const Packing &now) const { return now.position != position_ || now.diameter.front() != diameter_; }
   // The linear network of an LP before its step is made.

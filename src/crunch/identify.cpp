@@ -41,6 +41,7 @@ void add_history_row(CrunchState &s) {
   row[JAM_HISTORY_CONTACTS] = static_cast<double>(net.size());
   row[JAM_HISTORY_EXCESS] = static_cast<double>(excess_contacts(net, s.out.packing.dim));
   row[JAM_HISTORY_RATTLERS] = static_cast<double>(static_cast<int64_t>(s.out.packing.n()) - stable);
+  s.history.over_stable(net.coordination, s.out.packing.dim, diameter_mean(s.out.packing));
   if (s.history.details()) s.show(JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
 }
 
@@ -83,15 +84,26 @@ void log_verdict(const CrunchState &s, const PackingVerdict &v) {
                 r.force_residual);
 }
 
+// Forces of the test, which are positive and balance as far as any do.
+void take_forces_of(CrunchState &s, const PackingVerdict &verdict) {
+  const double scale = s.out.contacts.force_scale;
+  s.out.contacts = verdict.carrying(s.out.packing.dim);
+  s.out.contacts.force_scale = scale;
+}
+
+// A packing that is not jammed has no negative forces either: polish projects those of its last network.
+void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
+  const std::vector<double> &f = s.out.contacts.force;
+  if (std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
+}
+
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
 Phase judge_strictly(CrunchState &s) {
   const PackingVerdict strict = test_packing(s.out.packing, &s.out.contacts, Jamming::strict);
   log_verdict(s, strict);
   s.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
   if (strict.result.jammed == Verdict::yes) {
-    const double scale = s.out.contacts.force_scale;
-    s.out.contacts = strict.carrying(s.out.packing.dim);
-    s.out.contacts.force_scale = scale;
+    take_forces_of(s, strict);
   } else if (s.o.strain == JAM_STRAIN_FREE) {
     if (leave_strained_saddle(s, strict)) return s.stop(JAM_STOP_NONE, JAM_OK), Phase::approach;
     s.stop(strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
@@ -102,11 +114,7 @@ Phase judge_strictly(CrunchState &s) {
 Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
   // Forces of several states of self-stress are not unique: those of the test lie in the middle of all. It also
   // balances forces that polish refused.
-  if (s.o.polish && (!s.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0)) {
-    const double scale = s.out.contacts.force_scale;
-    s.out.contacts = verdict.carrying(s.out.packing.dim);
-    s.out.contacts.force_scale = scale;
-  }
+  if (s.o.polish && (!s.polished || excess_contacts(s.out.contacts, s.out.packing.dim) > 0)) take_forces_of(s, verdict);
   s.jammed = true;
   report_verdict(verdict, s.out.packing.dim, s.out.report);
   s.stop(JAM_STOP_CONVERGED, JAM_OK);
@@ -134,6 +142,7 @@ Phase judge(CrunchState &s) {
     }
     if (!s.exact && s.o.polish) return Phase::exact_vertex;
     report_verdict(verdict, s.out.packing.dim, s.out.report);
+    take_positive_forces(s, verdict);
     if (verdict.result.jammed != Verdict::no)
       s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
     else if (verdict.result.flexes > 0)
@@ -160,6 +169,13 @@ Phase identify(CrunchState &s) {
   return judge(s);
 }
 
+// A crunch that was stopped before an LP ended knows no contacts, so it does not know which spheres are rattlers.
+static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
+  const bool unknown =
+      r.stop_reason == JAM_STOP_CANCELLED || r.stop_reason == JAM_STOP_WALL_TIME || r.stop_reason == JAM_STOP_SOLVER;
+  if (unknown && s.out.contacts.size() == 0) r.rattlers = -1, r.stable = 0;
+}
+
 void finish(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   r.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
@@ -167,6 +183,7 @@ void finish(CrunchState &s) {
   r.jammed = s.jammed && r.force_residual < (s.o.polish ? 1e-6 : 1e-5) && r.min_force >= 0.0;
   r.strictly_jammed = s.strictly_jammed;
   if (s.jammed && !r.jammed) s.stop(JAM_STOP_SOLVER, JAM_NOT_CONVERGED);
+  mark_unknown_rattlers(s, r);
   r.factorisations = s.system.factorisations;
   r.seconds = s.monitor.seconds();
   r.seconds_factor = s.system.seconds_factor;
@@ -185,6 +202,7 @@ void finish_failed(CrunchState &s) {
   } catch (const std::exception &) {  // out of memory, or over its limit
     s.out.report.packing_fraction = packing_fraction(s.out.packing);
   }
+  mark_unknown_rattlers(s, s.out.report);
   s.out.report.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   s.out.report.factorisations = s.system.factorisations;
   s.out.report.seconds = s.monitor.seconds();

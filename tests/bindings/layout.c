@@ -360,7 +360,7 @@ CHECK(jam_moduli, shear, 24, 8);
 CHECK(jam_moduli, shear_affine, 32, 8);
 CHECK(jam_moduli, shear_min, 40, 8);
 CHECK(jam_moduli, shear_max, 48, 8);
-CHECK_SIZE(jam_comparison, 72);
+CHECK_SIZE(jam_comparison, 80);
 CHECK(jam_comparison, struct_size, 0, 4);
 CHECK(jam_comparison, reserved, 4, 4);
 CHECK(jam_comparison, contacts_a, 8, 8);
@@ -368,9 +368,10 @@ CHECK(jam_comparison, contacts_b, 16, 8);
 CHECK(jam_comparison, common_contacts, 24, 8);
 CHECK(jam_comparison, stable_in_both, 32, 8);
 CHECK(jam_comparison, overlap, 40, 8);
-CHECK(jam_comparison, packing_fraction_change, 48, 8);
-CHECK(jam_comparison, displacement_rms, 56, 8);
-CHECK(jam_comparison, displacement_max, 64, 8);
+CHECK(jam_comparison, overlap_a, 48, 8);
+CHECK(jam_comparison, packing_fraction_change, 56, 8);
+CHECK(jam_comparison, displacement_rms, 64, 8);
+CHECK(jam_comparison, displacement_max, 72, 8);
 
 #define SHOW(type, member) \
   printf(#type " " #member " %zu %zu\n", offsetof(type, member), sizeof(((type *)0)->member))
@@ -735,6 +736,7 @@ int main(void) {
   SHOW(jam_comparison, common_contacts);
   SHOW(jam_comparison, stable_in_both);
   SHOW(jam_comparison, overlap);
+  SHOW(jam_comparison, overlap_a);
   SHOW(jam_comparison, packing_fraction_change);
   SHOW(jam_comparison, displacement_rms);
   SHOW(jam_comparison, displacement_max);
@@ -862,6 +864,8 @@ int main(void) {
   printf("JAM_HISTORY_HELD value %d\n", (int)JAM_HISTORY_HELD);
   printf("JAM_HISTORY_PART value %d\n", (int)JAM_HISTORY_PART);
   printf("JAM_HISTORY_BOUND value %d\n", (int)JAM_HISTORY_BOUND);
+  printf("JAM_HISTORY_STEP_MSD_STABLE value %d\n", (int)JAM_HISTORY_STEP_MSD_STABLE);
+  printf("JAM_HISTORY_TOTAL_MSD_STABLE value %d\n", (int)JAM_HISTORY_TOTAL_MSD_STABLE);
   printf("JAM_SOFT_RELATIVE value %d\n", (int)JAM_SOFT_RELATIVE);
   printf("JAM_SOFT_ABSOLUTE value %d\n", (int)JAM_SOFT_ABSOLUTE);
   printf("JAM_SOFT_BARE value %d\n", (int)JAM_SOFT_BARE);
@@ -920,6 +924,7 @@ int main(void) {
   printf("JAM_FLOPPY_S_PLUS value %d\n", (int)JAM_FLOPPY_S_PLUS);
   printf("JAM_FLOPPY_S_STAR value %d\n", (int)JAM_FLOPPY_S_STAR);
   printf("JAM_FLOPPY_STABILITY value %d\n", (int)JAM_FLOPPY_STABILITY);
+  printf("JAM_FLOPPY_S_RETURN value %d\n", (int)JAM_FLOPPY_S_RETURN);
   printf("JAM_DOS_OMEGA value %d\n", (int)JAM_DOS_OMEGA);
   printf("JAM_DOS_DENSITY value %d\n", (int)JAM_DOS_DENSITY);
   printf("JAM_DOS_ERROR value %d\n", (int)JAM_DOS_ERROR);

@@ -102,7 +102,12 @@ class Network(unittest.TestCase):
         self.assertEqual(basis.shape, (1, r.contacts))
         self.assertLess(residual, 1e-8)
         comparison, moved = s.compare(s.copy())
-        self.assertEqual((comparison.overlap, np.abs(moved).max()), (1.0, 0.0))
+        self.assertEqual((comparison.overlap, comparison.overlap_a, np.abs(moved).max()), (1.0, 1.0, 0.0))
+        other = jam.System.random(s.n, s.dim, 9, packing_fraction=0.3)
+        other.crunch()
+        c, _ = s.compare(other)
+        self.assertEqual(c.overlap_a, c.common_contacts / c.contacts_a)
+        self.assertNotEqual(c.overlap_a, c.overlap)
         self.assertIsInstance(s.crystal_score(), float)
 
     def test_contacts_from_geometry(self):

@@ -7,7 +7,7 @@
 #include <jam/jam.h>
 #include "test.h"
 
-enum { ROOM = 40000, MODES = 400 };
+enum { ROOM = 40000, MODES = 400, COLUMNS = JAM_FLOPPY_S_RETURN + 1 };
 
 struct network {
   jam_system *sys;
@@ -167,7 +167,8 @@ static double bend(const struct network *w, const double *u, double s) {
 static void floppy_keeps_contacts(const struct network *w, int check_next) {
   double *u = malloc(ROOM * sizeof *u), *b = malloc(ROOM * sizeof *b), *sp = malloc(ROOM * sizeof *sp),
          *ss = malloc(ROOM * sizeof *ss);
-  double *wt = malloc(ROOM * sizeof *wt), *st = malloc(ROOM * sizeof *st), *table = malloc(5 * ROOM * sizeof *table);
+  double *wt = malloc(ROOM * sizeof *wt), *st = malloc(ROOM * sizeof *st),
+         *table = malloc(COLUMNS * ROOM * sizeof *table);
   double fs = 0.0;
   size_t m;
   int64_t k, l;
@@ -183,10 +184,10 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     for (k = 0; k < w->stable; ++k) mean += u[k * w->d];
     assert_true(fabs(mean) < 1e-9 * size * (double)w->stable);
   }
-  assert_int_equal(jam_floppy_modes(w->sys, table, 5 * ROOM, &m), JAM_OK);
-  assert_int_equal(m, 5 * w->contacts);
+  assert_int_equal(jam_floppy_modes(w->sys, table, COLUMNS * ROOM, &m), JAM_OK);
+  assert_int_equal(m, COLUMNS * w->contacts);
   for (k = 0; k < w->contacts; ++k) {
-    const double *row = table + 5 * k;
+    const double *row = table + COLUMNS * k;
     b[k] = row[JAM_FLOPPY_MEDIAN], wt[k] = row[JAM_FLOPPY_WEIGHT], sp[k] = row[JAM_FLOPPY_S_PLUS];
     ss[k] = row[JAM_FLOPPY_S_STAR], st[k] = row[JAM_FLOPPY_STABILITY];
   }
@@ -194,6 +195,7 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
     assert_true(b[k] > 0.0 && b[k] < 1.5 / sqrt((double)w->stable));
     assert_true(sp[k] > 0.0 && ss[k] > 0.0);
     assert_true(fabs(st[k] * sp[k] / ss[k] - 1.0) < 1e-12);
+    assert_true(table[COLUMNS * k + JAM_FLOPPY_S_RETURN] == 2.0 * ss[k]);
   }
   for (l = 0; l < w->contacts;
        l += w->contacts / 5 + 1) { /* f = W times the displacement in the middle of the ranking */

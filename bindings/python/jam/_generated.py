@@ -207,6 +207,8 @@ class HistoryColumn(IntEnum):
     HELD = 15  # LP: displacement components at the step bound; forces on these spheres do not balance
     PART = 16  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
     BOUND = 17  # LP: step bound
+    STEP_MSD_STABLE = 18  # LP, polish: STEP_MSD over stable spheres alone, their mean taken out
+    TOTAL_MSD_STABLE = 19  # LP, polish: TOTAL_MSD over the spheres that are stable now
 
 
 class SoftScale(IntEnum):
@@ -317,6 +319,7 @@ class FloppyColumn(IntEnum):
     S_PLUS = 2  # opening at which, to first order, the next contact forms
     S_STAR = 3  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
     STABILITY = 4  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+    S_RETURN = 5  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
 
 
 class DosColumn(IntEnum):
@@ -504,8 +507,8 @@ class CrunchReport:
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
     contacts: pairs with a force, rattlers left out
-    rattlers: spheres that no force-carrying contact touches
-    stable: n - rattlers = N'
+    rattlers: spheres that no force-carrying contact touches; -1: stopped before contacts were known
+    stable: n - rattlers = N'; 0 where contacts are unknown
     bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts: contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
@@ -784,6 +787,7 @@ class Comparison:
     common_contacts: pairs in both
     stable_in_both: spheres that are rattlers in neither
     overlap: common over union
+    overlap_a: common over contacts_a: sys as the reference
     packing_fraction_change: phi of other minus phi of sys
     displacement_rms: over these spheres, mean displacement taken out, in mean diameters of sys
     displacement_max: likewise"""
@@ -792,6 +796,7 @@ class Comparison:
     common_contacts: int
     stable_in_both: int
     overlap: float
+    overlap_a: float
     packing_fraction_change: float
     displacement_rms: float
     displacement_max: float
@@ -959,7 +964,7 @@ ROWS = {
 TABLES = {
     "jam_observed_series": 6,
     "jam_contact_candidates": 4,
-    "jam_floppy_modes": 5,
+    "jam_floppy_modes": 6,
     "jam_density_of_states": 6,
 }
 

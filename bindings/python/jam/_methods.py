@@ -304,7 +304,7 @@ class Methods:
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+        """The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
         JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
         return self.call('floppy_modes', progress=progress)
 
@@ -467,6 +467,7 @@ class FloppyModesResult(NamedTuple):
     s_plus: np.ndarray  # opening at which, to first order, the next contact forms
     s_star: np.ndarray  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
     stability: np.ndarray  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+    s_return: np.ndarray  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
 
 
 class DensityOfStatesResult(NamedTuple):

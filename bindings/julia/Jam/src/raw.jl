@@ -171,6 +171,8 @@ const JAM_HISTORY_PAIRS = Int32(14)  # rows of the LP
 const JAM_HISTORY_HELD = Int32(15)  # LP: displacement components at the step bound; forces on these spheres do not balance
 const JAM_HISTORY_PART = Int32(16)  # LP: part of the solution that was followed; below 1 when a pair outside the neighbour list would overlap
 const JAM_HISTORY_BOUND = Int32(17)  # LP: step bound
+const JAM_HISTORY_STEP_MSD_STABLE = Int32(18)  # LP, polish: STEP_MSD over stable spheres alone, their mean taken out
+const JAM_HISTORY_TOTAL_MSD_STABLE = Int32(19)  # LP, polish: TOTAL_MSD over the spheres that are stable now
 
 # jam_soft_scale: Factor c and length l of the energy. @since 0.1
 const JAM_SOFT_RELATIVE = Int32(0)  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
@@ -255,6 +257,7 @@ const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times th
 const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms
 const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
 const JAM_FLOPPY_STABILITY = Int32(4)  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
 
 # jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1
 const JAM_DOS_OMEGA = Int32(0)  # middle of the bin
@@ -528,8 +531,8 @@ mutable struct jam_crunch_report
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
     contacts::Int64  # pairs with a force, rattlers left out
-    rattlers::Int64  # spheres that no force-carrying contact touches
-    stable::Int64  # n - rattlers = N'
+    rattlers::Int64  # spheres that no force-carrying contact touches; -1: stopped before contacts were known
+    stable::Int64  # n - rattlers = N'; 0 where contacts are unknown
     bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
@@ -789,10 +792,11 @@ mutable struct jam_comparison
     common_contacts::Int64  # pairs in both
     stable_in_both::Int64  # spheres that are rattlers in neither
     overlap::Cdouble  # common over union
+    overlap_a::Cdouble  # common over contacts_a: sys as the reference
     packing_fraction_change::Cdouble  # phi of other minus phi of sys
     displacement_rms::Cdouble  # over these spheres, mean displacement taken out, in mean diameters of sys
     displacement_max::Cdouble  # likewise
-    jam_comparison() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    jam_comparison() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1632,7 +1636,7 @@ function jam_floppy_mode(sys, contact, out, out_len, needed)
 end
 
 """
-The floppy mode of every contact, measured: table (n_c, 5), columns as jam_floppy_column. Status: JAM_OK,
+The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
 JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
 """
 function jam_floppy_modes(sys, table, table_len, needed)

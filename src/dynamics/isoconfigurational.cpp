@@ -1,23 +1,16 @@
-// Isoconfigurational ensemble: checks, runs in the order of their numbers, threads, what resumes.
+// Isoconfigurational ensemble: checks, results, what resumes.
 #include "dynamics/isoconfigurational.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <exception>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "linalg/two_threads.hpp"
 
 namespace jam {
 
 namespace {
-
-// Runs between two joins of the threads. One waits for the other at the end, for half a run in the mean: 3 % of the
-// time.
-constexpr size_t batch_of_two = 32;
 
 uint64_t mark_of(const Packing &p) {
   uint64_t mark = mix64(p.n() ^ static_cast<uint64_t>(p.seed));
@@ -50,7 +43,7 @@ Isoconfigurational::Isoconfigurational(const Packing &p, bool jammed, const jam_
     if (m < 0 || static_cast<size_t>(m) >= plan_.instants.size() ||
         std::count(kept_instants_.begin(), kept_instants_.end(), m) > 1)
       fail(JAM_E_ARGUMENT, "kept instant %d is none of the %zu instants, or there twice", m, plan_.instants.size());
-  scale_diameters();
+  take_diameters();
   check_memory();
   if (!mc || mc->alpha == 0.0) check_resolution(jammed);
   if (mc) {
@@ -66,10 +59,13 @@ Isoconfigurational::Isoconfigurational(const Packing &p, bool jammed, const jam_
   report_.step = plan_.metropolis ? plan_.monte_carlo.step : 0.0;
 }
 
-void Isoconfigurational::scale_diameters() {
-  if (plan_.options.density_ratio == 1.0) return;
-  const double factor = std::pow(plan_.options.density_ratio, 1.0 / plan_.start.dim);
-  for (double &s : plan_.start.diameter) s *= factor;
+void Isoconfigurational::take_diameters() {
+  if (plan_.options.density_ratio != 1.0) {
+    const double factor = std::pow(plan_.options.density_ratio, 1.0 / plan_.start.dim);
+    for (double &s : plan_.start.diameter) s *= factor;
+  }
+  plan_.length = diameter_mean(plan_.start) / plan_.start.cell.side();
+  plan_.fraction = packing_fraction(plan_.start);
 }
 
 // What all runs asked for will take; said before anything is run.
@@ -80,7 +76,7 @@ void Isoconfigurational::check_memory() const {
   const double blocks = static_cast<double>((o.first_run + o.runs - 1) / o.block - o.first_run / o.block + 1);
   const double sums = 8.0 * m * spheres * (2.0 * d + 2.0) * (blocks + 1.0);
   const double sets = 8.0 * spheres * d * static_cast<double>(o.runs) * static_cast<double>(kept_instants_.size());
-  const double records = 8.0 * m * spheres * d * (o.threads == 2 ? static_cast<double>(batch_of_two) : 1.0);
+  const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads == 2 ? runs_ahead : 1);
   if (sums + sets + records > o.memory_limit)
     fail(JAM_E_MEMORY, "%.3g bytes are needed (sums of %g blocks %.3g, displacement sets %.3g), memory_limit is %.3g",
          sums + sets + records, blocks, sums, sets, o.memory_limit);
@@ -125,102 +121,6 @@ void Isoconfigurational::continue_with(const Packing &p, const jam_isoconf_optio
   } catch (...) {
     plan_.options = before;
     throw;
-  }
-}
-
-// ---- runs
-
-void Isoconfigurational::fold(int64_t run, const RunRecord &record) {
-  const size_t block = static_cast<size_t>(run / plan_.options.block - plan_.options.first_run / plan_.options.block);
-  const size_t coordinates = n() * dim();
-  if (blocks_.size() <= block) {
-    RunSums empty;
-    empty.start(plan_.instants.size(), n(), dim());
-    blocks_.push_back(std::move(empty));
-    report_.blocks = static_cast<int64_t>(blocks_.size());
-  }
-  blocks_[block].add(record, dim());
-  for (size_t k = 0; k < kept_.size(); ++k) {
-    const auto from = record.displacement.begin() + static_cast<std::ptrdiff_t>(kept_instants_[k] * coordinates);
-    kept_[k].insert(kept_[k].end(), from, from + static_cast<std::ptrdiff_t>(coordinates));
-  }
-  ++report_.runs;
-  report_.energy_drift = std::max(report_.energy_drift, record.energy_drift);
-  report_.max_overlap = std::max(report_.max_overlap, record.max_overlap);
-  report_.acceptance += (record.acceptance - report_.acceptance) / static_cast<double>(report_.runs);
-}
-
-// Tells the progress callback; true: stop.
-bool Isoconfigurational::tick(Monitor &monitor) const {
-  jam_progress p{};
-  p.phase = phase();
-  p.packing_fraction = packing_fraction(plan_.start);
-  p.pressure = p.gain = p.max_step = std::numeric_limits<double>::quiet_NaN();
-  p.fraction = static_cast<double>(report_.runs) / static_cast<double>(plan_.options.runs);
-  p.steps = report_.runs;
-  return monitor.report(p);
-}
-
-// Makes the runs first, first + 1, ... on one or two threads, each the next one that waits. An error of any is thrown.
-void Isoconfigurational::make(int64_t first, std::vector<RunRecord> &records, const Monitor &monitor, double wall_end,
-                              const Tick &tick) {
-  std::vector<std::exception_ptr> errors(records.size());
-  std::atomic<size_t> next{0};
-  const auto work = [&](int thread) {
-    const RunControl control{monitor, wall_end, thread == 0 ? tick : Tick()};
-    for (size_t k; (k = next++) < records.size();) {
-      try {
-        records[k].displacement.resize(plan_.instants.size() * n() * dim());
-        records[k].series.assign(plan_.instants.size() * isoconf_columns, 0.0);
-        const auto one = plan_.metropolis ? run_metropolis : run_molecular_dynamics;
-        one(plan_, first + static_cast<int64_t>(k), control, records[k]);
-      } catch (...) {
-        errors[k] = std::current_exception();
-      }
-    }
-  };
-  if (plan_.options.threads == 2)
-    on_two_threads(work);
-  else
-    work(0);
-  for (const std::exception_ptr &error : errors)
-    if (error) std::rethrow_exception(error);
-}
-
-jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listeners) {
-  Monitor &monitor = *listeners.monitor;
-  const double begin = now_seconds(), wall_end = begin + limits.wall_time;
-  const Tick tell = [&] { return tick(monitor); };
-  const int64_t runs = plan_.options.runs;
-  // All memory of the sets now: no run is lost for want of it.
-  for (std::vector<double> &set : kept_) set.reserve(static_cast<size_t>(runs) * n() * dim());
-  while (report_.runs < runs) {
-    const int64_t first = plan_.options.first_run + report_.runs;
-    std::vector<RunRecord> records(
-        std::min(static_cast<size_t>(runs - report_.runs), plan_.options.threads == 2 ? batch_of_two : 1));
-    make(first, records, monitor, wall_end, tell);
-    for (size_t k = 0; k < records.size(); ++k) {
-      if (records[k].stop_reason != JAM_STOP_NONE) return finish(records[k].stop_reason, begin);
-      fold(first + static_cast<int64_t>(k), records[k]);
-    }
-    if (tell()) return finish(JAM_STOP_CANCELLED, begin);
-    if (report_.runs < runs && now_seconds() > wall_end) return finish(JAM_STOP_WALL_TIME, begin);
-  }
-  return finish(JAM_STOP_COLLISIONS, begin);
-}
-
-jam_status Isoconfigurational::finish(int32_t reason, double begin) {
-  report_.stop_reason = reason;
-  report_.seconds += now_seconds() - begin;
-  switch (reason) {
-    case JAM_STOP_COLLISIONS:
-      return JAM_OK;
-    case JAM_STOP_CANCELLED:
-      return JAM_CANCELLED;
-    case JAM_STOP_WALL_TIME:
-      return JAM_LIMIT;
-    default:
-      return JAM_NOT_CONVERGED;
   }
 }
 
@@ -272,7 +172,7 @@ void Isoconfigurational::archive(Archive &a) {
     for (const int32_t m : kept_instants_) Archive::check(m >= 0 && static_cast<size_t>(m) < plan_.instants.size());
     blocks_.resize(blocks);
     kept_.resize(sets);
-    scale_diameters();
+    take_diameters();
   }
   for (RunSums &block : blocks_) block.archive(a);
   for (std::vector<double> &set : kept_) a(set);

@@ -47,6 +47,8 @@ struct RunSums {
 // What all runs share.
 struct RunPlan {
   Packing start;                // diameters scaled, masses set, no velocities
+  double length = 0.0;          // mean diameter of these, unit of the box side
+  double fraction = 0.0;        // packing fraction of these
   jam_isoconf_options options;  // checked
   jam_monte_carlo_options monte_carlo{};
   bool metropolis = false;       // monte_carlo is used
@@ -66,7 +68,7 @@ struct RunControl {
 void take_moments(const RunPlan &plan, size_t m, RunRecord &record);
 // One run of event-driven dynamics, isoconfigurational_md.cpp.
 void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record);
-// One Metropolis run, monte_carlo_runs.cpp.
+// One Metropolis run, monte_carlo_run.cpp.
 void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record);
 // Maxwell-Boltzmann velocities of run k: zero total momentum, twice the kinetic energy exactly d n T.
 void draw_run_velocities(Packing &p, int64_t run, double temperature);
@@ -101,13 +103,18 @@ class Isoconfigurational final : public Dynamics {
   double box() const { return packing_.cell.side(); }
 
  private:
-  void scale_diameters();
+  void take_diameters();
   size_t n() const { return packing_.n(); }
   size_t dim() const { return static_cast<size_t>(packing_.dim); }
   void check_memory() const;
   void check_resolution(bool jammed) const;
   bool tick(Monitor &monitor) const;
-  void make(int64_t first, std::vector<RunRecord> &records, const Monitor &monitor, double wall_end, const Tick &tick);
+  // A run that has begun is at most so many numbers ahead of the sums; its record waits in memory.
+  static constexpr int64_t runs_ahead = 32;
+  struct Queue;
+  bool take(Queue &queue, int64_t &run, RunRecord &record) const;
+  void hand_in(Queue &queue, int64_t run, RunRecord &record, double wall_end);
+  void work(Queue &queue, const RunControl &control);
   void fold(int64_t run, const RunRecord &record);
   jam_status finish(int32_t reason, double begin);
   Packing packing_;

@@ -96,8 +96,7 @@ void RunSums::archive(Archive &a) {
 
 void take_moments(const RunPlan &plan, size_t m, RunRecord &record) {
   const size_t n = plan.start.n(), d = static_cast<size_t>(plan.start.dim);
-  const double length = diameter_mean(plan.start) / plan.start.cell.side();  // mean diameter, unit of the box side
-  const double q = plan.options.wave_number / length, reach = plan.options.overlap_length * length;
+  const double q = plan.options.wave_number / plan.length, reach = plan.options.overlap_length * plan.length;
   const double *x = &record.displacement[m * n * d];
   double msd = 0.0, scattering = 0.0;
   size_t near = 0;

@@ -52,11 +52,21 @@ static void get(const jam_system *sys, int64_t block, sums *s) {
 }
 
 static void bits_do_not_depend_on_threads_or_handles(void **state) {
+  enum { MANY = 4000 }; /* so many that threads overtake each other */
   jam_system *one = packing(), *two = packing();
   jam_isoconf_options o = options();
   static sums a, b;
   int64_t k;
   (void)state;
+  o.runs = o.block = MANY;
+  assert_int_equal(run(one, &o, NULL), JAM_OK);
+  o.threads = 2;
+  assert_int_equal(run(two, &o, NULL), JAM_OK);
+  get(one, -1, &a);
+  get(two, -1, &b);
+  assert_int_equal(a.runs, MANY);
+  assert_memory_equal(&a, &b, sizeof a);
+  o = options();
   assert_int_equal(run(one, &o, NULL), JAM_OK);
   o.threads = 2;
   assert_int_equal(run(two, &o, NULL), JAM_OK);
@@ -212,6 +222,7 @@ static void bad_input_is_named(void **state) {
   static const int32_t twice[2] = {1, 1}, beyond[1] = {3};
   jam_system *sys = packing();
   jam_isoconf_options o = options();
+  jam_monte_carlo_options m;
   jam_isoconf_report r;
   double x;
   (void)state;
@@ -251,6 +262,14 @@ static void bad_input_is_named(void **state) {
   assert_int_equal(run(sys, &o, &r), JAM_OK);
   assert_true(r.energy_drift < 1e-12 && r.max_overlap < 1e-13);
   REFUSED(temperature, 0.0, JAM_E_ARGUMENT);
+  REFUSED(memory_limit, 1e4, JAM_E_MEMORY);
+  REFUSED(density_ratio, 1.0 - 1e-12, JAM_E_ARGUMENT);
+  o = options();
+  assert_int_equal(jam_isoconfigurational(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_monte_carlo_options_init(&m, sizeof m), JAM_OK);
+  m.alpha = 2.0;
+  m.temperature = 0.0;
+  assert_int_equal(jam_isoconfigurational(sys, &o, &m, instants, M, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_int_equal(jam_isoconf_report_get(sys, &r), JAM_OK); /* what was there is still there */
   assert_int_equal(r.runs, RUNS);
   assert_int_equal(jam_isoconf_series(sys, -1, 99, &x, 1, NULL), JAM_E_ARGUMENT);
@@ -270,6 +289,8 @@ static void a_jammed_packing_needs_room(void **state) {
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   o.density_ratio = 1.0;
+  assert_int_equal(run(sys, &o, NULL), JAM_E_ARGUMENT);
+  o.density_ratio = 1.0 - 1e-13; /* 1 - 1e-12 is just resolved for so large spheres, not for 200 and more */
   assert_int_equal(run(sys, &o, NULL), JAM_E_ARGUMENT);
   o.density_ratio = 1.0 - 1e-10; /* the nearest decade that positions can resolve */
   assert_int_equal(run(sys, &o, &r), JAM_OK);

@@ -1550,10 +1550,10 @@ module jam
       integer(c_int32_t) :: status
     end function jam_observed_pairs
 
-    ! Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
-    ! ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
-    ! equal spheres in d = 3. Each may be NULL
-    ! with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+    ! Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
+    ! (bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+    ! g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
+    ! Errors: as jam_observed_series. @since 0.1
     function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows) &
         bind(c, name="jam_observed_gaps") result(status)
       import
@@ -1568,8 +1568,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_observed_gaps
 
-    ! g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
-    ! Errors: as jam_observed_series. @since 0.1
+    ! g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
+    ! Threads: const. Errors: as jam_observed_series. @since 0.1
     function jam_observed_correlation(sys, r, r_len, g, g_len, rows) &
         bind(c, name="jam_observed_correlation") result(status)
       import

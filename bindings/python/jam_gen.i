@@ -410,12 +410,12 @@ length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_observed_pairs "Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
 units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
 Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
-ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
-equal spheres in d = 3. Each may be NULL
-with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_correlation "g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
+%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
+(bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
 Errors: as jam_observed_series. @since 0.1"
+%feature("docstring") jam_observed_correlation "g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
+Threads: const. Errors: as jam_observed_series. @since 0.1"
 %feature("docstring") jam_eos "pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"
 %feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,

@@ -521,14 +521,14 @@ JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisio
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
                                       size_t *rows);
-/* Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
- * ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
- * equal spheres in d = 3. Each may be NULL
- * with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+/* Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
+ * (bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+ * g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
+ * Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
                                      size_t density_len, double *error, size_t error_len, size_t *rows);
-/* g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
- * Errors: as jam_observed_series. @since 0.1 */
+/* g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
+ * Threads: const. Errors: as jam_observed_series. @since 0.1 */
 JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
                                             size_t *rows);
 

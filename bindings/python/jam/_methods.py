@@ -70,15 +70,15 @@ class Methods:
         return self.call('observed_pairs')
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
-        ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
-        equal spheres in d = 3. Each may be NULL
-        with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
+        (bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+        g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
+        Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_gaps')
 
     def observed_correlation(self) -> ObservedCorrelationResult:
-        """g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
-        Errors: as jam_observed_series. @since 0.1"""
+        """g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
+        Threads: const. Errors: as jam_observed_series. @since 0.1"""
         return self.call('observed_correlation')
 
     def monte_carlo(self, *, resume: int | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:

@@ -1148,18 +1148,18 @@ function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, mom
 end
 
 """
-Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an
-ideal gas, and error (bins) over samples. The limit of density at h = 0 is g(sigma), which is (p - 1) / (4 phi) for
-equal spheres in d = 3. Each may be NULL
-with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
+(bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
+g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
+Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
     return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, rows))
 end
 
 """
-g(r), *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0. Threads: const.
-Errors: as jam_observed_series. @since 0.1
+g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
+Threads: const. Errors: as jam_observed_series. @since 0.1
 """
 function jam_observed_correlation(sys, r, r_len, g, g_len, rows)
     return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, rows))

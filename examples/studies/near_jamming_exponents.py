@@ -9,19 +9,12 @@ At a value of K, two curves of K against the MSD lie at two MSDs. Their ratio is
 to the power nu. One exponent for all K and all pairs is what a collapse asks for. Source: R. Diaz Hernandez Rojas, PhD thesis
 (Sapienza 2021), chapter 3, where exponents were chosen by eye: 1.80 and 1.65; 0.84, 0.64, 0.51 and 0.45, 0.40, 0.35.
 """
-import argparse
-import os
+import near_jamming_common as common
+import numpy as np
+from near_jamming_common import MC_EXPONENTS, MD_EXPONENTS, NAMES, plt
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import near_jamming_md as md  # noqa: E402
-import near_jamming_monte_carlo as mc  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
-from jam import near_jamming as nj  # noqa: E402
+import jam
+from jam import near_jamming as nj
 
 BANDS = [(low, low + 0.1) for low in np.round(np.arange(0.2, 0.75, 0.05), 2)]
 RESAMPLES = 20
@@ -61,34 +54,23 @@ def show(axis, title, labels, runs, control, structure, kind, thesis):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("picture")
-    parser.add_argument("--large", action="store_true")
-    parser.add_argument("--runs", type=int)
-    parser.add_argument("--mc-runs", type=int)
-    args = parser.parse_args()
-    os.makedirs(args.folder, exist_ok=True)
-    packing = md.make_packing(1)
-    structure = nj.predictors(packing)
-    ratios = (0.96, 0.98, 0.99, 0.995, 0.999)
-    near = [md.ensemble(packing, args.folder, "1", q, args.runs or (5000 if args.large else 100)) for q in ratios]
-    hot_count = args.mc_runs or (1000 if args.large else 40)
-    instants = mc.instants_of(250 if args.large else 120)
+    args = common.arguments(__doc__, runs=100, mc_runs=40)
+    packing = common.make_packing(1)
+    structure, ratios = nj.predictors(packing), common.RATIOS
+    near = [common.md_runs(packing, args.folder, 1, q, args.runs) for q in ratios]
     figure, axes = plt.subplots(2, 4, figsize=(15, 7))
     print("| | pair | " + " | ".join(f"K {low:.1f} .. {high:.1f}" for low, high in BANDS[::2]) + " | thesis |")
     print("|---" * (3 + len(BANDS[::2])) + "|")
     for row, kind in enumerate("cs"):
         name = "C" if kind == "c" else "S"
-        show(axes[row, 0], f"MD, {name}", ratios, near, [1 - q for q in ratios], structure, kind, md.THESIS[kind])
-        for column, (alpha, temperatures) in enumerate(mc.TEMPERATURES.items(), 1):
-            hot = [mc.ensemble(packing, args.folder, "1", alpha, t, instants, hot_count) for t in temperatures]
+        show(axes[row, 0], f"MD, {name}", ratios, near, [1 - q for q in ratios], structure, kind, MD_EXPONENTS[kind])
+        for column, (alpha, temperatures) in enumerate(common.TEMPERATURES.items(), 1):
+            hot = [common.mc_runs(packing, args.folder, 1, alpha, t, args.large, args.mc_runs) for t in temperatures]
             labels = [f"{t:.3g}" for t in temperatures]
-            thesis = mc.THESIS[alpha][row]
+            thesis = MC_EXPONENTS[alpha][kind]
             show(axes[row, column], f"MC, alpha {alpha}, {name}", labels, hot, temperatures, structure, kind, thesis)
-        axes[row, 0].set_ylabel(f"nu of {md.NAMES[kind]}")
-    figure.tight_layout()
-    figure.savefig(args.picture, dpi=75)
+        axes[row, 0].set_ylabel(f"nu of {NAMES[kind]}")
+    common.save(figure, args.picture)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """How well the contact network predicts the motion of hard spheres just below jamming: isoconfigurational runs.
 
-usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--runs RUNS] [--seed SEED] [--quenched]
-Default: 100 runs at five densities. --large: 5000 runs at seven densities, some 20 minutes of one core.
+usage: near_jamming_md.py FOLDER PICTURE.png [--large] [--quenched] [--runs RUNS] [--long-runs RUNS] [--seed SEED]
+Default: 100 runs at five densities. --large: 5000 runs at seven densities and 1000 to tau = 1000 at four, some 20 minutes
+of one core. Long runs end beyond the cage's edge: the MSD reaches its plateau.
 --quenched: the packing by sequential linear programs from random spheres, as published, not by growth.
 Runs are saved in FOLDER; a study that was stopped goes on. Small and large ones need folders of their own.
 Needs jam, numpy, scipy, matplotlib. Prints tables.
@@ -10,55 +11,12 @@ Needs jam, numpy, scipy, matplotlib. Prints tables.
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected: K falls by at most a decade while the MSD grows
 by two; curves fall together against MSD / (phi_J - phi)^nu with nu = 1.80 for C and 1.65 for S; median |dr|^2 = 0.75 of its mean.
 """
-import argparse
-import os
+import near_jamming_common as common
+import numpy as np
+from near_jamming_common import INSTANTS, MD_EXPONENTS, NAMES, plt
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
-from jam import near_jamming as nj  # noqa: E402
-
-INSTANTS = [1, 2, 3, 5, 7, 10, 14, 20, 30, 50, 70, 100]
-THESIS = {"c": 1.80, "s": 1.65}
-NAMES = {
-    "c": "K[C, <dr>]",
-    "s": "K[S, <|dr|^2>]",
-    "force_sum": "K[sum f]",
-    "force_pairs": "K[sum f.f]",
-    "variance": "K[|C|, Var]",
-}
-
-
-def make_packing(seed, n=1024, quenched=False):
-    if quenched:
-        packing = jam.System.random(n=n, dim=3, seed=seed, packing_fraction=0.2)
-        report = packing.crunch(method="sequential_lp")
-    else:
-        packing = jam.System.random(n=n, dim=3, seed=seed)
-        packing.compress([(1e-2, 500.0), (3e-3, 1e5)])
-        report = packing.crunch()
-    print(
-        f"phi_J = {report.packing_fraction:.6f}, {report.rattlers} rattlers, {report.excess_contacts} excess contacts"
-    )
-    return packing
-
-
-def ensemble(packing, folder, name, ratio, count):
-    """Runs at one density, from the file of an earlier call where it holds them. Those at 0.995 keep all at tau = 20."""
-    return nj.campaign(
-        packing,
-        os.path.join(folder, f"md_{name}_{ratio}.npz"),
-        INSTANTS,
-        count,
-        part=500,
-        density_ratio=ratio,
-        block=50 if count >= 500 else 5,
-        keep=[INSTANTS.index(20)] if ratio == 0.995 else [],
-    )
+import jam
+from jam import near_jamming as nj
 
 
 def table(ensembles, structure, errors):
@@ -67,12 +25,12 @@ def table(ensembles, structure, errors):
     for ratio, runs in ensembles.items():
         k, e = nj.correlations(runs, structure), nj.correlation_errors(runs, structure, errors)
         for m, tau in enumerate(runs.instants):
-            if tau in (2, 10, 20, 100):
+            if tau in (2, 10, 20, 100, 300, 1000):
                 cells = " | ".join(f"{k[name][m]:.3f}({e[name][m]:.3f})" for name in NAMES)
                 print(f"| {ratio} | {tau:g} | {runs.time[m]:.3g} | {runs.msd[m]:.2e} | {cells} |")
 
 
-def draw(ensembles, structure, exponents, picture):
+def draw(ensembles, long_ones, structure, exponents, picture):
     figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
     for color, (ratio, runs) in zip(plt.cm.viridis(np.linspace(0, 0.9, len(ensembles))), ensembles.items()):
         k = nj.correlations(runs, structure)
@@ -84,6 +42,12 @@ def draw(ensembles, structure, exponents, picture):
         axes[0, 2].semilogx(runs.instants, k["variance"], ".-", color=color)
         for row, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
             row.loglog(runs.msd / (1 - ratio) ** exponents[name].value, k[name], ".-", color=color, label=label)
+    for ratio, runs in long_ones.items():
+        color = plt.cm.viridis(0.9 * list(ensembles).index(ratio) / (len(ensembles) - 1))
+        k = nj.correlations(runs, structure)
+        axes[0, 1].loglog(runs.instants, runs.msd, "-", color=color, lw=1)
+        for row, name in ((axes[1, 0], "c"), (axes[1, 1], "s")):
+            row.loglog(runs.msd / (1 - ratio) ** exponents[name].value, k[name], "-", color=color, lw=1)
     axes[0, 0].set(xscale="log", yscale="log", xlabel="tau", ylabel="time over that at tau = 1")
     axes[0, 1].set(xlabel="tau", ylabel="MSD")
     tau = np.array([1.0, 5.0])
@@ -99,7 +63,7 @@ def draw(ensembles, structure, exponents, picture):
         axis.set(
             xlabel=f"MSD / (1 - phi/phi_J)^{e.value:.2f}",
             ylabel=NAMES[name],
-            title=f"nu = {e.value:.2f} +- {e.error:.3f}, thesis {THESIS[name]:.2f}",
+            title=f"nu = {e.value:.2f} +- {e.error:.3f}, thesis {MD_EXPONENTS[name]:.2f}",
         )
     axes[0, 0].legend(fontsize=7)
     axes[0, 1].legend(fontsize=7)
@@ -111,26 +75,21 @@ def draw(ensembles, structure, exponents, picture):
     axes[1, 2].plot(c[structure.rattlers], dr[structure.rattlers], "r.", ms=3, label="rattlers")
     axes[1, 2].set(xlabel="C_z", ylabel="<dz>", title=f"{ratio}, tau = 10: K = {jam.statistics.spearman(c, dr):.2f}")
     axes[1, 2].legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(picture, dpi=75)
+    common.save(figure, picture)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("picture")
-    parser.add_argument("--large", action="store_true")
-    parser.add_argument("--runs", type=int)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--quenched", action="store_true")
-    args = parser.parse_args()
-    ratios = (0.9, 0.93, 0.96, 0.98, 0.99, 0.995, 0.999) if args.large else (0.96, 0.98, 0.99, 0.995, 0.999)
-    count = args.runs or (5000 if args.large else 100)
-    os.makedirs(args.folder, exist_ok=True)
-    packing, name = make_packing(args.seed, quenched=args.quenched), f"{args.seed}{'q' if args.quenched else ''}"
+    args = common.arguments(__doc__, "quenched", runs=100, long_runs=0, seed=1)
+    ratios = (0.9, 0.93) * args.large + common.RATIOS
+    packing, name = common.make_packing(args.seed, quenched=args.quenched), f"{args.seed}{'q' * args.quenched}"
     structure = nj.predictors(packing)
-    ensembles = {ratio: ensemble(packing, args.folder, name, ratio, count) for ratio in ratios}
+    ensembles = {ratio: common.md_runs(packing, args.folder, name, ratio, args.runs) for ratio in ratios}
     table(ensembles, structure, 20)
+    long_ones = {}
+    if args.long_runs:
+        for ratio in common.LONG_RATIOS:
+            long_ones[ratio] = common.long_md_runs(packing, args.folder, name, ratio, args.long_runs)
+        table(long_ones, structure, 20)
     print(
         f"median over mean of |dr|^2 at tau = 20, 0.995: {nj.median_over_mean(ensembles[0.995].kept[INSTANTS.index(20)]):.3f} (0.75)"
     )
@@ -143,7 +102,7 @@ def main():
                 e = nj.collapse_exponent(list(near.values()), structure, [1 - r for r in near], kind, 10, between)
                 at = f"K in {between}" if between else "all K"
                 print(
-                    f"{NAMES[kind]}, ratios from {least}, {at}: nu = {e.value:.3f} +- {e.error:.3f}, thesis {THESIS[kind]}"
+                    f"{NAMES[kind]}, ratios from {least}, {at}: nu = {e.value:.3f} +- {e.error:.3f}, thesis {MD_EXPONENTS[kind]}"
                 )
         exponents[kind] = e
     without = nj.correlations(ensembles[0.995], structure, rattlers=False)
@@ -156,7 +115,7 @@ def main():
                 f"| {tau} | {p.c_top[m]:.2e}, {p.c_bottom[m]:.2e} | {p.s_top[m]:.2e}, {p.s_bottom[m]:.2e} "
                 f"| {p.c_area[m]:.3f} | {p.s_area[m]:.3f} |"
             )
-    draw(ensembles, structure, exponents, args.picture)
+    draw(ensembles, long_ones, structure, exponents, args.picture)
 
 
 if __name__ == "__main__":

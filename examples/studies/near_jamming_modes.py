@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Do a few soft modes explain the motion near jamming? Mean displacements against the modes of two Hessians.
 
-usage: near_jamming_modes.py FOLDER PICTURE.png [--large]
+usage: near_jamming_modes.py FOLDER PICTURE.png [--large] [--runs RUNS]
 Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs, those of near_jamming_md.py --large when FOLDER
 is the same. Runs are saved in FOLDER.
 Needs jam, numpy, scipy, matplotlib. Prints a table.
@@ -10,32 +10,19 @@ Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. Expected
 more of it on low ones; the curvature u.H.u lies above 40 to 60 % of the frequencies early and above about 20 % late. The thesis
 compares u.H.u, whose unit is omega^2, with omega; here both u.H.u and its root are printed.
 """
-import argparse
-import os
+import near_jamming_common as common
+import numpy as np
+from near_jamming_common import INSTANTS, plt
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from near_jamming_md import INSTANTS, ensemble, make_packing  # noqa: E402
-
-from jam import near_jamming as nj  # noqa: E402
+from jam import near_jamming as nj
 
 SHOWN = [2, 10, 30, 100]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("picture")
-    parser.add_argument("--large", action="store_true")
-    parser.add_argument("--runs", type=int)
-    args = parser.parse_args()
-    os.makedirs(args.folder, exist_ok=True)
-    n, count = (1024, args.runs or 5000) if args.large else (256, args.runs or 200)
-    packing = make_packing(1, n)
-    runs = ensemble(packing, args.folder, "1" if args.large else f"n{n}", 0.995, count)
+    args = common.arguments(__doc__, runs=200)
+    packing = common.make_packing(1, n=1024 if args.large else 256)
+    runs = common.md_runs(packing, args.folder, 1 if args.large else "n256", 0.995, args.runs)
     shown = [INSTANTS.index(tau) for tau in SHOWN]
     figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
     print(
@@ -69,8 +56,7 @@ def main():
         axes[row, 2].set(xlabel="omega; u.H.u solid, its root dotted", ylabel="share of modes")
         axes[row, 0].legend(fontsize=7)
         axes[row, 1].legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(args.picture, dpi=75)
+    common.save(figure, args.picture)
 
 
 if __name__ == "__main__":

@@ -8,18 +8,12 @@ Runs are saved in FOLDER, those of near_jamming_md.py among them. Needs jam, num
 A packing is a sample of spheres: its error of K comes from resampling spheres, that of the runs from resampling runs.
 Expected: the same curves within these errors. Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3.
 """
-import argparse
-import os
+import near_jamming_common as common
+import numpy as np
+from near_jamming_common import INSTANTS, NAMES, plt
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import near_jamming_md as md  # noqa: E402
-import numpy as np  # noqa: E402
-
-import jam  # noqa: E402
-from jam import near_jamming as nj  # noqa: E402
+import jam
+from jam import near_jamming as nj
 
 PACKINGS = {"seed 1": (1, False), "seed 2": (2, False), "seed 1, quenched": (1, True)}
 RATIOS = (0.99, 0.995, 0.999)
@@ -41,24 +35,17 @@ def sphere_errors(runs, structure, times=50):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("picture")
-    parser.add_argument("--large", action="store_true")
-    parser.add_argument("--runs", type=int)
-    args = parser.parse_args()
-    count = args.runs or (5000 if args.large else 100)
-    os.makedirs(args.folder, exist_ok=True)
+    args = common.arguments(__doc__, runs=100)
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.4))
     print(
         "| packing | phi/phi_J | tau | MSD / sigma^2 | K[C, <dr>] | K[S, <|dr|^2>] | K[|C|, Var] | without rattlers |"
     )
     print("|---" * 8 + "|")
     for color, (label, (seed, quenched)) in zip(("C0", "C1", "C2"), PACKINGS.items()):
-        packing = md.make_packing(seed, quenched=quenched)
+        packing = common.make_packing(seed, quenched=quenched)
         structure = nj.predictors(packing)
         for ratio, style in zip(RATIOS, (":", "-", "--")):
-            runs = md.ensemble(packing, args.folder, f"{seed}{'q' if quenched else ''}", ratio, count)
+            runs = common.md_runs(packing, args.folder, f"{seed}{'q' * quenched}", ratio, args.runs)
             k, e = nj.correlations(runs, structure), sphere_errors(runs, structure)
             bare = nj.correlations(runs, structure, rattlers=False)["variance"]
             msd = runs.msd / packing.diameters.mean() ** 2
@@ -67,15 +54,14 @@ def main():
                 axis.plot(msd, k[name], style, color=color, label=f"{label}, {ratio}")
                 axis.errorbar(msd[some], k[name][some], e[name][some], fmt=".", color=color)
             for tau in SHOWN:
-                m = md.INSTANTS.index(tau)
+                m = INSTANTS.index(tau)
                 cells = " | ".join(f"{k[name][m]:.3f}({e[name][m]:.3f})" for name in ("c", "s", "variance"))
                 print(f"| {label} | {ratio} | {tau} | {msd[m]:.3g} | {cells} | {bare[m]:.3f} |")
     for axis, name in zip(axes, ("c", "s", "variance")):
-        axis.set(xscale="log", xlabel="MSD / sigma^2", ylabel=md.NAMES[name])
+        axis.set(xscale="log", xlabel="MSD / sigma^2", ylabel=NAMES[name])
     axes[2].axhspan(-0.06, 0.06, color="0.9")
     axes[0].legend(fontsize=6)
-    figure.tight_layout()
-    figure.savefig(args.picture, dpi=75)
+    common.save(figure, args.picture)
 
 
 if __name__ == "__main__":

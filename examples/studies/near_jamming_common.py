@@ -1,0 +1,108 @@
+"""What the studies near jamming share: their options, the packing, its runs, published exponents. Not a study of its own."""
+import argparse
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402,F401  here, so that the line above comes first
+import numpy as np  # noqa: E402
+
+import jam  # noqa: E402
+from jam import near_jamming as nj  # noqa: E402
+
+# ---- options
+
+LARGE = {"runs": 5000, "mc_runs": 1000, "long_runs": 1000}  # what --large makes
+LAST_SWEEP = {False: 120, True: 250}
+
+
+def arguments(doc, *flags, **small):
+    """Options of a study. small: runs it makes unless --large or --runs N is given, e.g. runs=100, mc_runs=40; flags: further
+    ones. folder is made."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("picture")
+    for flag in ("large", *flags):
+        parser.add_argument(f"--{flag}", action="store_true")
+    for name in small:
+        parser.add_argument("--" + name.replace("_", "-"), type=int)
+    args = parser.parse_args()
+    for name, count in small.items():
+        if getattr(args, name) is None:
+            setattr(args, name, LARGE.get(name, count) if args.large else count)
+    os.makedirs(args.folder, exist_ok=True)
+    return args
+
+
+def save(figure, picture):
+    figure.tight_layout()
+    figure.savefig(picture, dpi=75)
+
+
+# ---- packing and runs
+
+RATIOS = (0.96, 0.98, 0.99, 0.995, 0.999)  # phi / phi_J
+INSTANTS = [1, 2, 3, 5, 7, 10, 14, 20, 30, 50, 70, 100]  # collisions per particle
+LONG_RATIOS = (0.96, 0.98, 0.99, 0.999)
+LONG_INSTANTS = [50, 100, 200, 300, 500, 700, 1000]
+TEMPERATURES = {1.5: (1e-4, 3.16e-4, 1e-3), 2.0: (4.64e-6, 2.15e-5, 1e-4), 2.5: (2.15e-7, 1.47e-6, 1e-5)}
+
+
+def make_packing(seed, n=1024, quenched=False):
+    """Grown, or by sequential linear programs from random spheres."""
+    if quenched:
+        packing = jam.System.random(n=n, dim=3, seed=seed, packing_fraction=0.2)
+        report = packing.crunch(method="sequential_lp")
+    else:
+        packing = jam.System.random(n=n, dim=3, seed=seed)
+        packing.compress([(1e-2, 500.0), (3e-3, 1e5)])
+        report = packing.crunch()
+    print(
+        f"phi_J = {report.packing_fraction:.6f}, {report.rattlers} rattlers, {report.excess_contacts} excess contacts"
+    )
+    return packing
+
+
+def md_runs(packing, folder, name, ratio, count):
+    """Runs at one density, from the file of an earlier call where it holds them. Those at 0.995 keep all at tau = 20."""
+    return nj.campaign(
+        packing,
+        os.path.join(folder, f"md_{name}_{ratio}.npz"),
+        INSTANTS,
+        count,
+        part=500,
+        density_ratio=ratio,
+        block=50 if count >= 500 else 5,
+        keep=[INSTANTS.index(20)] if ratio == 0.995 else [],
+    )
+
+
+def long_md_runs(packing, folder, name, ratio, count):
+    path = os.path.join(folder, f"long_{name}_{ratio}.npz")
+    return nj.campaign(packing, path, LONG_INSTANTS, count, part=50, density_ratio=ratio, block=5)
+
+
+def mc_runs(packing, folder, name, alpha, temperature, large, count):
+    """Runs at one energy and temperature, from the file of an earlier call where it holds them."""
+    return nj.campaign(
+        packing,
+        os.path.join(folder, f"mc_{name}_{alpha}_{temperature}.npz"),
+        np.unique(np.round(np.geomspace(2, LAST_SWEEP[large], 12))),
+        count,
+        monte_carlo=dict(alpha=alpha, temperature=temperature),
+        block=20 if count >= 200 else 2,
+    )
+
+
+# ---- published, R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3
+
+MD_EXPONENTS = {"c": 1.80, "s": 1.65}
+MC_EXPONENTS = {1.5: {"c": 0.84, "s": 0.45}, 2.0: {"c": 0.64, "s": 0.40}, 2.5: {"c": 0.51, "s": 0.35}}
+NAMES = {
+    "c": "K[C, <dr>]",
+    "s": "K[S, <|dr|^2>]",
+    "force_sum": "K[sum f]",
+    "force_pairs": "K[sum f.f]",
+    "variance": "K[|C|, Var]",
+}

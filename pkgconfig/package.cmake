@@ -65,8 +65,17 @@ jam_package(runtime libjam${JAM_ABI} libs "Jammed packings of hard spheres: shar
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
+set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/pkgconfig/package_scripts.cmake)
 jam_package(dev libjam-dev libdevel "Jammed packings of hard spheres: C, C++, Fortran and Julia")
 set(CPACK_COMPONENT_DEV_DEPENDS runtime)
+if(JAM_BUILD_FORTRAN)
+  # a module file serves the compilers that write the same version of it
+  execute_process(COMMAND gfortran -dumpversion OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
+  execute_process(COMMAND dpkg-query -W -f "\${Provides}" gfortran-${version} OUTPUT_VARIABLE provides ERROR_QUIET)
+  if(provides MATCHES "gfortran-mod-[0-9]+")
+    set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "gfortran-${version} | ${CMAKE_MATCH_0}")
+  endif()
+endif()
 jam_package(doc jam-doc doc "Jammed packings of hard spheres: guide and examples")
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 file(GLOB pages ${PROJECT_SOURCE_DIR}/bindings/docs/*.md ${PROJECT_SOURCE_DIR}/README.md)
@@ -92,6 +101,17 @@ if(JAM_BUILD_PYTHON)
   list(GET versions 0 this)
   list(GET versions 1 next)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${this}), python3 (<< ${next}), python3-numpy")
+  # as dh_python3 would write them
+  file(WRITE ${PROJECT_BINARY_DIR}/debian/postinst "#!/bin/sh
+set -e
+if command -v py3compile >/dev/null; then py3compile -p python3-jam; fi
+")
+  file(WRITE ${PROJECT_BINARY_DIR}/debian/prerm "#!/bin/sh
+set -e
+if command -v py3clean >/dev/null; then py3clean -p python3-jam; fi
+")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      ${PROJECT_BINARY_DIR}/debian/postinst ${PROJECT_BINARY_DIR}/debian/prerm)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-scipy, python3-matplotlib, python3-h5py, python3-tqdm")
 endif()
 include(CPack)

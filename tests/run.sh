@@ -14,7 +14,7 @@ cd "$root"
 . tests/debian.sh
 need_packages build-essential cmake ninja-build pkg-config clang clang-format \
   libeigen3-dev coinor-libclp-dev libspectra-dev libopenblas-dev voro++-dev libcmocka-dev abigail-tools \
-  swig gfortran python3-dev python3-numpy python3-scipy python3-matplotlib \
+  swig gfortran lintian python3-dev python3-numpy python3-scipy python3-matplotlib \
   python3-h5py python3-pandas python3-tqdm python3-mpi4py openmpi-bin python3-distributed python3-dask \
   doxygen python3-sphinx python3-breathe python3-myst-parser furo locales
 
@@ -30,8 +30,10 @@ export OPENBLAS_NUM_THREADS=1
 status=0
 if wants release; then
 echo "== release build"
+# For /usr, as the Debian packages are made of it; nothing is installed there. -U: its folders follow the prefix.
 # shellcheck disable=SC2086
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
+cmake -S . -B build -G Ninja -U JAM_PYTHON_DIR -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_BUILD_TYPE=Release \
+  -DJAM_BUILD_STATIC=ON -DJAM_WERROR=ON $bindings >/dev/null
 cmake --build build -j "$jobs"
 ctest --test-dir build -j "$jobs" --output-on-failure --no-tests=error || status=1
 fi

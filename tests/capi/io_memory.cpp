@@ -2,34 +2,7 @@
 extern "C" {
 #include "io_helpers.h"
 }
-#include <cstdlib>
-#include <new>
-
-namespace {
-long until_failure = -1;  // allocations that still succeed; -1: all
-long alive = 0;
-}  // namespace
-
-// The replacement reaches the shared library too: it takes its operator new from the program.
-void *operator new(std::size_t size) {
-  if (until_failure == 0) throw std::bad_alloc();
-  if (until_failure > 0) --until_failure;
-  void *p = std::malloc(size ? size : 1);
-  if (!p) throw std::bad_alloc();
-  ++alive;
-  return p;
-}
-void *operator new(std::size_t size, const std::nothrow_t &) noexcept {  // stable_sort asks so, and does without
-  void *p = until_failure == 0 ? nullptr : std::malloc(size ? size : 1);
-  alive += p ? 1 : 0;
-  return p;
-}
-void operator delete(void *p) noexcept {
-  if (p) --alive;
-  std::free(p);
-}
-void operator delete(void *p, const std::nothrow_t &) noexcept { operator delete(p); }
-void operator delete(void *p, std::size_t) noexcept { operator delete(p); }
+#include "failing_new.hpp"
 
 namespace {
 
@@ -40,7 +13,7 @@ long fail_each(Call &&call) {
     const long before = alive;
     until_failure = k;
     const jam_status status = call();
-    const bool ran_out = until_failure == 0;
+    const bool ran_out = has_failed();
     until_failure = -1;
     if (!ran_out || status == JAM_OK) {
       assert_int_equal(status, JAM_OK);

@@ -17,7 +17,7 @@ inline void need_network(const jam_system *sys) {
 template <class F>
 jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
   return guard_verb(sys, [&]() -> jam_status {
-    const CallScope scope(sys->memory_limit, &sys->monitor);
+    const LeavingScope scope;
     try {
       return f(CancellationPoint(sys->monitor));
     } catch (const Cancelled &) {

@@ -112,7 +112,7 @@ jam_status guard_verb(jam_system *sys, F &&f) noexcept {
       ~Release() { monitor.end(); }
     } release{sys->monitor};
     sys->monitor.begin();
-    const CallScope scope(sys->memory_limit);
+    const CallScope scope(sys->memory_limit, &sys->monitor);
     const jam_status status = f();
     check_state_left(sys);
     return status;
@@ -178,6 +178,23 @@ void give_struct(const T &full, T *out) {
   std::memcpy(static_cast<void *>(out), &full, size);
   out->struct_size = size;
 }
+// A verb that may be left by Cancelled before it has changed anything; the report then tells why and nothing else.
+template <class Report, class F>
+jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
+  return guard_verb(sys, [&]() -> jam_status {
+    check_out_struct(report, "report");
+    try {
+      return f();
+    } catch (const Cancelled &) {
+      const bool cancelled = sys->monitor.cancelled();
+      Report r{};
+      r.stop_reason = cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+      give_struct(r, report);
+      return cancelled ? JAM_CANCELLED : JAM_LIMIT;
+    }
+  });
+}
+
 // Body of every jam_X_options_init.
 template <class T>
 jam_status init_options(T *out, size_t size, T defaults) noexcept {

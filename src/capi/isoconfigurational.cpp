@@ -39,12 +39,12 @@ jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size) {
 jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
                                   const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
                                   jam_isoconf_report *report) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> jam_status {
     jam_isoconf_options full = default_isoconf_options();
     jam_monte_carlo_options monte_carlo = default_monte_carlo_options();
-    check_out_struct(report, "report");
     take_options(o, full);
     check_isoconf_options(full);
+    sys->monitor.wall_time = full.wall_time;
     if (m) take_monte_carlo_options(m, monte_carlo);
     check_array_in(instant, instant_len, "instant");
     if (kept_len && !kept) fail(JAM_E_NULL, "kept is NULL but its length is %zu", kept_len);
@@ -55,6 +55,7 @@ jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
       if (!sys->runs) fail(JAM_E_STATE, "resume is 1 but there are no runs on this handle");
       sys->runs->continue_with(sys->packing, full, chosen, instants, sets);
     } else {
+      const LeavingScope scope;
       const bool jammed = sys->has_report && sys->report.jammed;
       sys->runs = std::make_unique<Isoconfigurational>(sys->packing, jammed, full, chosen, std::move(instants),
                                                        std::move(sets));

@@ -16,7 +16,7 @@ jam_status make_system(const jam_create_options &o, jam_progress_fn callback, vo
   monitor.wall_time = o.wall_time;
   monitor.progress = callback;
   monitor.progress_user = user;
-  const CallScope scope(sys->memory_limit, &monitor);
+  const LeavingScope scope(sys->memory_limit, &monitor);
   try {
     sys->packing = make();
   } catch (const Cancelled &) {

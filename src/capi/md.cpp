@@ -53,9 +53,16 @@ jam_status run_md(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &l
   return status;
 }
 
+// Its searches for pairs may be left.
+std::unique_ptr<Stage> make_stage(jam_system *sys, const MdStage &stage) {
+  sys->monitor.wall_time = stage.wall_time;
+  const LeavingScope scope;
+  return std::make_unique<Stage>(sys->packing, stage);
+}
+
 // The stage that the handle keeps, or a new one.
 std::unique_ptr<Stage> take_stage(jam_system *sys, bool resume, const MdStage &stage) {
-  if (!resume) return std::make_unique<Stage>(sys->packing, stage);
+  if (!resume) return make_stage(sys, stage);
   if (!sys->paused) fail(JAM_E_STATE, "resume is 1 but no stage was stopped early on this handle");
   const int32_t phase = stage.growth > 0.0 ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN, paused = sys->paused->phase();
   if (paused != phase)
@@ -66,7 +73,6 @@ std::unique_ptr<Stage> take_stage(jam_system *sys, bool resume, const MdStage &s
 
 template <class Options, class Check>
 jam_status verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_md_report *report) {
-  check_out_struct(report, "report");
   take_options(o, full);
   check(full);
   const MdStage stage = stage_of(full);
@@ -88,19 +94,18 @@ jam_status jam_compress_options_init(jam_compress_options *o, size_t size) {
 }
 
 jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report) {
-  return guard_verb(sys, [&] { return verb(sys, o, default_run_options(), check_run_options, report); });
+  return guard_reporting(sys, report, [&] { return verb(sys, o, default_run_options(), check_run_options, report); });
 }
 
 jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> jam_status {
     if (o) return verb(sys, o, default_compress_options(), check_compress_options, report);
-    check_out_struct(report, "report");
     const Packing before = sys->packing;
     jam_md_report made{};
     jam_status status = JAM_OK;
     try {
       for (const MdStage &stage : default_protocol)
-        if (status == JAM_OK) status = run_md(sys, std::make_unique<Stage>(sys->packing, stage), stage.limits(), made);
+        if (status == JAM_OK) status = run_md(sys, make_stage(sys, stage), stage.limits(), made);
     } catch (...) {
       sys->commit(before);  // one call, one change
       throw;

@@ -13,9 +13,8 @@ jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size)
 }
 
 jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> jam_status {
     jam_monte_carlo_options full = default_monte_carlo_options();
-    check_out_struct(report, "report");
     take_options(o, full);
     check_monte_carlo_options(full);
     std::unique_ptr<MonteCarloStage> stage;
@@ -25,6 +24,8 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
       stage.reset(static_cast<MonteCarloStage *>(sys->paused.release()));
     } else {
       if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
+      sys->monitor.wall_time = full.wall_time;
+      const LeavingScope scope;  // tunes the step and makes lists
       stage = std::make_unique<MonteCarloStage>(sys->packing, full);
     }
     Limits limits;

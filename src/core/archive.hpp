@@ -24,6 +24,12 @@ class Archive {
     static_assert(std::is_trivially_copyable<T>::value, "only plain data");
     raw(&x, sizeof x);
   }
+  void operator()(bool &x) {
+    uint8_t byte = x;
+    raw(&byte, sizeof byte);
+    check(byte <= 1);
+    x = byte == 1;
+  }
   template <class T>
   void operator()(std::vector<T> &v) {
     uint64_t count = v.size();

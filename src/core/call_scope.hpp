@@ -1,9 +1,12 @@
-// What the call that runs on this thread may use: memory, and time until it is cancelled. Searches for pairs are made
-// from every layer, and ask here, so that no function in between has to pass both on.
+// What the call that runs on this thread may use: memory, and time until it is cancelled. Loops over pairs are in every
+// layer, and ask here, so that no function in between has to pass both on.
 #pragma once
 #include <unistd.h>
 
+#include <mutex>
+
 #include "core/cancellation.hpp"
+#include "core/error.hpp"
 
 namespace jam {
 
@@ -12,37 +15,66 @@ inline double default_memory_limit() {
   return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// Made at the boundary for each call; calls that callbacks make nest. A monitor is given by those who catch Cancelled.
+// Made at the boundary for each call; calls that callbacks make nest.
 class CallScope {
  public:
-  explicit CallScope(double memory_limit, Monitor *monitor = nullptr)
-      : memory_limit_(memory_limit), monitor_(monitor), before_(current()) {
-    current() = this;
-  }
+  // With a monitor look() tells its callback, so that Ctrl-C is heard; the work goes on until it asks the monitor.
+  // quiet: held while the callback runs, where other threads work for the same call.
+  explicit CallScope(double memory_limit, Monitor *monitor = nullptr, std::mutex *quiet = nullptr)
+      : CallScope(memory_limit, monitor, quiet, false) {}
   ~CallScope() { current() = before_; }
   CallScope(const CallScope &) = delete;
   CallScope &operator=(const CallScope &) = delete;
 
   // Bytes that one call may take.
   static double memory_limit() { return current() ? current()->memory_limit_ : default_memory_limit(); }
-  // Tells the progress callback; throws Cancelled when the call has been cancelled or its time is over.
+  static void need_memory(double bytes, const char *what) {
+    if (bytes > memory_limit())
+      fail(JAM_E_MEMORY, "%s need %.3g GB, this call may have %.3g GB", what, 1e-9 * bytes, 1e-9 * memory_limit());
+  }
+  // In long loops. In a LeavingScope it throws Cancelled when the call has been cancelled or its time is over.
   static void look() {
-    if (current() && current()->monitor_ && current()->monitor_->look()) throw Cancelled();
+    ask([](Monitor &monitor) { return monitor.look(); });
   }
   // The same with a record of its own.
   static void report(const jam_progress &p) {
-    Monitor *const monitor = current() ? current()->monitor_ : nullptr;
-    if (monitor && (monitor->report(p) || monitor->interrupted())) throw Cancelled();
+    ask([&](Monitor &monitor) { return monitor.report(p) || monitor.interrupted(); });
   }
 
+ protected:
+  CallScope(double memory_limit, Monitor *monitor, std::mutex *quiet, bool leaves)
+      : memory_limit_(memory_limit), monitor_(monitor), quiet_(quiet), leaves_(leaves), before_(current()) {
+    current() = this;
+  }
+  static Monitor *monitor() { return current() ? current()->monitor_ : nullptr; }
+  static std::mutex *quiet() { return current() ? current()->quiet_ : nullptr; }
+
  private:
+  template <class Question>
+  static void ask(Question &&must_stop) {
+    const CallScope *const scope = current();
+    if (!scope || !scope->monitor_) return;
+    std::unique_lock<std::mutex> lock;
+    if (scope->quiet_) lock = std::unique_lock<std::mutex>(*scope->quiet_);
+    const bool stop = must_stop(*scope->monitor_);
+    if (stop && scope->leaves_) throw Cancelled();
+  }
   static CallScope *&current() {
     static thread_local CallScope *scope = nullptr;
     return scope;
   }
   double memory_limit_;
   Monitor *monitor_;
+  std::mutex *quiet_;
+  bool leaves_;
   CallScope *before_;
+};
+
+// Work that look() may leave by Cancelled. Whoever makes one catches it, or is done when it is thrown.
+class LeavingScope : public CallScope {
+ public:
+  LeavingScope(double memory_limit, Monitor *monitor) : CallScope(memory_limit, monitor, nullptr, true) {}
+  LeavingScope() : CallScope(memory_limit(), monitor(), quiet(), true) {}  // in the scope of now
 };
 
 }  // namespace jam

@@ -54,7 +54,7 @@ static void run_phases(CrunchState &s) {
   begun.packing_fraction = packing_fraction(s.out.packing);
   begun.pressure = begun.fraction = std::numeric_limits<double>::quiet_NaN();
   s.monitor.expect(begun);
-  const CallScope scope(CallScope::memory_limit(), &s.monitor);
+  const LeavingScope scope(CallScope::memory_limit(), &s.monitor);
   s.bound = first_bound(s);
   for (Phase phase = Phase::approach; phase != Phase::done;) {
     switch (phase) {

@@ -34,6 +34,11 @@
 
 namespace jam {
 
+// Lengths wrap as coordinates do, so that no number of a damaged checkpoint overflows.
+inline int64_t wrapping_sum(int64_t a, int64_t b) {
+  return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
+}
+
 // Why Engine::advance came back.
 enum class Halt { window, packing_fraction, time, box_full, stalled, cancelled, wall_time, needs_images };
 
@@ -128,15 +133,15 @@ class Engine final : public EngineBase {
   // Contact distance of two bodies at the origin of time, by the rule of core/pair_rule.hpp; pair_kernel_loops.hpp has
   // the same in vectors.
   int64_t contact_sum(const Body<D> &a, const Body<D> &b) const {
-    const int64_t sum = a.radius + b.radius;
+    const int64_t sum = wrapping_sum(a.radius, b.radius);
     if (non_additivity_ == 0.0 || a.radius == b.radius) return sum;
-    return sum + std::llrint(static_cast<double>(sum) * non_additivity_);
+    return wrapping_sum(sum, std::llrint(static_cast<double>(sum) * non_additivity_));
   }
   // a - b; the components of an offset are capacity_ apart.
   int64_t difference(const Body<D> &a, const Body<D> &b, int c, const int64_t *offset) const {
     const auto d = static_cast<int64_t>(a.x[c] - b.x[c]);
     if constexpr (Shift)
-      return d + offset[static_cast<size_t>(c) * capacity_];
+      return wrapping_sum(d, offset[static_cast<size_t>(c) * capacity_]);
     else
       return (void)offset, d;
   }

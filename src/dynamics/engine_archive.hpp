@@ -101,6 +101,7 @@ void Engine<D, Shift>::check_archive() const {
                      std::count(&neighbour_[i * capacity_], &neighbour_[i * capacity_] + neighbours_[i], k));
     }
   }
+  Archive::check(cell_range_ >= 1 && cell_range_ <= 3);  // scratch grows with its power, with or without cells
   if (cells_ != 0 || cells_alone_ != 0) check_cells();
   if (!quenched_) return;
   Archive::check(outer_centre_.size() == n && outer_reach_.size() == n);
@@ -115,8 +116,8 @@ void Engine<D, Shift>::check_archive() const {
 
 template <int D, bool Shift>
 void Engine<D, Shift>::check_cells() const {
-  Archive::check(cells_ > 0 && cells_ < 1 << 20 && cell_range_ >= 1 && cell_range_ <= 3 &&
-                 cells_ >= 2 * cell_range_ + 1 && !Shift && (cells_alone_ == 0 || cells_alone_ == 1));
+  Archive::check(cells_ > 0 && cells_ < 1 << 20 && cells_ >= 2 * cell_range_ + 1 && !Shift &&
+                 (cells_alone_ == 0 || cells_alone_ == 1));
   const double total = std::pow(static_cast<double>(cells_), D);
   if (cells_alone_) {
     Archive::check(cells_ >= 5 && cell_range_ == 1 && cell_.size() == static_cast<size_t>(n_));

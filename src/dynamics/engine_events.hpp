@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdlib>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "dynamics/engine.hpp"
 
@@ -13,13 +14,13 @@ double Engine<D, Shift>::exact_gap(const Body<D> &a, const Body<D> &b, const int
   const double da = now_ - a.time, db = now_ - b.time;
   unsigned __int128 r2 = 0;
   for (int c = 0; c < D; ++c) {
-    int64_t r = difference(a, b, c, offset) - std::llrint(b.v[c] * db);
-    if (da != 0.0) r += std::llrint(a.v[c] * da);
-    const uint64_t m = static_cast<uint64_t>(r < 0 ? -r : r);
+    int64_t r = wrapping_sum(difference(a, b, c, offset), std::llrint(-b.v[c] * db));
+    if (da != 0.0) r = wrapping_sum(r, std::llrint(a.v[c] * da));
+    const uint64_t m = r < 0 ? -static_cast<uint64_t>(r) : static_cast<uint64_t>(r);
     r2 += static_cast<unsigned __int128>(m) * m;
   }
   int64_t sum = contact_sum(a, b);
-  sum += std::llrint(static_cast<double>(sum) * (rate_ * now_));
+  sum = wrapping_sum(sum, std::llrint(static_cast<double>(sum) * (rate_ * now_)));
   const __int128 gap = static_cast<__int128>(r2 - static_cast<unsigned __int128>(sum) * static_cast<uint64_t>(sum));
   return static_cast<double>(static_cast<int64_t>(gap >> 64)) * 0x1p64 +
          2.0 * static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(gap) >> 1));
@@ -215,6 +216,7 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
   if (wants_images_) return Halt::needs_images;
   while (sums.collisions < goal) {
     if ((sums.events & 1023) == 0) {
+      CallScope::look();
       if (monitor.cancelled()) return Halt::cancelled;
       if (now_seconds() > wall_end) return Halt::wall_time;
       if (sums.collisions != last_collisions)

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "core/call_scope.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -75,10 +76,12 @@ void Engine<D, Shift>::build_lists() {
   if (cells_ > 0) build_blocks();
   std::fill(neighbours_.begin(), neighbours_.end(), 0);
   if (capacity_ == 0) widen_lists();
-  for (int32_t i = 0; i < n_; ++i)
+  for (int32_t i = 0; i < n_; ++i) {
+    if (i % 64 == 0) CallScope::look();
     candidates(i, [&](int32_t k, const std::array<int64_t, D> *offset) {
       if (k > i) append(i, k, offset);
     });
+  }
   max_overlap = std::max(max_overlap, worst_overlap());
   check_pairs();
 }
@@ -125,10 +128,10 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::arra
   std::array<double, D + 1> r2{};
   double nearest2 = 0.0;
   for (int c = 0; c < D; ++c) {
-    distance[c] = static_cast<int64_t>(centre_[i][c] - centre_[k][c]) + shift[c];
-    const int64_t nearest = (distance[c] + (distance[c] >= 0 ? box / 2 : -(box / 2))) / box * box;
+    distance[c] = wrapping_sum(static_cast<int64_t>(centre_[i][c] - centre_[k][c]), shift[c]);
+    const int64_t nearest = wrapping_sum(distance[c], distance[c] >= 0 ? box / 2 : -(box / 2)) / box * box;
     distance[c] -= nearest;
-    shift[c] -= nearest;
+    shift[c] = wrapping_sum(shift[c], -nearest);
     nearest2 += static_cast<double>(distance[c]) * static_cast<double>(distance[c]);
     if (nearest2 >= cutoff * cutoff) return;
   }
@@ -143,7 +146,7 @@ void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::arra
     const double r = static_cast<double>(distance[c] + step[c] * box);
     r2[c + 1] = r2[c] + r * r;
     if (r2[c + 1] >= cutoff * cutoff) continue;
-    offset[c] = shift[c] + step[c] * box;
+    offset[c] = wrapping_sum(shift[c], step[c] * box);
     if (c == D - 1)
       f(&offset);
     else
@@ -228,6 +231,8 @@ void Engine<D, Shift>::forget(int32_t i, int32_t k) {
 template <int D, bool Shift>
 void Engine<D, Shift>::widen_lists() {
   const size_t n = static_cast<size_t>(n_), wider = capacity_ == 0 ? 16 : (capacity_ + capacity_ / 4 + 11) / 8 * 8;
+  const size_t entry = sizeof(int32_t) + (Shift ? D * sizeof(int64_t) : 0);
+  CallScope::need_memory(static_cast<double>(wider * n) * static_cast<double>(entry), "neighbour lists");
   std::vector<int32_t> list(wider * n);
   std::vector<int64_t> offset(Shift ? wider * n * D : 0);
   for (size_t i = 0; i < n && capacity_ > 0; ++i) {

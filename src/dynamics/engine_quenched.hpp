@@ -5,6 +5,7 @@
 #pragma once
 #include <algorithm>
 
+#include "core/call_scope.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -52,9 +53,9 @@ void Engine<D, Shift>::each_outer_partner(int32_t i, F &&f) const {
     const double sign = a < b ? scale : -scale;
     double r2 = 0.0;
     for (int c = 0; c < D && r2 < cutoff2; ++c) {
-      int64_t x = static_cast<int64_t>(outer_centre_[i][c] - outer_centre_[partner.k][c]) +
-                  std::llrint(sign * quenched_->component(pair, partner.attempt, c));
-      x = (x + box / 2) & (box - 1);  // nearest image, from -box/2
+      int64_t x = wrapping_sum(static_cast<int64_t>(outer_centre_[i][c] - outer_centre_[partner.k][c]),
+                               std::llrint(sign * quenched_->component(pair, partner.attempt, c)));
+      x = wrapping_sum(x, box / 2) & (box - 1);  // nearest image, from -box/2
       const double r = static_cast<double>(x - box / 2);
       r2 += r * r;
     }
@@ -76,13 +77,18 @@ void Engine<D, Shift>::build_outer() {
     outer_reach_[i] = 1.1 * rho_[i];
     outer_[i].clear();
   }
-  for (int32_t i = 0; i < n_; ++i)
+  double partners = 0.0;
+  for (int32_t i = 0; i < n_; ++i) {
+    if (i % 64 == 0) CallScope::look();
     each_outer_partner(i, [&](const Outer &partner) {
       if (partner.k > i) {
         outer_[i].push_back(partner);
         outer_[partner.k].push_back({i, partner.attempt});
+        partners += 2.0;
       }
     });
+    CallScope::need_memory(partners * sizeof(Outer), "lists of partners");
+  }
 }
 
 // After the lists' places and reaches have changed: outer lists that no longer hold them are made anew.

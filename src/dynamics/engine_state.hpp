@@ -40,7 +40,7 @@ void Engine<D, Shift>::write_state(Packing &p, double ahead) const {
       p.position[u * D + c] = wrap(static_cast<double>(x) * unit * box_, box_);
       p.velocity[u * D + c] = b.v[c] * unit;
     }
-    const int64_t radius = b.radius + std::llrint(static_cast<double>(b.radius) * factor + left_over_[i]);
+    const int64_t radius = wrapping_sum(b.radius, std::llrint(static_cast<double>(b.radius) * factor + left_over_[i]));
     if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(radius) * box_;
   }
 }

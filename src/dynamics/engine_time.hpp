@@ -122,7 +122,7 @@ void Engine<D, Shift>::shift_origin() {
     if (factor == 0.0) continue;
     const double add = static_cast<double>(b.radius) * factor + left_over_[i];
     const int64_t whole = std::llrint(add);
-    b.radius += whole;
+    b.radius = wrapping_sum(b.radius, whole);
     left_over_[i] = add - static_cast<double>(whole);
   }
   sums.kinetic_integral += twice_kinetic_ * (now_ - kinetic_time_);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/archive.hpp"
+#include "core/call_scope.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "dynamics/dynamics.hpp"
@@ -63,6 +64,18 @@ struct RunControl {
   Tick tick;  // empty on the second thread
   bool stopped() const { return monitor.cancelled() || (tick && tick()); }
 };
+
+// An engine, whose searches for pairs may be left: then null, and the record says why.
+template <class Make>
+auto make_engine_for(const RunControl &control, RunRecord &record, Make &&make) -> decltype(make()) {
+  const LeavingScope scope;
+  try {
+    return make();
+  } catch (const Cancelled &) {
+    record.stop_reason = control.monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+    return nullptr;
+  }
+}
 
 // Sets what depends on displacements alone: the MSD, F_s and overlap columns of instant m.
 void take_moments(const RunPlan &plan, size_t m, RunRecord &record);

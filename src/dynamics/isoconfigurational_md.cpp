@@ -74,7 +74,9 @@ void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &
   const std::vector<double> begun = p.velocity, mass = sphere_masses(p);
   const size_t coordinates = p.position.size(), d = static_cast<size_t>(p.dim);
   Observer observer(p, default_observe_options());
-  const std::unique_ptr<EngineBase> engine = make_engine(p, EngineOptions{});
+  const std::unique_ptr<EngineBase> engine =
+      make_engine_for(control, record, [&] { return make_engine(p, EngineOptions{}); });
+  if (!engine) return;
   if (engine->max_overlap > 1e-10)
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of the runs", engine->max_overlap);
   engine->observe(&observer);

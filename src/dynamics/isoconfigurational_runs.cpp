@@ -123,7 +123,11 @@ jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listen
     const std::lock_guard<std::mutex> lock(queue.mutex);
     return tick(monitor);
   };
-  const auto thread = [&](int number) { work(queue, RunControl{monitor, wall_end, number == 0 ? tell : Tick()}); };
+  const double memory_limit = CallScope::memory_limit();
+  const auto thread = [&](int number) {
+    const CallScope scope(memory_limit, number == 0 ? &monitor : nullptr, &queue.mutex);
+    work(queue, RunControl{monitor, wall_end, number == 0 ? tell : Tick()});
+  };
   if (plan_.options.threads == 2)
     on_two_threads(thread);
   else

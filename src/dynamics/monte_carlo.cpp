@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/pair_rule.hpp"
@@ -100,7 +101,10 @@ double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
   int64_t number = 0;
   for (int k = 0; k < coarse + fine; ++k) {
     const MonteCarloCounts before = mc->counts;
-    for (int s = 0; s < (k < coarse ? coarse_sweeps : fine_sweeps); ++s) mc->sweep(number++);
+    for (int s = 0; s < (k < coarse ? coarse_sweeps : fine_sweeps); ++s) {
+      CallScope::look();
+      mc->sweep(number++);
+    }
     const int64_t tried = mc->counts.moves - before.moves;
     const double share =
         tried ? static_cast<double>(mc->counts.moved - before.moved) / static_cast<double>(tried) : 1.0;

@@ -20,7 +20,9 @@ double share(int64_t part, int64_t all) {
 
 void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record) {
   constexpr int64_t sweeps_between_looks = 16;
-  const std::unique_ptr<MonteCarlo> mc = make_monte_carlo(plan.start, plan.monte_carlo, run);
+  const std::unique_ptr<MonteCarlo> mc =
+      make_engine_for(control, record, [&] { return make_monte_carlo(plan.start, plan.monte_carlo, run); });
+  if (!mc) return;
   const double n = static_cast<double>(plan.start.n()), d = plan.start.dim;
   const size_t coordinates = plan.start.position.size();
   int64_t sweep = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "dynamics/monte_carlo.hpp"
@@ -115,8 +116,10 @@ class MonteCarloSpheres : public MonteCarlo {
     if (cells >= 4 && std::pow(3.0, D) < n_)
       find_in_cells(std::min<int64_t>(cells, static_cast<int64_t>(std::pow(2.0 * n_, 1.0 / D)) + 1));
     else
-      for (int32_t i = 0; i < n_; ++i)
+      for (int32_t i = 0; i < n_; ++i) {
+        look_at_limits(i);
         for (int32_t k = i + 1; k < n_; ++k) note_pair(i, k);
+      }
     std::fill(first_.begin(), first_.end(), 0);
     for (const auto &pair : found_) ++first_[pair[0] + 1], ++first_[pair[1] + 1];
     for (int32_t i = 0; i < n_; ++i) first_[i + 1] += first_[i];
@@ -181,6 +184,11 @@ class MonteCarloSpheres : public MonteCarlo {
     const double range = list_range(i, k);
     if (distance2(x_[i], x_[k]) < range * range) found_.push_back({i, k});
   }
+  void look_at_limits(int64_t step) const {
+    if (step % 64 == 0) CallScope::look();
+    // A pair found is two entries of the lists besides.
+    CallScope::need_memory(static_cast<double>(found_.size()) * 4.0 * sizeof(int32_t), "neighbour lists");
+  }
   // Pairs of each cell with itself and with half of the cells around it.
   void find_in_cells(int64_t cells) {
     size_t total = 1;
@@ -201,6 +209,7 @@ class MonteCarloSpheres : public MonteCarlo {
     int steps = 1;
     for (int c = 0; c < D; ++c) steps *= 3;
     for (size_t cell = 0; cell < total; ++cell) {
+      look_at_limits(static_cast<int64_t>(cell));
       const int32_t begin = cell_first_[cell], end = cell_first_[cell + 1];
       for (int32_t a = begin; a < end; ++a)
         for (int32_t b = a + 1; b < end; ++b) note_pair(in_cell_[a], in_cell_[b]);

@@ -164,14 +164,18 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
 }
 
 void Observer::take_histograms(const Packing &now) {
+  std::vector<double> gaps, correlation;
+  if (gaps_.bins() > 0) gaps = sample_gaps(now);
+  if (correlation_.bins() > 0) correlation = sample_correlation(now);
+  // Both or none: a search for pairs may have been left.
+  if (gaps_.bins() > 0) gaps_.add(gaps);
+  if (correlation_.bins() > 0) correlation_.add(correlation);
   histograms_at_ = std::numeric_limits<double>::infinity();
-  if (gaps_.bins() > 0) sample_gaps(now);
-  if (correlation_.bins() > 0) sample_correlation(now);
 }
 
 // Number of pairs in each bin of the gap h over that of an ideal gas; for equal spheres this is g at contact. The ideal
 // gas has N^2/2 <sigma_ij^d> V_d d(1+h)^d / V pairs in dh. The mean of sigma_ij^d follows from powers of sigma.
-void Observer::sample_gaps(const Packing &p) {
+std::vector<double> Observer::sample_gaps(const Packing &p) const {
   std::vector<double> density(gaps_.bins(), 0.0);
   const PairList pairs = find_pairs(p, 0.0, 1.0 + options_.gap_max);
   double r[JAM_MAX_DIM];
@@ -195,10 +199,10 @@ void Observer::sample_gaps(const Packing &p) {
                d = static_cast<double>(dim_);
   for (size_t k = 0; k < density.size(); ++k)
     density[k] /= ideal * (std::expm1(d * std::log1p(gaps_.edge[k + 1])) - std::expm1(d * std::log1p(gaps_.edge[k])));
-  gaps_.add(density);
+  return density;
 }
 
-void Observer::sample_correlation(const Packing &p) {
+std::vector<double> Observer::sample_correlation(const Packing &p) const {
   std::vector<double> density(correlation_.bins(), 0.0);
   const double sigma = diameter_mean(p), width = options_.r_max / options_.r_bins;
   const PairList pairs = find_pairs(p, options_.r_max * sigma, 0.0);
@@ -212,7 +216,7 @@ void Observer::sample_correlation(const Packing &p) {
   const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * std::pow(2.0 * sigma / p.cell.side(), d);
   for (size_t k = 0; k < density.size(); ++k)
     density[k] /= ideal * (std::pow(correlation_.edge[k + 1], d) - std::pow(correlation_.edge[k], d));
-  correlation_.add(density);
+  return density;
 }
 
 }  // namespace jam

@@ -88,8 +88,8 @@ class Observer {
   const Histogram &correlation() const { return correlation_; }
 
  private:
-  void sample_gaps(const Packing &p);
-  void sample_correlation(const Packing &p);
+  std::vector<double> sample_gaps(const Packing &p) const;
+  std::vector<double> sample_correlation(const Packing &p) const;
   static constexpr int blocks = 8;
   jam_observe_options options_;
   size_t dim_;

@@ -98,6 +98,9 @@ void Stage::archive(Archive &a) {
   a(windows_);
   if (a.reading()) {
     Archive::check(stage_.growth >= 0.0 && window_ > 0 && part_ >= 0 && windows_.size() < 1u << 20);
+    for (const int64_t k :
+         {window_, part_, part_goal_, steady_, old_collisions_, old_events_, cooled_collisions_, frozen_})
+      Archive::check(k > -(int64_t{1} << 60) && k < int64_t{1} << 60);  // sums and differences are taken of them
     engine_ = make_engine(p_, a);
   } else {
     int64_t images = engine_->with_images();
@@ -163,9 +166,10 @@ int32_t Stage::advance_part(const Listeners &listeners, double wall_end) {
     const Halt halt = engine_->advance(stop - collisions(), *listeners.monitor, wall_end);
     if (halt == Halt::needs_images)
       change_engine(observer);
-    else if (halt == Halt::time && histograms <= stage_.time)
-      sample_histograms(*observer, histograms);
-    else if (halt != Halt::window)
+    else if (halt == Halt::time && histograms <= stage_.time) {
+      if (!sample_histograms(*observer, histograms))
+        return listeners.monitor->cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+    } else if (halt != Halt::window)
       return reason_of(halt);
     else if (observer && observe(listeners))
       return JAM_STOP_CANCELLED;
@@ -272,6 +276,8 @@ jam_status Stage::run(const Limits &limits, const Listeners &listeners) {
   call_collisions_ = collisions();
   report_collisions_ = report.collisions;
   take_limits(limits);
+  listeners.monitor->expect(progress());
+  listeners.monitor->wall_time = limits.wall_time;  // for searches for pairs
   engine_->set_time_limit(stage_.time - time());
   attach(listeners.observer);
   const bool there = growing() && engine_->packing_fraction() >= stage_.packing_fraction;

@@ -43,7 +43,7 @@ class Stage final : public Dynamics {
   bool observe(const Listeners &listeners);
   void sample(Observer &observer) const;
   double until_histograms(const Observer *observer) const;  // as time() will be then
-  void sample_histograms(Observer &observer, double at) const;
+  bool sample_histograms(Observer &observer, double at) const;
   jam_progress progress() const;
 
   void finish(int32_t reason);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "dynamics/stage.hpp"
 
 namespace jam {
@@ -51,11 +52,17 @@ double Stage::until_histograms(const Observer *observer) const {
   return observer ? seen_time_ + (observer->next_histograms() - observer->time) : no_limit;
 }
 
-// Between two collisions; nothing of the run changes.
-void Stage::sample_histograms(Observer &observer, double at) const {
+// Between two collisions; nothing of the run changes. False: the call must stop, and the next one takes them.
+bool Stage::sample_histograms(Observer &observer, double at) const {
   Packing p = p_;
   engine_->write_state(p, at - time());
-  observer.take_histograms(p);
+  const LeavingScope scope;
+  try {
+    observer.take_histograms(p);
+  } catch (const Cancelled &) {
+    return false;
+  }
+  return true;
 }
 
 void Stage::sample(Observer &observer) const {

@@ -126,7 +126,7 @@ class Decompression {
       : o_(o),
         monitor_(monitor),
         judge_(judge),
-        state_(start, PairEnergy(o.alpha, o.scale), o.precision),
+        state_(first_state(start, PairEnergy(o.alpha, o.scale), o.precision)),
         before_(state_),
         factor_(o.energy_factor) {
     effort_.monitor = &monitor;

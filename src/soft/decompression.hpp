@@ -52,6 +52,8 @@ DecompressionResult decompress(const Packing &start, const jam_decompress_option
 
 // Measures a state at its minimum: report without what was spent, network.
 SoftResult measure(SoftState &state, int32_t minimiser);
+// The state of a start; its search for pairs may be left by Cancelled.
+SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision);
 // Minimises by a jam_minimiser. near_minimum: Newton's method is tried before first-order descent.
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum);
 // Status and stop reason of a minimum.

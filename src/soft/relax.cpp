@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "soft/decompression.hpp"
 
@@ -35,14 +36,24 @@ void check_relax_options(const jam_relax_options &o) {
   if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
 }
 
+SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision) {
+  const LeavingScope scope;
+  return SoftState(p, energy, precision);
+}
+
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum) {
-  switch (minimiser) {
-    case JAM_MINIMISER_FIRE:
-      return fire(r, tolerance);
-    case JAM_MINIMISER_LBFGS:
-      return lbfgs(r, tolerance);
-    default:
-      return hybrid(r, tolerance, near_minimum);
+  const LeavingScope scope;
+  try {
+    switch (minimiser) {
+      case JAM_MINIMISER_FIRE:
+        return fire(r, tolerance);
+      case JAM_MINIMISER_LBFGS:
+        return lbfgs(r, tolerance);
+      default:
+        return hybrid(r, tolerance, near_minimum);
+    }
+  } catch (const Cancelled &) {  // in a search for pairs
+    return DescentEnd::interrupted;
   }
 }
 
@@ -75,7 +86,7 @@ double overlap_resolution(const Packing &p) {
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
   check_relax_options(o);
   monitor.wall_time = o.wall_time;
-  SoftState state(start, PairEnergy(o.alpha, o.scale), o.precision);
+  SoftState state = first_state(start, PairEnergy(o.alpha, o.scale), o.precision);
   Effort effort;
   effort.monitor = &monitor;
   effort.phase = JAM_PHASE_RELAX;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/cancellation.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/double_double.hpp"
 
@@ -32,7 +33,13 @@ SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precisi
 void SoftState::rebase() {
   for (size_t i = 0; i < base_.n(); ++i) wrap_sphere(i * static_cast<size_t>(base_.dim));
   diameter_mean_ = jam::diameter_mean(base_);
-  pairs_ = find_pairs(base_, skin_, 1.0);
+  try {
+    pairs_ = find_pairs(base_, skin_, 1.0);
+  } catch (const Cancelled &) {  // back to where the last list was made: it does not hold here
+    base_.position = listed_base_, displacement_ = listed_displacement_;
+    throw;
+  }
+  listed_base_ = base_.position, listed_displacement_ = displacement_;
   uses_ = 0;
   take_references();
 }

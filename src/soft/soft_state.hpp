@@ -59,7 +59,7 @@ class SoftState {
   // Makes the neighbour list and its references anew where spheres have gone farther than the list allows. True then:
   // displacements have got another origin.
   bool moved();
-  // The same in any case.
+  // The same in any case. Left by Cancelled, the state is where the list before was made.
   void rebase();
   void scale_diameters(double factor);
 
@@ -73,8 +73,9 @@ class SoftState {
   PairEnergy energy_;
   int32_t precision_;
   double diameter_mean_, skin_;
-  int64_t uses_ = 0;                  // evaluations since the list was made
-  std::vector<double> displacement_;  // (n, dim)
+  int64_t uses_ = 0;                                       // evaluations since the list was made
+  std::vector<double> displacement_;                       // (n, dim)
+  std::vector<double> listed_base_, listed_displacement_;  // where the list was made
   PairList pairs_;
   std::vector<double> vector_, reference_, sigma_, inverse_;  // r0 (pairs, dim), sigma^2 - r0^2, sigma, 1 / sigma
 };

@@ -1,47 +1,53 @@
-/* Fuzz target over sequences of calls on tiny systems of any dimension, size ratio, model and box. Option structs hold
- * bytes of the input behind a struct_size that is mostly right. Every call ends with a known status and a valid state.
- */
-#include "fuzz.h"
+/* Fuzz target over sequences of calls on tiny systems of any dimension, size ratio, model, cell and overlap policy.
+ * Option structs hold bytes of the input behind a struct_size that is mostly right. Every call ends with a known status
+ * and a valid state, and soon: the progress callback asks it to stop after a tenth of a second. */
+#define _POSIX_C_SOURCE 200809L
+#include <time.h>
+#include "calls_analysis.h"
+#include "calls_dynamics.h"
 
-typedef struct input {
-  const uint8_t *data;
-  size_t left;
-} input;
+typedef void (*call)(input *in, jam_system *sys);
+static const call calls[] = {
+    call_run,
+    call_compress,
+    call_crunch,
+    call_monte_carlo,
+    call_isoconfigurational,
+    call_relax,
+    call_decompress,
+    call_observe,
+    call_scale,
+    call_set_positions,
+    call_set_velocities,
+    call_cell,
+    call_network,
+    call_rigidity,
+    call_modes,
+    call_spectrum,
+    call_floppy,
+    call_gaps,
+    call_structure,
+    call_classes,
+    call_copy,
+};
 
-static int byte(input *in) {
-  if (!in->left) return 0;
-  --in->left;
-  return *in->data++;
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Between 1e-9 and 1e9 by powers, or now and then a special value. */
-static double number(input *in) {
-  static const double special[] = {0.0, -1.0, NAN, INFINITY, -INFINITY, 1e300, 1e-300, 5e-324};
-  const int kind = byte(in);
-  if (kind > 247) return special[kind - 248];
-  return (1.0 + byte(in) / 256.0) * pow(10.0, (kind % 19) - 9);
-}
-
-/* Damages one field of an option struct: four bytes somewhere behind struct_size, or the size itself. */
-static void damage(input *in, void *options, size_t size) {
-  const int how = byte(in);
-  uint8_t *bytes = options;
-  size_t at;
-  if (how < 128) return;
-  if (how > 250) {
-    uint32_t wrong = (uint32_t)byte(in);
-    memcpy(bytes, &wrong, sizeof wrong);
-    return;
-  }
-  at = 4 + 4 * ((size_t)byte(in) % ((size - 4) / 4));
-  for (size_t k = 0; k < 4; ++k) bytes[at + k] = (uint8_t)byte(in);
+static double begun;
+static int32_t stop_soon(const jam_progress *p, void *user) {
+  (void)p, (void)user;
+  return now() - begun > 0.1;
 }
 
 static jam_system *create(input *in) {
   jam_create_options o;
   jam_system *sys = NULL;
   double x[6 * 8], diameter[6];
-  int k, given, n;
+  int k, given, n, coordinates;
   jam_status status;
   jam_create_options_init(&o, sizeof o);
   o.dim = 2 + byte(in) % 7;
@@ -49,108 +55,41 @@ static jam_system *create(input *in) {
   o.n = n;
   o.seed = byte(in);
   o.model = byte(in) % 4 == 0;
-  o.overlap = JAM_OVERLAP_SHRINK;
   o.packing_fraction = 0.001 * (1 + byte(in) % 100);
+  o.wall_time = 0.2, o.memory_limit = 1e8;
   given = byte(in);
+  o.overlap = given % 16 >= 12 ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_SHRINK;
   if (given % 8 == 0) o.box = number(in);
   if (given % 16 == 1) o.mk_zeta = number(in);
+  if (given % 16 == 5) o.non_additivity = number(in);
   damage(in, &o, sizeof o);
-  for (k = 0; k < n; ++k) diameter[k] = given % 4 == 2 ? number(in) : 0.1;
-  for (k = 0; k < n * o.dim && k < 48; ++k) x[k] = given % 32 == 3 ? number(in) : byte(in) / 256.0;
-  if (o.dim < 2 || o.dim > 8 || o.n < 1 || o.n > 6 || given % 3 == 0) {
+  o.wall_time = at_most(o.wall_time, 0.2);
+  if (!(o.memory_limit < 1e8) || o.memory_limit == 0.0) o.memory_limit = 1e8;
+  for (k = 0; k < n; ++k) diameter[k] = given % 4 == 2 ? number(in) : given % 4 == 3 ? 0.1 + 0.002 * byte(in) : 0.1;
+  coordinates = o.dim >= 2 && o.dim <= 8 ? n * o.dim : 0;
+  for (k = 0; k < coordinates; ++k) x[k] = given % 32 == 3 ? number(in) : byte(in) / 256.0;
+  if (coordinates == 0 || o.n != n || given % 3 == 0) {
     if (o.n > 50) o.n = 50;
     status = jam_create(&o, NULL, 0, NULL, 0, &sys);
   } else {
-    status = jam_create(&o, x, (size_t)(o.n * o.dim), diameter, (size_t)o.n, &sys);
+    status = jam_create(&o, x, (size_t)coordinates, diameter, (size_t)n, &sys);
   }
   check_status(status);
   demand((status == JAM_OK) == (sys != NULL), "a handle exactly with success");
   return sys;
 }
 
-static void step(input *in, jam_system *sys) {
-  size_t needed = 0;
-  switch (byte(in) % 10) {
-    case 0: {
-      jam_run_options o;
-      jam_run_options_init(&o, sizeof o);
-      o.collisions_per_particle = 5.0, o.wall_time = 0.02;
-      damage(in, &o, sizeof o);
-      if (!(o.wall_time <= 0.02)) o.wall_time = 0.02;
-      check_status(jam_run(sys, &o, NULL));
-      return;
-    }
-    case 1: {
-      jam_compress_options o;
-      jam_compress_options_init(&o, sizeof o);
-      o.wall_time = 0.02;
-      damage(in, &o, sizeof o);
-      if (!(o.wall_time <= 0.02)) o.wall_time = 0.02;
-      check_status(jam_compress(sys, &o, NULL));
-      return;
-    }
-    case 2: {
-      jam_crunch_options o;
-      jam_crunch_options_init(&o, sizeof o);
-      o.wall_time = 0.05;
-      damage(in, &o, sizeof o);
-      if (!(o.wall_time <= 0.05)) o.wall_time = 0.05;
-      check_status(jam_crunch(sys, &o, NULL));
-      return;
-    }
-    case 3:
-      check_status(jam_scale_diameters(sys, number(in)));
-      return;
-    case 4:
-      check_status(jam_gaps(sys, number(in), byte(in) % 2, NULL, 0, NULL, 0, &needed));
-      return;
-    case 5:
-      check_status(jam_local_fraction(sys, NULL, 0, &needed));
-      return;
-    case 6: {
-      double x[48];
-      const double *view;
-      size_t len, k;
-      jam_positions_view(sys, &view, &len);
-      for (k = 0; k < len && k < 48; ++k) x[k] = byte(in) / 16.0;
-      check_status(jam_set_positions(sys, x, len < 48 ? len : 48));
-      return;
-    }
-    case 7: {
-      jam_monte_carlo_options o;
-      jam_monte_carlo_options_init(&o, sizeof o);
-      o.sweeps = 5, o.wall_time = 0.02;
-      damage(in, &o, sizeof o);
-      if (!(o.wall_time <= 0.02)) o.wall_time = 0.02;
-      check_status(jam_monte_carlo(sys, &o, NULL));
-      return;
-    }
-    case 8: {
-      double strain[64];
-      int k;
-      for (k = 0; k < 64; ++k) strain[k] = 0.01 * number(in);
-      check_status(jam_strain(sys, strain, (size_t)(1 + byte(in) % 64)));
-      return;
-    }
-    default: {
-      jam_system *copy = NULL;
-      check_status(jam_copy(sys, &copy));
-      if (copy) check_state(copy);
-      jam_destroy(copy);
-      return;
-    }
-  }
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   input in = {data, size};
-  int calls;
+  int k;
   jam_system *sys = create(&in);
   if (!sys) return 0;
   check_state(sys);
   jam_set_memory_limit(sys, 1e8); /* and with it the time of searches for pairs */
-  for (calls = 0; calls < 6 && in.left > 0; ++calls) {
-    step(&in, sys);
+  jam_set_progress(sys, stop_soon, NULL);
+  for (k = 0; k < 6 && in.left > 0; ++k) {
+    begun = now();
+    calls[(size_t)byte(&in) % (sizeof calls / sizeof *calls)](&in, sys);
     check_state(sys);
   }
   jam_destroy(sys);

@@ -57,7 +57,7 @@ bool solve(CrunchState &s) {
   bool solved = false;
   IpmControl control;
   control.tolerance = s.o.lp_tolerance;
-  control.early_fraction = s.last_gain > s.tuning.early_gain && !s.o.full_lps ? s.tuning.early_gap : 0.0;
+  control.early_fraction = s.o.full_lps ? 0.0 : s.tuning.early_gap;
   control.threads = s.o.threads;
   if (s.o.lp_solver == JAM_LP_IPM) {
     std::vector<double> forces;
@@ -104,7 +104,7 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
   if (!gained && (s.o.polish || step <= s.o.step_tolerance)) return Phase::identify;
   if (!gained) ++s.stalled;
   const bool limit = s.out.report.lp_solves >= s.o.max_lps;
-  if (alpha == 0.0 || (s.stalled > 0 && s.stalled >= 3 * s.tuning.max_stalled_lps))
+  if (alpha == 0.0 || (s.stalled > 0 && s.stalled >= s.tuning.max_stalled_lps))
     return s.stop(JAM_STOP_STALLED, JAM_NOT_CONVERGED), Phase::identify;
   if (limit) return s.stop(JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
   if (s.interrupted()) return Phase::identify;
@@ -112,7 +112,6 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
     const double most = alpha < 1.0 ? 0.7 * s.bound : s.tuning.max_bound;
     s.bound = std::min(std::max({s.tuning.bound_per_step * step, gain, s.tuning.min_bound}), most);
   }
-  s.last_gain = gain;
   return s.strain.count() == 0 && path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;
 }
 
@@ -128,12 +127,10 @@ void build_lp(CrunchState &s, double reach) {
   s.lp.bound = s.bound;
 }
 
-// The free spacing of a dilute start, down to a tenth of a diameter near jamming and less where gaps are closed.
+// The free spacing of a dilute start, down to a tenth of a diameter near jamming.
 double first_bound(const CrunchState &s) {
   if (s.o.step_bound > 0.0) return s.o.step_bound;
-  const double spacing = s.tuning.first_bound + s.tuning.bound_per_spacing * free_spacing(s.out.packing);
-  const double closed = s.tuning.bound_per_root_gap * std::sqrt(contact_gap(s.out.packing));
-  return std::min(spacing, std::max(s.tuning.min_bound, closed));
+  return s.tuning.first_bound + s.tuning.bound_per_spacing * free_spacing(s.out.packing);
 }
 
 LpStep make_step(CrunchState &s, double reach) {

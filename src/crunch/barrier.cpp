@@ -87,9 +87,9 @@ double Barrier::merit(const BarrierStep &x, double alpha) const {
 }
 
 // Golden sections. The whole Newton step if that is about as good.
-Barrier::Best Barrier::search(const BarrierStep &x, double trust) {
+Barrier::Best Barrier::search(const BarrierStep &x) {
   bend(x);
-  const double most = to_wall * std::min(wall(x), trust / longest_move(x)), part = 0.6180339887498949;
+  const double most = to_wall * wall(x), part = 0.6180339887498949;
   double low = 0.0, high = most, a = high - part * (high - low), b = low + part * (high - low);
   double at_a = merit(x, a), at_b = merit(x, b);
   for (int k = 0; k < 14; ++k) {

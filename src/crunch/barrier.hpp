@@ -39,9 +39,9 @@ class Barrier {
   struct Best {
     double alpha, merit;
   };
-  // The best step along x, no sphere farther than `trust`: a few passes over the rows, where a factorisation costs
+  // The best step along x: a few passes over the rows, where a factorisation costs
   // hundreds. `merit` is by how much it makes the negative of the barrier function larger (below zero: better).
-  Best search(const BarrierStep &x, double trust);
+  Best search(const BarrierStep &x);
 
  private:
   void bend(const BarrierStep &x);

@@ -43,9 +43,8 @@ class BarrierPath {
       out.reached = balance_ < 1e-2 && gap_ <= t_.target_gap;
       const bool crystal =
           out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
-      if (out.reached || crystal || out.increases > t_.max_increases ||
-          out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() || report(out.factorisations) ||
-          !newton())
+      if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
+          report(out.factorisations) || !newton())
         break;
     }
     out.multipliers = {std::move(b_.pairs), std::move(b_.y)};
@@ -69,7 +68,7 @@ class BarrierPath {
     }
     list_pairs();
     b_.y.assign(b_.pairs.size(), 0.0);
-    b_.mu = centre_multipliers(b_.y, b_.lp.c, static_cast<double>(p_.position.size()));
+    b_.mu = first_mu_ = centre_multipliers(b_.y, b_.lp.c, static_cast<double>(p_.position.size()));
   }
 
   // Multipliers of pairs that stay are kept, new ones start on the central path.
@@ -151,7 +150,7 @@ class BarrierPath {
   }
 
   bool newton() {
-    b_.mu *= schedule_.next_factor({decrement_, static_cast<double>(b_.y.size()), alpha_p_});
+    b_.mu *= schedule_.next_factor({decrement_, static_cast<double>(b_.y.size()), alpha_p_, first_mu_ / b_.mu});
     if (!direct()) return false;
     move(correct());
     return alpha_p_ > 0.0;
@@ -161,7 +160,7 @@ class BarrierPath {
   // rows that were slack cut a step short; one triangular solve pulls their products y c back into a band around mu.
   // Returns the length of the best step.
   double correct() {
-    Barrier::Best best = b_.search(main_, t_.trust);
+    Barrier::Best best = b_.search(main_);
     const double band = t_.corrector_band;
     for (correctors_ = 0; correctors_ < t_.max_correctors && best.alpha < t_.whole_step; ++correctors_) {
       const double aim = std::min(1.0, best.alpha + t_.corrector_ahead),
@@ -172,7 +171,7 @@ class BarrierPath {
         target_[k] += std::min(band * b_.mu, std::max(inside - product, -band * b_.mu));
       }
       solve(trial_);
-      const Barrier::Best other = b_.search(trial_, t_.trust);
+      const Barrier::Best other = b_.search(trial_);
       if (!(other.merit < best.merit)) break;
       best = other;
       std::swap(main_, trial_);
@@ -224,7 +223,7 @@ class BarrierPath {
   PathMatrix matrix_;
   std::vector<double> target_, row_, unbalanced_, rhs_;
   double reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
-  double gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
+  double first_mu_ = 0.0, gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0;
   int correctors_ = 0;
 };

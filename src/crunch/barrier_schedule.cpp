@@ -19,6 +19,8 @@ double BarrierSchedule::next_factor(const Step &last) {
   if (steps_ <= t_.max_steps_at_mu && short_steps_ < t_.max_short_steps) return 1.0;
   steps_ = 0;
   if (last.decrement < t_.nearly_centred * t_.centred * last.rows) return t_.reduction;  // a few spheres hold it up
+  // Its part in Gamma is (1 - mu rows) log Gamma: at a large mu the function grows without bound as all spheres shrink.
+  if (last.room < t_.increase) return t_.reduction;
   ++increases_;
   return t_.increase;
 }

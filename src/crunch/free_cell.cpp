@@ -19,7 +19,7 @@ Phase free_cell(CrunchState &s) {
   s.monitor.log(JAM_LOG_INFO, "fixed cell: phi %.12f; %d strains join", packing_fraction(s.out.packing),
                 s.strain.count());
   s.bound = s.tuning.first_bound;
-  s.last_gain = s.moved = 1.0;
+  s.moved = 1.0;
   s.stalled = 0;
   s.exact = false;
   return Phase::approach;
@@ -80,7 +80,7 @@ bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict) {
                   packing_fraction(p), static_cast<long long>(r.flexes), t * largest / unit);
     p = std::move(q);
     s.bound = s.tuning.first_bound;
-    s.last_gain = s.moved = 1.0;
+    s.moved = 1.0;
     s.stalled = 0;
     s.exact = s.jammed = false;
     return true;

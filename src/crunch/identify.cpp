@@ -178,7 +178,7 @@ static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
 
 void finish(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
-  r.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
+  r.method = s.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   certify(s.out.packing, s.out.contacts, r);
   r.jammed = s.jammed && r.force_residual < (s.o.polish ? 1e-6 : 1e-5) && r.min_force >= 0.0;
   r.strictly_jammed = s.strictly_jammed;
@@ -203,7 +203,7 @@ void finish_failed(CrunchState &s) {
     s.out.report.packing_fraction = packing_fraction(s.out.packing);
   }
   mark_unknown_rattlers(s, s.out.report);
-  s.out.report.method = s.paths ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
+  s.out.report.method = s.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   s.out.report.factorisations = s.system.factorisations;
   s.out.report.seconds = s.monitor.seconds();
 }

@@ -17,17 +17,17 @@ void add_history_row(CrunchState &s, double gap, size_t pairs) {
 
 }  // namespace
 
-// LPs cross dilute space in a few long steps, and finish at once what is all but jammed. In between the density rises
-// along a curved valley, where the path needs fewer factorisations.
+// LPs finish at once what is all but jammed. Before it the density rises along a curved valley, where the path needs
+// fewer factorisations. One path at most: a second one after saddles gains nothing.
 bool path_is_shorter(const CrunchState &s, double gain, double step) {
   const Tuning &t = s.tuning;
-  if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.paths >= t.max_paths || gain > t.dilute_gain) return false;
+  if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.path_taken) return false;
   if (gain < t.crystal_gap && hyperstatic(s.answer.y, s.lp.dim * static_cast<double>(s.lp.n), t)) return false;
   return step > t.long_step || step * step > std::max(t.curvature_ratio * gain, t.min_opening);
 }
 
 Phase follow_path(CrunchState &s) {
-  ++s.paths;
+  s.path_taken = true;
   s.active = ActiveSet();  // of the state before: an interrupted path leaves no contacts
   BarrierPathControl control;
   control.tuning = s.tuning;
@@ -46,7 +46,6 @@ Phase follow_path(CrunchState &s) {
   s.multipliers = std::move(path.multipliers);
   s.at_bound = 0;
   s.moved = path.reached ? 0.0 : 1.0;
-  if (path.reached) s.last_gain = path.gap;
   return Phase::approach;
 }
 

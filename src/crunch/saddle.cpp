@@ -56,7 +56,7 @@ Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
   if (!(longest > s.tuning.closed_gap)) return Kick::none;
   if (longest < s.tuning.narrow_bound) return Kick::blocked;
   s.bound = first_bound(s);
-  s.last_gain = s.moved = 1.0;
+  s.moved = 1.0;
   s.stalled = 0;
   s.exact = false;
   return Kick::free;

@@ -58,9 +58,9 @@ struct CrunchState {
   Multipliers multipliers;  // of the last LP or path
   double bound = 0.0;       // of the next LP
   StrainBasis strain;       // of the LPs, once the cell is free
-  double last_gain = 1.0;
-  double moved = 1.0;  // longest step since `multipliers`; 0 after a path that reached its end
-  int stalled = 0, paths = 0, kicks = 0;
+  double moved = 1.0;       // longest step since `multipliers`; 0 after a path that reached its end
+  int stalled = 0, kicks = 0;
+  bool path_taken = false;
   bool exact = false;     // the last LPs were narrow ones
   bool polished = false;  // the last polish closed its contacts
   bool jammed = false;    // by the test of the final network

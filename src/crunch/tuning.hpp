@@ -7,32 +7,27 @@ namespace jam {
 
 struct Tuning {
   // ---- approach: sequential LPs
-  // Bound of the first LP: part of a diameter plus a share of the free spacing, at most so many square roots of the
-  // median contact gap. Floppy motion goes some tens of these square roots.
-  double first_bound = 0.1, bound_per_spacing = 0.6, bound_per_root_gap = 100.0;
+  // Bound of the first LP: part of a diameter plus a share of the free spacing.
+  double first_bound = 0.1, bound_per_spacing = 0.6;
   // Every LP sees motions up to min_bound, so that one without gain proves that no motion gains.
   double min_bound = 1e-2, max_bound = 0.5;
   double bound_per_step = 5.0;   // next bound over the longest step of the last LP
   double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
-  double early_gap = 0.02;       // an LP that gains more than early_gain ends at this share of its gain
-  double early_gain = 1e-7;
-  double warm_step = 1e-5;  // after a shorter step the next LP starts from the last multipliers
-  int max_stalled_lps = 4;  // LPs below the gain tolerance that lead to no verdict
+  double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
+  double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
+  int max_stalled_lps = 12;      // LPs below the gain tolerance that lead to no verdict
 
   // ---- from LPs to the barrier path and back
-  double dilute_gain = 3e-3;      // an LP that gains more still crosses dilute space
   double long_step = 1e-2;        // longer steps belong to the path
   double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
   double min_opening = 1e-10;     // the path opens contacts to this gap at least: rounding blurs smaller ones
   double crystal_rows = 1.05;     // rows that carry force over d n; above it sequential LPs are cheaper
   double crystal_gap = 1e-5;      // on the path counted from this gain or duality gap on: a large mu blurs the forces
-  int max_paths = 1;              // paths of one crunch
 
   // ---- barrier path
   double target_gap = 1e-12;  // the path ends at this duality gap
   int max_path_factorisations = 600;
   double centrality = 100.0;  // products y c stay within this factor of mu
-  double trust = 0.1;         // longest step of one sphere
   double least_reach = 0.15;  // listed gaps; dilute starts list reach_per_spacing free spacings more
   double reach_per_spacing = 1.5;
   int max_correctors = 5;  // Gondzio's correctors of one direction
@@ -47,7 +42,6 @@ struct Tuning {
   int max_short_steps = 8;
   double progress = 0.6;   // the decrement falls by this factor: short steps count anew
   double increase = 10.0;  // of mu at a saddle
-  int max_increases = 16;
 
   // ---- neighbours of spheres in wide holes
   double covered = 0.9;  // a direction is covered by a line to a neighbour within 1/sqrt(d) times this

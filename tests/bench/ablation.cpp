@@ -87,14 +87,13 @@ struct Mechanism {
 const double never = std::numeric_limits<double>::infinity();
 const Mechanism mechanisms[] = {
     {"none", [](Tuning &, jam_crunch_options &) {}},
-    {"early LPs", [](Tuning &t, jam_crunch_options &) { t.early_gain = never; }},
+    {"early LPs", [](Tuning &t, jam_crunch_options &) { t.early_gap = 0.0; }},
     {"warm LPs", [](Tuning &t, jam_crunch_options &) { t.warm_step = -1.0; }},
     {"wide bound", [](Tuning &t, jam_crunch_options &) { t.min_bound = 1e-6; }},
     {"barrier path", [](Tuning &, jam_crunch_options &o) { o.method = JAM_CRUNCH_SEQUENTIAL_LP; }},
     {"LPs alone for crystals", [](Tuning &t, jam_crunch_options &) { t.crystal_rows = never; }},
-    {"one path only", [](Tuning &t, jam_crunch_options &) { t.max_paths = 5; }},
     {"correctors", [](Tuning &t, jam_crunch_options &) { t.max_correctors = 0; }},
-    {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.max_increases = 0; }},
+    {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.increase = 1.0; }},
     {"nearly centred", [](Tuning &t, jam_crunch_options &) { t.nearly_centred = 0.0; }},
     {"neighbours of uncovered spheres", [](Tuning &t, jam_crunch_options &) { t.farthest_reach = 0.0; }},
     {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},

@@ -281,7 +281,7 @@ static void cancel_and_resume(void **state) {
     jam_set_progress(sys, stop_at, &left);
     r = crunch(sys, &o, JAM_CANCELLED);
     assert_true(!r.jammed && r.stop_reason == JAM_STOP_CANCELLED && r.max_overlap < 1e-12);
-    assert_true(r.contacts >= 0 && r.rattlers + r.stable == 100);
+    assert_true(r.contacts >= 0 && r.rattlers + r.stable == (r.contacts > 0 ? 100 : -1));
     jam_diameters_view(sys, &s, &len);
     assert_true(s[0] > 0.0);
     jam_set_progress(sys, NULL, NULL);

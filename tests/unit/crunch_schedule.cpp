@@ -11,7 +11,7 @@ namespace {
 constexpr double rows = 1000.0;
 const Tuning tuning;
 
-BarrierSchedule::Step step(double decrement, double part) { return {decrement, rows, part}; }
+BarrierSchedule::Step step(double decrement, double part, double room = 1e3) { return {decrement, rows, part, room}; }
 
 // The first factor other than 1 within `steps` steps of a course; 1 if there is none.
 template <class Course>
@@ -31,6 +31,17 @@ void mu_rises_at_saddles(void **) {
   assert_true(first_factor(endless, 20, [](int) { return step(50.0 * rows, 1.0); }) == 1.0);
   assert_true(first_factor(endless, 100, [](int) { return step(50.0 * rows, 1.0); }) == tuning.increase);
   assert_int_equal(endless.increases(), 1);
+}
+
+// Above the first mu all spheres would shrink without end: where mu would rise above it, it falls instead.
+void first_mu_is_the_largest(void **) {
+  BarrierSchedule below(tuning), first(tuning);
+  assert_true(first_factor(below, 20, [](int) { return step(50.0 * rows, 0.1, 1.01 * tuning.increase); }) ==
+              tuning.increase);
+  assert_int_equal(below.increases(), 1);
+  assert_true(first_factor(first, 20, [](int) { return step(50.0 * rows, 0.1, 0.99 * tuning.increase); }) ==
+              tuning.reduction);
+  assert_int_equal(first.increases(), 0);
 }
 
 // While the decrement falls, short steps are the way to the maximum and no saddle.
@@ -61,8 +72,9 @@ void maximum_starts_a_new_count(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(mu_rises_at_saddles), cmocka_unit_test(mu_stays_while_the_decrement_falls),
-      cmocka_unit_test(mu_falls_where_nearly_centred), cmocka_unit_test(maximum_starts_a_new_count)};
+  const CMUnitTest tests[] = {cmocka_unit_test(mu_rises_at_saddles), cmocka_unit_test(first_mu_is_the_largest),
+                              cmocka_unit_test(mu_stays_while_the_decrement_falls),
+                              cmocka_unit_test(mu_falls_where_nearly_centred),
+                              cmocka_unit_test(maximum_starts_a_new_count)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

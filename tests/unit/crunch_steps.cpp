@@ -70,7 +70,7 @@ void path_from_low_density(void **) {
   for (const Case &c : dilute) {
     Packing p = start(c.n, c.dim, c.phi, c.ratio);
     BarrierPathControl control;
-    control.tuning.max_path_factorisations = 150, control.tuning.max_increases = 16;
+    control.tuning.max_path_factorisations = 150;
     int steps = 0;
     double worst = 1.0;
     control.on_step = [&](double, size_t) {

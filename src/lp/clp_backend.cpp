@@ -84,7 +84,7 @@ class PackingModel {
       model.dual();
     out.solved = model.status() == 0;
     out.iterations = model.numberIterations();
-    const int d = lp_.dim, columns = model.numberColumns(), strains = lp_.strains;
+    const int columns = model.numberColumns(), strains = lp_.strains;
     const double *x = model.primalColumnSolution();
     out.s.assign(x, x + columns - 1 - strains), out.strain.assign(x + columns - 1 - strains, x + columns - 1);
     out.g = x[columns - 1] * scale_;
@@ -93,10 +93,7 @@ class PackingModel {
     out.w.resize(lp_.rows());
     double missed = 0.0;
     for (size_t k = 0; k < out.w.size(); ++k) {
-      const size_t i = static_cast<size_t>(lp_.pairs->i[k]) * d, j = static_cast<size_t>(lp_.pairs->j[k]) * d;
-      out.w[k] = lp_.c[k] - out.g;
-      for (int c = 0; c < d; ++c) out.w[k] += lp_.a[k * d + c] * (out.s[i + c] - out.s[j + c]);
-      for (int q = 0; q < strains; ++q) out.w[k] += lp_.strain[k * strains + q] * out.strain[q];
+      out.w[k] = lp_.c[k] - out.g + lp_.change(k, out.s.data(), out.strain.data());
       missed = std::max(missed, -out.w[k]);
     }
     out.g -= missed;

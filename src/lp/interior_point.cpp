@@ -54,13 +54,7 @@ void InteriorPoint::start() {
 
 // a . (s_i - s_j) + b . e of a row that stands outside the normal equations.
 double InteriorPoint::far_row(size_t k, const std::vector<double> &s) const {
-  const int d = whole_->dim;
-  const size_t i = static_cast<size_t>(whole_->pairs->i[k]) * d, j = static_cast<size_t>(whole_->pairs->j[k]) * d;
-  const size_t strains = static_cast<size_t>(whole_->strains), spheres = s.size() - strains;
-  double row = 0.0;
-  for (int c = 0; c < d; ++c) row += whole_->a[k * d + c] * (s[i + c] - s[j + c]);
-  for (size_t q = 0; q < strains; ++q) row += whole_->strain[k * strains + q] * s[spheres + q];
-  return row;
+  return whole_->change(k, s.data(), s.data() + s.size() - static_cast<size_t>(whole_->strains));
 }
 
 void InteriorPoint::measure_far() {

@@ -56,17 +56,14 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
   for (size_t k = 0; k < lp.rows(); ++k) {
     const double *a = &lp.a[k * d];
     const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
-    double row = lp.c[k] - x.g, a2 = 0.0;
+    const double row = lp.c[k] - x.g + lp.change(k, x.s.data(), x.strain.data());
+    double a2 = 0.0;
     for (int c = 0; c < d; ++c) {
-      row += a[c] * (x.s[i + c] - x.s[j + c]);
       force[i + c] += x.y[k] * a[c];
       force[j + c] -= x.y[k] * a[c];
       a2 += a[c] * a[c];
     }
-    for (size_t q = 0; q < strains; ++q) {
-      row += lp.strain[k * strains + q] * x.strain[q];
-      force[spheres + q] += x.y[k] * lp.strain[k * strains + q];
-    }
+    for (size_t q = 0; q < strains; ++q) force[spheres + q] += x.y[k] * lp.strain[k * strains + q];
     out.infeasibility = std::max(out.infeasibility, std::max(-row, -x.y[k]));
     sum_y += x.y[k];
     sum_yc += x.y[k] * lp.c[k];

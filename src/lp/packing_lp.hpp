@@ -30,6 +30,15 @@ struct PackingLp {
   std::vector<double> strain;                              // b, (pairs, strains)
   double bound = std::numeric_limits<double>::infinity();  // on each |s_ik|, mean diameters
   size_t rows() const { return c.size(); }
+  // a . (s_i - s_j) + b . e of row k.
+  double change(size_t k, const double *s, const double *e) const {
+    const auto d = static_cast<size_t>(dim), m = static_cast<size_t>(strains);
+    const double *si = s + static_cast<size_t>(pairs->i[k]) * d, *sj = s + static_cast<size_t>(pairs->j[k]) * d;
+    double sum = 0.0;
+    for (size_t q = 0; q < d; ++q) sum += a[k * d + q] * (si[q] - sj[q]);
+    for (size_t q = 0; q < m; ++q) sum += strain[k * m + q] * e[q];
+    return sum;
+  }
   size_t unknowns() const { return static_cast<size_t>(n) * static_cast<size_t>(dim) + static_cast<size_t>(strains); }
 };
 

@@ -88,6 +88,14 @@ module jam
   integer(c_int32_t), parameter :: JAM_FORMAT_AUTO = 0
   integer(c_int32_t), parameter :: JAM_FORMAT_PLAIN = 1
   integer(c_int32_t), parameter :: JAM_FORMAT_XYZ = 2
+  integer(c_int32_t), parameter :: JAM_FORMAT_LAMMPS = 3
+  integer(c_int32_t), parameter :: JAM_FORMAT_VTP = 4
+
+  ! jam_contact_format: Formats of contact networks. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CONTACTS_AUTO = 0
+  integer(c_int32_t), parameter :: JAM_CONTACTS_CSV = 1
+  integer(c_int32_t), parameter :: JAM_CONTACTS_DUMP = 2
+  integer(c_int32_t), parameter :: JAM_CONTACTS_VTP = 3
 
   ! jam_growth_law: How the spheres grow. @since 0.1
   integer(c_int32_t), parameter :: JAM_GROWTH_DIAMETER = 0
@@ -1389,8 +1397,9 @@ module jam
     ! Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
     ! under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
     ! JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
-    ! jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
+    ! jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
+    ! JAM_E_UNSUPPORTED.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
     function jam_write(sys, path, format) &
         bind(c, name="jam_write") result(status)
       import
@@ -1399,6 +1408,34 @@ module jam
       integer(c_int32_t), value :: format
       integer(c_int32_t) :: status
     end function jam_write
+
+    ! Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+    function jam_write_contacts(sys, path, format) &
+        bind(c, name="jam_write_contacts") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: format
+      integer(c_int32_t) :: status
+    end function jam_write_contacts
+
+    ! Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
+    ! numbers of each sphere, certificate and distributions. title: its heading, or "". small: 1 for the picture alone, 0
+    ! for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or "".
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1
+    function jam_write_page(sys, path, title, small, names, values, values_len) &
+        bind(c, name="jam_write_page") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(in) :: title(*)
+      integer(c_int32_t), value :: small
+      character(kind=c_char), intent(in) :: names(*)
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: values_len
+      integer(c_int32_t) :: status
+    end function jam_write_page
 
     ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_run_options_init(o, size) &
@@ -2490,6 +2527,26 @@ module jam
       integer(c_int32_t), value :: format
       integer(c_int32_t) :: status
     end function c_jam_write
+    function c_jam_write_contacts(sys, path, format) &
+        bind(c, name="jam_write_contacts") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: format
+      integer(c_int32_t) :: status
+    end function c_jam_write_contacts
+    function c_jam_write_page(sys, path, title, small, names, values, values_len) &
+        bind(c, name="jam_write_page") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(in) :: title(*)
+      integer(c_int32_t), value :: small
+      character(kind=c_char), intent(in) :: names(*)
+      type(c_ptr), value :: values
+      integer(c_size_t), value :: values_len
+      integer(c_int32_t) :: status
+    end function c_jam_write_page
     function c_jam_checkpoint_write(sys, path) &
         bind(c, name="jam_checkpoint_write") result(status)
       import
@@ -3033,6 +3090,16 @@ module jam
     module procedure f_jam_write
   end interface jam_write
 
+  interface jam_write_contacts
+    procedure jam_write_contacts
+    module procedure f_jam_write_contacts
+  end interface jam_write_contacts
+
+  interface jam_write_page
+    procedure jam_write_page
+    module procedure f_jam_write_page
+  end interface jam_write_page
+
   interface jam_checkpoint_write
     procedure jam_checkpoint_write
     module procedure f_jam_checkpoint_write
@@ -3268,6 +3335,8 @@ module jam
   private :: c_jam_create_watched, f_jam_create_watched
   private :: c_jam_read, f_jam_read
   private :: c_jam_write, f_jam_write
+  private :: c_jam_write_contacts, f_jam_write_contacts
+  private :: c_jam_write_page, f_jam_write_page
   private :: c_jam_checkpoint_write, f_jam_checkpoint_write
   private :: c_jam_checkpoint_read, f_jam_checkpoint_read
   private :: c_jam_observed_series, f_jam_observed_series
@@ -3553,6 +3622,34 @@ contains
     integer(c_int32_t) :: status
     status = c_jam_write(sys, jam_c_string(path), format)
   end function f_jam_write
+
+  function f_jam_write_contacts(sys, path, format) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    integer(c_int32_t), intent(in) :: format
+    integer(c_int32_t) :: status
+    status = c_jam_write_contacts(sys, jam_c_string(path), format)
+  end function f_jam_write_contacts
+
+  function f_jam_write_page(sys, path, title, small, names, values) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    character(*), intent(in) :: title
+    integer(c_int32_t), intent(in) :: small
+    character(*), intent(in) :: names
+    real(c_double), intent(in), target, contiguous, optional :: values(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_values
+    integer(c_size_t) :: count_values
+    at_values = c_null_ptr
+    count_values = 0
+    if (present(values)) then
+      at_values = c_loc(values)
+      count_values = size(values, kind=c_size_t)
+    end if
+    status = c_jam_write_page(sys, jam_c_string(path), jam_c_string(title), small, jam_c_string(names), &
+      at_values, count_values)
+  end function f_jam_write_page
 
   function f_jam_checkpoint_write(sys, path) result(status)
     type(c_ptr), intent(in) :: sys

@@ -10,6 +10,7 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *rotation, size_t rotation_len)};
 %apply size_t *RESULT {size_t *rows};
 %apply (const double *IN, size_t IN_LEN) {(const double *strain, size_t strain_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *values, size_t values_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *displacement, size_t displacement_len)};
@@ -369,8 +370,15 @@ and those of jam_create. Threads: any. @since 0.1"
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
 under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
 JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
-jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1"
+jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
+JAM_E_UNSUPPORTED.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
+%feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
+%feature("docstring") jam_write_page "Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
+numbers of each sphere, certificate and distributions. title: its heading, or \"\". small: 1 for the picture alone, 0
+for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or \"\".
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are

@@ -365,12 +365,16 @@ JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
 /* File formats. @since 0.1 */
 typedef enum jam_format {
-  JAM_FORMAT_AUTO = 0,  /* by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused */
-  JAM_FORMAT_PLAIN = 1, /* line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1,
-                         * the box as `box <L>`. Then a line a sphere: its position, and its diameter after
-                         * `diameters`, with 17 digits. */
-  JAM_FORMAT_XYZ = 2    /* extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after
-                         * a crunch, contacts:I:1; d = 2 gets a third coordinate 0 */
+  JAM_FORMAT_AUTO = 0,   /* by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN;
+                          * others are refused. With .gz behind it the file is compressed */
+  JAM_FORMAT_PLAIN = 1,  /* line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1,
+                          * the box as `box <L>`. Then a line a sphere: its position, and its diameter after
+                          * `diameters`, with 17 digits. */
+  JAM_FORMAT_XYZ = 2,    /* extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after
+                          * a crunch, contacts:I:1; d = 2 gets a third coordinate 0 */
+  JAM_FORMAT_LAMMPS = 3, /* LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0 */
+  JAM_FORMAT_VTP = 4     /* VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and
+                          * kind (0 rattler, 1 buckler, 2 other). Written only */
 } jam_format;
 
 /* Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
@@ -382,9 +386,28 @@ JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_s
 /* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
  * under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
  * JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
- * jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1 */
+ * jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
+ * JAM_E_UNSUPPORTED.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
+
+/* Formats of contact networks. @since 0.1 */
+typedef enum jam_contact_format {
+  JAM_CONTACTS_AUTO = 0, /* by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused */
+  JAM_CONTACTS_CSV = 1,  /* a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits */
+  JAM_CONTACTS_DUMP = 2, /* the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3 */
+  JAM_CONTACTS_VTP = 3 /* VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the
+                        * cell, with force, gap and number of the contact */
+} jam_contact_format;
+/* Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
+JAM_API jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format);
+/* Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
+ * numbers of each sphere, certificate and distributions. title: its heading, or "". small: 1 for the picture alone, 0
+ * for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or "".
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1 */
+JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
+                                  const char *names, const double *values, size_t values_len);
 
 /* ------------------------------------------------------------------ molecular dynamics */
 

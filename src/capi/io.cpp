@@ -1,4 +1,5 @@
-// Header section "files": jam_read, jam_write.
+// Header section "files": jam_read, jam_write, jam_write_contacts.
+#include "capi/analysis.hpp"
 #include "capi/guard.hpp"
 #include "capi/make_system.hpp"
 #include "core/create.hpp"
@@ -30,6 +31,15 @@ jam_status jam_write(const jam_system *sys, const char *path, int32_t format) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
     write_file(sys->packing, sys->has_report ? &sys->contacts.coordination : nullptr, path, format);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format) {
+  return guard_const(sys, [&]() -> jam_status {
+    need(path, "path");
+    need_network(sys);
+    write_contacts(sys->packing, sys->contacts, path, format);
     return JAM_OK;
   });
 }

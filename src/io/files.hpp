@@ -1,9 +1,11 @@
-// Packing files: the plain text format and extended XYZ (see jam_format in jam.h).
+// Files of packings and of contact networks (see jam_format and jam_contact_format in jam.h).
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/packing.hpp"
+#include "network/contact_network.hpp"
 
 namespace jam {
 
@@ -23,5 +25,11 @@ FileContent read_file(const char *path);
 
 // format: a jam_format. coordination (n) becomes the contacts column of XYZ; NULL leaves that column out.
 void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format);
+
+// format: a jam_contact_format.
+void write_contacts(const Packing &p, const ContactNetwork &net, const char *path, int32_t format);
+
+// What stands behind the last dot of a name, without .gz; "" when there is none.
+std::string file_ending(const char *path);
 
 }  // namespace jam

@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/monitor.hpp"
@@ -42,6 +44,22 @@ void sync_folder(const std::string &file) {
 
 }  // namespace
 
+// A stream of zlib with gzip's header, whose time is 0: the same packing gives the same bytes.
+struct OutputFile::Gzip {
+  Gzip() {
+    constexpr int with_gzip_header = 15 + 16, memory_level = 8;
+    if (::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, with_gzip_header, memory_level,
+                       Z_DEFAULT_STRATEGY) != Z_OK)
+      throw std::bad_alloc();
+  }
+  ~Gzip() { ::deflateEnd(&stream); }
+  Gzip(const Gzip &) = delete;
+  Gzip &operator=(const Gzip &) = delete;
+  z_stream stream{};
+  std::vector<unsigned char> packed = std::vector<unsigned char>(chunk);
+  bool finish = false;  // no more text comes
+};
+
 void OutputFile::fail_errno(const char *what) const {
   const int code = errno;
   fail(JAM_E_IO, "cannot %s %s: %s", what, path_.c_str(), std::generic_category().message(code).c_str());
@@ -49,6 +67,7 @@ void OutputFile::fail_errno(const char *what) const {
 
 OutputFile::OutputFile(const char *path) : path_(path), target_(follow_links(path)) {
   text_.reserve(chunk + 1024);
+  if (path_.size() > 3 && path_.compare(path_.size() - 3, 3, ".gz") == 0) gzip_ = std::make_unique<Gzip>();
   struct stat there;
   const bool exists = ::stat(path, &there) == 0;
   if (exists && S_ISDIR(there.st_mode)) {
@@ -80,15 +99,29 @@ OutputFile::~OutputFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void OutputFile::flush() {
-  const char *from = text_.data();
-  size_t left = text_.size();
+void OutputFile::put(const char *from, size_t left) {
   while (left > 0) {
     const ssize_t done = ::write(fd_, from, left);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) fail_errno("write");
     from += done;
     left -= static_cast<size_t>(done);
+  }
+}
+
+void OutputFile::flush() {
+  if (!gzip_) {
+    put(text_.data(), text_.size());
+  } else {
+    z_stream &s = gzip_->stream;
+    s.next_in = reinterpret_cast<Bytef *>(&text_[0]);
+    s.avail_in = static_cast<uInt>(text_.size());
+    do {
+      s.next_out = gzip_->packed.data();
+      s.avail_out = static_cast<uInt>(gzip_->packed.size());
+      ::deflate(&s, gzip_->finish ? Z_FINISH : Z_NO_FLUSH);
+      put(reinterpret_cast<const char *>(gzip_->packed.data()), gzip_->packed.size() - s.avail_out);
+    } while (s.avail_out == 0);
   }
   text_.clear();
 }
@@ -98,6 +131,7 @@ void OutputFile::flush_if_full() {
 }
 
 void OutputFile::commit() {
+  if (gzip_) gzip_->finish = true;
   flush();
   // Without fsync a crash of the machine soon after the rename can leave an empty file in place of the old one.
   if (!temporary_.empty() && ::fsync(fd_) != 0) fail_errno("write");

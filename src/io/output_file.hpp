@@ -1,12 +1,14 @@
 // A file that appears whole or not at all.
 #pragma once
+#include <memory>
 #include <string>
 
 namespace jam {
 
 // Text goes to a new file beside the target, which commit() renames onto it. Without commit nothing changes.
 // A symbolic link keeps pointing where it points; a target that is no regular file (/dev/stdout, a pipe) is
-// written in place. Every failure throws JAM_E_IO with the path and errno's text.
+// written in place. Under a name that ends in .gz the text is compressed. Every failure throws JAM_E_IO with the path
+// and errno's text.
 class OutputFile {
  public:
   explicit OutputFile(const char *path);
@@ -18,10 +20,13 @@ class OutputFile {
   void commit();
 
  private:
+  struct Gzip;
   void flush();
+  void put(const char *from, size_t left);
   [[noreturn]] void fail_errno(const char *what) const;
   std::string path_, target_, temporary_;
   std::string text_;
+  std::unique_ptr<Gzip> gzip_;  // NULL: the text is written as it is
   int fd_ = -1;
 };
 

@@ -4,47 +4,11 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "io/files.hpp"
+#include "io/read_helpers.hpp"
 #include "io/text.hpp"
 
 namespace jam {
 namespace {
-
-// Runs a check of core/limits.hpp; its error gets the path and the line in front.
-template <class Check>
-void at_line(const LineReader &in, Check &&check) {
-  try {
-    check();
-  } catch (const Error &e) {
-    in.fail(e.code(), "%s", e.what());
-  }
-}
-
-int take_dim(const LineReader &in, int64_t dim) {
-  at_line(in, [&] { check_dim(dim); });
-  return static_cast<int>(dim);
-}
-
-int64_t take_count(const LineReader &in, int64_t n) {
-  at_line(in, [&] { check_n(n); });
-  return n;
-}
-
-double positive(const LineReader &in, std::string_view word, const char *what) {
-  const double x = parse_number(in, word);
-  if (!(x > 0.0)) in.fail(JAM_E_ARGUMENT, "the %s is %g, it must be positive", what, x);
-  return x;
-}
-
-double take_box(const LineReader &in, std::string_view word) {
-  const double side = positive(in, word, "box side");
-  at_line(in, [&] { check_box(side); });
-  return side;
-}
-
-[[noreturn]] void ends_early(const LineReader &in, int64_t found, int64_t n) {
-  in.fail(JAM_E_FORMAT, "the file ends after %lld of %lld spheres", static_cast<long long>(found),
-          static_cast<long long>(n));
-}
 
 void check_end(LineReader &in, int64_t n) {
   std::string_view line;
@@ -228,6 +192,8 @@ FileContent read_file(const char *path) {
   std::vector<std::string_view> words;
   if (!in.next_filled(line)) fail(JAM_E_FORMAT, "%s is empty", path);
   split(line, words);
+  const std::string ending = file_ending(path);
+  if (words[0] == "LAMMPS" || ending == "data" || ending == "lmp") return read_lammps(in);
   if (words.size() != 1)
     in.fail(JAM_E_FORMAT, "'%s' is not one number (a dimension, or the spheres of an XYZ file)", shown(line).c_str());
   const int64_t first = parse_count(in, words[0], "a dimension or a number of spheres");

@@ -1,8 +1,11 @@
 #include "io/text.hpp"
 
+#include <zlib.h>
+
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
 #include <cstring>
 #include <system_error>
 
@@ -15,7 +18,12 @@ constexpr size_t longest_line = 1 << 16;  // a binary file has no line ends and 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 }  // namespace
 
-LineReader::LineReader(const char *path) : path_(path), file_(std::fopen(path, "rb")), buffer_(buffer_size) {
+void LineReader::Close::operator()(gzFile_s *f) const { ::gzclose(f); }
+
+LineReader::LineReader(const char *path) : path_(path), buffer_(buffer_size) {
+  errno = 0;
+  file_.reset(::gzopen(path, "rb"));  // reads what is not compressed as it is
+  if (!file_ && errno == 0) throw std::bad_alloc();
   if (!file_) jam::fail(JAM_E_IO, "cannot open %s: %s", path, std::generic_category().message(errno).c_str());
 }
 
@@ -29,10 +37,18 @@ void LineReader::fail(jam_status code, const char *format, ...) const {
 }
 
 bool LineReader::refill() {
-  begin_ = 0;
-  end_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
-  if (end_ == 0 && std::ferror(file_.get()))
+  begin_ = end_ = 0;
+  const int got = ::gzread(file_.get(), buffer_.data(), static_cast<unsigned>(buffer_.size()));
+  if (got > 0) end_ = static_cast<size_t>(got);
+  int code = Z_OK;
+  const char *text = ::gzerror(file_.get(), &code);
+  if (code == Z_ERRNO)
     jam::fail(JAM_E_IO, "cannot read %s: %s", path_.c_str(), std::generic_category().message(errno).c_str());
+  if (code == Z_MEM_ERROR) throw std::bad_alloc();
+  if (got < 0 || (end_ == 0 && code != Z_OK)) {
+    if (code == Z_BUF_ERROR) jam::fail(JAM_E_FORMAT, "%s: the compressed file is cut short", path_.c_str());
+    jam::fail(JAM_E_FORMAT, "%s: not a sound gzip file: %s", path_.c_str(), text);
+  }
   return end_ > 0;
 }
 

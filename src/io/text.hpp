@@ -1,7 +1,6 @@
 // Lines and numbers, the same in every locale of the host program.
 #pragma once
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,9 +8,11 @@
 
 #include "jam/jam.h"
 
+struct gzFile_s;  // of zlib
+
 namespace jam {
 
-// Reads a file line by line in bounded memory; errors are thrown with the path and errno's text.
+// Reads a file, gzip's or not, line by line in bounded memory; errors are thrown with the path and errno's text.
 class LineReader {
  public:
   explicit LineReader(const char *path);
@@ -21,16 +22,17 @@ class LineReader {
   // As next, skipping blank lines.
   bool next_filled(std::string_view &line);
   int64_t number() const { return number_; }  // of the line read last, from 1
+  const std::string &path() const { return path_; }
   // Throws with the path and the line read last before the text.
   [[noreturn]] void fail(jam_status code, const char *format, ...) const __attribute__((format(printf, 3, 4)));
 
  private:
   struct Close {
-    void operator()(std::FILE *f) const { std::fclose(f); }
+    void operator()(gzFile_s *f) const;
   };
   bool refill();
   std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<gzFile_s, Close> file_;
   std::vector<char> buffer_;
   size_t begin_ = 0, end_ = 0;
   std::string line_;

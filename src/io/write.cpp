@@ -1,9 +1,9 @@
-#include <string_view>
-
 #include "core/error.hpp"
 #include "io/files.hpp"
+#include "io/lammps.hpp"
 #include "io/output_file.hpp"
 #include "io/text.hpp"
+#include "io/vtp.hpp"
 
 namespace jam {
 namespace {
@@ -86,36 +86,103 @@ void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, Outpu
   }
 }
 
-// Whether a name asks for extended XYZ. Names of other programs' formats are refused: plain text under the name x.gsd
-// would mislead. Without an ending, or with one of digits alone (run.12), a name means plain text.
-bool xyz_by_name(std::string_view path) {
-  const std::string_view name = path.substr(path.find_last_of('/') + 1);
-  const size_t dot = name.find_last_of('.');
-  const std::string_view ending = dot == std::string_view::npos || dot == 0 ? "" : name.substr(dot + 1);
-  if (ending == "xyz" || ending == "extxyz") return true;
-  if (ending == "dat" || ending == "txt" || ending.find_first_not_of("0123456789") == std::string_view::npos)
-    return false;
+// Contacts of each sphere as classes: 0 rattler, 1 buckler, 2 other.
+void write_points(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
+  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP holds d = 2 and d = 3, this packing has d = %d", p.dim);
+  const size_t d = static_cast<size_t>(p.dim);
+  std::vector<double> points;
+  for (size_t i = 0; i < p.n(); ++i)
+    for (size_t c = 0; c < 3; ++c) points.push_back(c < d ? p.position[i * d + c] : 0.0);
+  VtpFile spheres(std::move(points), 1);
+  spheres.add_point_data("diameter", p.diameter);
+  if (coordination) {
+    std::vector<int64_t> contacts(coordination->begin(), coordination->end()), kind;
+    for (const int64_t z : contacts) kind.push_back(z == 0 ? 0 : z == p.dim + 1 ? 1 : 2);
+    spheres.add_point_data("contacts", std::move(contacts));
+    spheres.add_point_data("kind", std::move(kind));
+  }
+  spheres.write(file);
+}
+
+void write_lammps(const Packing &p, OutputFile &file) {
+  const LammpsBox box = lammps_box(p, "LAMMPS data");
+  std::string &out = file.text();
+  out += "LAMMPS data file by libjam, atom_style sphere, dimension " + std::to_string(p.dim) + "\n\n" +
+         std::to_string(p.n()) + " atoms\n1 atom types\n\n";
+  for (size_t c = 0; c < 3; ++c) {
+    append_number(out, box.low[c]);
+    out += ' ';
+    append_number(out, box.high[c]);
+    const char axis = "xyz"[c];
+    out += std::string(" ") + axis + "lo " + axis + "hi\n";
+  }
+  if (box.tilted) {
+    for (const double t : box.tilt) {
+      append_number(out, t);
+      out += ' ';
+    }
+    out += "xy xz yz\n";
+  }
+  out += "\nAtoms # sphere\n\n";
+  for (size_t i = 0; i < p.n(); ++i) {
+    out += std::to_string(i + 1) + " 1 ";
+    append_number(out, p.diameter[i]);
+    out += " 1";
+    for (int c = 0; c < 3; ++c) {
+      out += ' ';
+      append_number(out, c < p.dim ? p.position[i * p.dim + c] : 0.0);
+    }
+    out += '\n';
+    file.flush_if_full();
+  }
+}
+
+// Names of other programs' formats are refused: plain text under the name x.gsd would mislead. Without an ending, or
+// with one of digits alone (run.12), a name means plain text.
+int32_t format_by_name(const char *path) {
+  const std::string ending = file_ending(path);
+  if (ending == "xyz" || ending == "extxyz") return JAM_FORMAT_XYZ;
+  if (ending == "data" || ending == "lmp") return JAM_FORMAT_LAMMPS;
+  if (ending == "vtp") return JAM_FORMAT_VTP;
+  if (ending == "dat" || ending == "txt" || ending.find_first_not_of("0123456789") == std::string::npos)
+    return JAM_FORMAT_PLAIN;
   fail(JAM_E_ARGUMENT,
-       "%.200s: no format is known by the ending .%.20s: write .xyz or .extxyz (extended XYZ), .dat or .txt (plain "
-       "text), "
-       "or name the format",
-       std::string(path).c_str(), std::string(ending).c_str());
+       "%.200s: no format is known by the ending .%.20s: write .xyz or .extxyz (extended XYZ), .data or .lmp (LAMMPS), "
+       ".vtp (ParaView), .dat or .txt (plain text), with .gz behind it or without, or name the format",
+       path, ending.c_str());
+}
+
+// What a format cannot hold is refused, not left out.
+void check_fits(const Packing &p, int32_t format) {
+  if (format != JAM_FORMAT_XYZ && p.non_additivity != 0.0)
+    fail(JAM_E_UNSUPPORTED, "only extended XYZ and checkpoints can hold non_additivity = %g", p.non_additivity);
+  if (format == JAM_FORMAT_PLAIN && !p.cell.cube())
+    fail(JAM_E_UNSUPPORTED,
+         "plain text cannot hold a cell that is no cube: write extended XYZ, LAMMPS data or a checkpoint");
 }
 
 }  // namespace
 
+std::string file_ending(const char *path) {
+  std::string name(path);
+  name = name.substr(name.find_last_of('/') + 1);
+  if (name.size() > 3 && name.compare(name.size() - 3, 3, ".gz") == 0) name.resize(name.size() - 3);
+  const size_t dot = name.find_last_of('.');
+  return dot == std::string::npos || dot == 0 ? "" : name.substr(dot + 1);
+}
+
 void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format) {
-  if (format != JAM_FORMAT_AUTO && format != JAM_FORMAT_PLAIN && format != JAM_FORMAT_XYZ)
+  if (format < JAM_FORMAT_AUTO || format > JAM_FORMAT_VTP)
     fail(JAM_E_ARGUMENT, "format is %d, not a jam_format", format);
-  const bool xyz = format == JAM_FORMAT_XYZ || (format == JAM_FORMAT_AUTO && xyz_by_name(path));
-  if (!xyz && p.non_additivity != 0.0)
-    fail(JAM_E_UNSUPPORTED, "plain text cannot hold non_additivity = %g: write extended XYZ or a checkpoint",
-         p.non_additivity);
-  if (!xyz && !p.cell.cube())
-    fail(JAM_E_UNSUPPORTED, "plain text cannot hold a cell that is no cube: write extended XYZ or a checkpoint");
+  if (format == JAM_FORMAT_AUTO) format = format_by_name(path);
+  check_fits(p, format);
   OutputFile file(path);
-  if (xyz)
+  if (format == JAM_FORMAT_XYZ)
     write_xyz(p, coordination, file);
+  else if (format == JAM_FORMAT_LAMMPS)
+    write_lammps(p, file);
+  else if (format == JAM_FORMAT_VTP)
+    write_points(p, coordination, file);
   else
     write_plain(p, file);
   file.commit();

@@ -804,6 +804,12 @@ int main(void) {
   printf("JAM_FORMAT_AUTO value %d\n", (int)JAM_FORMAT_AUTO);
   printf("JAM_FORMAT_PLAIN value %d\n", (int)JAM_FORMAT_PLAIN);
   printf("JAM_FORMAT_XYZ value %d\n", (int)JAM_FORMAT_XYZ);
+  printf("JAM_FORMAT_LAMMPS value %d\n", (int)JAM_FORMAT_LAMMPS);
+  printf("JAM_FORMAT_VTP value %d\n", (int)JAM_FORMAT_VTP);
+  printf("JAM_CONTACTS_AUTO value %d\n", (int)JAM_CONTACTS_AUTO);
+  printf("JAM_CONTACTS_CSV value %d\n", (int)JAM_CONTACTS_CSV);
+  printf("JAM_CONTACTS_DUMP value %d\n", (int)JAM_CONTACTS_DUMP);
+  printf("JAM_CONTACTS_VTP value %d\n", (int)JAM_CONTACTS_VTP);
   printf("JAM_GROWTH_DIAMETER value %d\n", (int)JAM_GROWTH_DIAMETER);
   printf("JAM_GROWTH_DENSITY value %d\n", (int)JAM_GROWTH_DENSITY);
   printf("JAM_SERIES_TIME value %d\n", (int)JAM_SERIES_TIME);

@@ -1,8 +1,11 @@
-"""Other programs' readers open our files: VTK's own (ParaView's) and ASE's. Skipped where neither is installed: they are large.
+"""Other programs' readers open our files: VTK's own (ParaView's), ASE's, HOOMD's GSD and LAMMPS. Those that are not
+installed are named and left out, for they are large; without any of them the test is skipped.
 
 usage: readers.py FOLDER   writes the files there unless they are there already (so that another machine may read them).
 """
 import importlib
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -23,8 +26,10 @@ def write(folder):
     s = jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30)
     s.crunch()
     s.write(folder / "s.xyz")
-    jam.files.write_vtk(s, folder / "s.vtp")
-    jam.files.write_vtk_network(s, folder / "f.vtp")
+    s.write(folder / "s.data")
+    s.write(folder / "s.vtp")
+    s.write_contacts(folder / "f.vtp")
+    s.write_contacts(folder / "f.dump")
     np.savez(folder / "want.npz", x=s.positions, sigma=s.diameters, z=s.coordination, forces=s.forces)
 
 
@@ -69,19 +74,115 @@ def check_ase(folder, want):
     assert (near[stable][:, stable].sum(1) == want["z"][stable]).all()
 
 
+def check_gsd(gsd, folder, want):
+    import jam
+
+    for s in (jam.System.read(folder / "s.xyz"), tilted(2), tilted(3)):
+        s.write(folder / "s.gsd")
+        back = jam.System.read(folder / "s.gsd")
+        assert (back.positions == s.positions).all() and (back.diameters == s.diameters).all()
+        assert np.array_equal(back.cell, s.cell)
+        with gsd.open(str(folder / "s.gsd"), "rb") as file:
+            frame = file[0]
+        assert frame.configuration.dimensions == s.dim
+        lx, ly, lz, xy, xz, yz = frame.configuration.box
+        theirs = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])[: s.dim, : s.dim]
+        assert np.allclose(theirs, s.cell, rtol=1e-6)
+        shift = np.linalg.solve(np.array(s.cell).T, (frame.particles.position[:, : s.dim] - s.positions).T).T - 0.5
+        assert np.abs(shift - np.round(shift)).max() < 1e-6  # they lie in the cell around the origin
+    # a file of another program, in float32 alone
+    frame.log = {}
+    with gsd.open(str(folder / "theirs.gsd"), "wb") as file:
+        file.append(frame)
+    back = jam.System.read(folder / "theirs.gsd", overlap="shrink")
+    assert np.abs(back.diameters / s.diameters - 1).max() < 1e-5
+
+
+def tilted(dim):
+    import jam
+
+    cell = np.eye(dim) + 0.3 * np.tri(dim, k=-1)
+    return jam.System.random(n=60, dim=dim, seed=3, cell=cell, packing_fraction=0.3)
+
+
+LAMMPS = """units lj
+dimension {dim}
+atom_style sphere
+read_data {name}
+pair_style zero 0.3
+pair_coeff * *
+compute near all property/local patom1 patom2
+compute far all pair/local dist
+dump near all local 1 {out} index c_near[1] c_near[2] c_far
+dump_modify near format line "%d %.0f %.0f %.15g"
+run 0
+write_data again.data
+"""
+
+
+def check_lammps(program, folder, want):
+    """LAMMPS takes the box, finds the spheres where we have them, and writes data that we read."""
+    import jam
+
+    for s in (jam.System.read(folder / "s.xyz"), tilted(2), tilted(3)):
+        s.write(folder / "l.data")
+        script = LAMMPS.format(dim=s.dim, name="l.data", out="near.dump")
+        made = subprocess.run([program, "-log", "none"], input=script, text=True, capture_output=True, cwd=folder)
+        assert made.returncode == 0, made.stdout[-2000:]
+        back = jam.System.read(folder / "again.data", overlap="shrink")
+        shift = np.linalg.solve(np.array(s.cell).T, (back.positions - s.positions).T).T
+        assert np.abs(shift - np.round(shift)).max() < 1e-12 and np.allclose(back.cell, s.cell, rtol=1e-14)
+        rows = np.loadtxt(folder / "near.dump", skiprows=9, ndmin=2)
+        assert len(rows) > s.n
+        i, j = rows[:, 1].astype(int) - 1, rows[:, 2].astype(int) - 1
+        step = np.linalg.solve(np.array(s.cell).T, (s.positions[i] - s.positions[j]).T).T
+        distance = [
+            min(
+                np.linalg.norm((f - np.round(f) + m) @ s.cell)
+                for m in np.ndindex(*[3] * s.dim)
+                for m in [np.array(m) - 1]
+            )
+            for f in step
+        ]
+        assert np.allclose(rows[:, 3], distance, rtol=1e-12)
+
+
+def check_ase_both_ways(folder):
+    """What ASE writes, we read by ASE; a file without radii needs diameters."""
+    import ase.io
+
+    import jam
+
+    s = tilted(3)
+    s.write(folder / "t.xyz")
+    atoms = ase.io.read(folder / "t.xyz")
+    ase.io.write(folder / "POSCAR", atoms, format="vasp")
+    back = jam.files.read_ase(folder / "POSCAR", diameters=s.diameters[0], overlap="shrink")
+    assert np.abs(back.positions - s.positions).max() < 1e-8
+    try:
+        jam.files.read_ase(folder / "POSCAR")
+    except ValueError as error:
+        assert "give diameters=" in str(error)
+    else:
+        raise AssertionError("no diameters were asked for")
+
+
 def main():
     folder = Path(sys.argv[1])
     if not (folder / "want.npz").exists():
         write(folder)
-    want, vtk, ase = np.load(folder / "want.npz"), available("vtk"), available("ase")
-    if vtk:
-        check_vtk(vtk, folder, want)
-    if ase:
-        check_ase(folder, want)
-    print(
-        f"VTK: {'reads both files' if vtk else 'not installed'}; ASE: {'reads extended XYZ' if ase else 'not installed'}"
-    )
-    sys.exit(0 if vtk or ase else 77)
+    want, told = np.load(folder / "want.npz"), []
+    for name, found, check in (
+        ("VTK", available("vtk"), lambda vtk: check_vtk(vtk, folder, want)),
+        ("ASE", available("ase"), lambda ase: (check_ase(folder, want), check_ase_both_ways(folder))),
+        ("GSD", available("gsd.hoomd"), lambda gsd: check_gsd(gsd, folder, want)),
+        ("LAMMPS", shutil.which("lmp"), lambda lmp: check_lammps(lmp, folder, want)),
+    ):
+        if found:
+            check(found)
+        told.append((name, bool(found)))
+    print("; ".join(f"{name}: {'agrees' if found else 'not installed'}" for name, found in told))
+    sys.exit(0 if any(found for _, found in told) else 77)
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ static void open_boundaries_refused(void **state) {
 /* Names of other programs' formats are refused with the list of ours, unless the format is named; nothing is written.
  */
 static void unknown_endings_refused(void **state) {
-  static const char *const refused[] = {"q.gsd", "q.xyz.gz", "q.XYZ", "q.lammps"};
+  static const char *const refused[] = {"q.gsd", "q.gsd.gz", "q.XYZ", "q.lammps"};
   static const char *const taken[] = {"q", "q.dat", "q.txt", "q.12", "q.xyz", "q.extxyz", ".hidden"};
   jam_system *sys = some_packing(3, 12, 1.0, 1.0);
   size_t k;
@@ -103,7 +103,7 @@ static void unknown_endings_refused(void **state) {
   (void)state;
   for (k = 0; k < sizeof refused / sizeof *refused; ++k) {
     assert_int_equal(jam_write(sys, in_scratch(refused[k]), JAM_FORMAT_AUTO), JAM_E_ARGUMENT);
-    assert_non_null(strstr(jam_last_error(), ".extxyz (extended XYZ), .dat or .txt"));
+    assert_non_null(strstr(jam_last_error(), ".extxyz (extended XYZ), .data or .lmp"));
   }
   assert_int_equal(count_files(), before);
   assert_int_equal(jam_write(sys, in_scratch("q.gsd"), JAM_FORMAT_PLAIN), JAM_OK);

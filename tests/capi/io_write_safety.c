@@ -19,7 +19,7 @@ static void targets_that_cannot_be_written_are_refused(void **state) {
   (void)state;
   assert_int_equal(jam_write(NULL, in_scratch("x.dat"), 0), JAM_E_NULL);
   assert_int_equal(jam_write(sys, NULL, 0), JAM_E_NULL);
-  assert_int_equal(jam_write(sys, in_scratch("x.dat"), 3), JAM_E_ARGUMENT);
+  assert_int_equal(jam_write(sys, in_scratch("x.dat"), 5), JAM_E_ARGUMENT);
   assert_int_equal(jam_write(sys, in_scratch("x.dat"), -1), JAM_E_ARGUMENT);
   assert_int_equal(jam_write(sys, in_scratch("no/such/folder.dat"), 0), JAM_E_IO);
   assert_non_null(strstr(jam_last_error(), strerror(ENOENT)));

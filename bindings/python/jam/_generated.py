@@ -99,9 +99,19 @@ class LogLevel(IntEnum):
 
 class Format(IntEnum):
     """File formats. @since 0.1"""
-    AUTO = 0  # by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused
+    AUTO = 0  # by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN; others are refused. With .gz behind it the file is compressed
     PLAIN = 1  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
+    LAMMPS = 3  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
+    VTP = 4  # VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). Written only
+
+
+class ContactFormat(IntEnum):
+    """Formats of contact networks. @since 0.1"""
+    AUTO = 0  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
+    CSV = 1  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
+    DUMP = 2  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
+    VTP = 3  # VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the cell, with force, gap and number of the contact
 
 
 class GrowthLaw(IntEnum):
@@ -987,6 +997,8 @@ CALLS = {
     "jam_cancel": (True, ()),
     "jam_set_memory_limit": (True, (("bytes", "scalar", "double"),)),
     "jam_write": (True, (("path", "string", "char"), ("format", "scalar", "Format"))),
+    "jam_write_contacts": (True, (("path", "string", "char"), ("format", "scalar", "ContactFormat"))),
+    "jam_write_page": (True, (("path", "string", "char"), ("title", "string", "char"), ("small", "scalar", "int32_t"), ("names", "string", "char"), ("values", "array_in", "double"), ("values_len", "len", "size_t"))),
     "jam_run": (True, (("o", "struct_in", "jam_run_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_compress": (True, (("o", "struct_in", "jam_compress_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_checkpoint_write": (True, (("path", "string", "char"),)),

@@ -17,6 +17,7 @@ from .system import System
 
 DONE, EARLY, USAGE, FAILED, OUTPUT = range(5)  # exit status, as jam-pack
 CANCELLED, LIMIT = 1, 2
+PACKINGS = (".xyz", ".extxyz", ".data", ".lmp", ".vtp", ".gsd", ".dat", ".txt")
 
 
 def _positive(text: str) -> float:
@@ -129,7 +130,8 @@ def parser() -> argparse.ArgumentParser:
         metavar="FILE",
         help="the packing: .xyz or .extxyz for extended XYZ; .dat, .txt or no ending for plain text",
     )
-    p.add_argument("--contacts", metavar="FILE.csv")
+    p.add_argument("--page", metavar="FILE.html", help="the packing to look at in a browser; needs no network")
+    p.add_argument("--contacts", metavar="FILE", help="the contact network as .csv, .dump (LAMMPS) or .vtp (ParaView)")
     p.add_argument(
         "--spectrum", metavar="FILE.csv", help="lowest modes of the harmonic Hessian: omega^2, omega, participation"
     )
@@ -251,7 +253,9 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
     if o.output:
         system.write(o.output)
     if o.contacts and crunched:
-        files.write_contacts_csv(system, o.contacts)
+        system.write_contacts(*(("/dev/stdout", "csv") if o.contacts == "-" else (o.contacts,)))
+    if o.page:
+        system.page(o.page)
     if o.gaps and crunched:
         files.write_gaps_csv(system, o.gaps)
     if o.structure and crunched:
@@ -284,7 +288,7 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     """The files that will be written: each its own, none over the input, none without the crunch that it shows."""
     chosen = {
         k: getattr(o, k)
-        for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk", "checkpoint")
+        for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk", "page", "checkpoint")
     }
     chosen = {k: path for k, path in chosen.items() if path and path != "-"}
     for key, path in chosen.items():
@@ -295,9 +299,10 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
             p.error(f"--{key} would overwrite the input")
         if o.no_crunch and key in ("contacts", "spectrum", "gaps", "structure"):
             p.error(f"--{key} needs the crunch that --no-crunch leaves out")
-    ending = os.path.splitext(o.output or "")[1]
-    if ending not in ("", ".xyz", ".extxyz", ".dat", ".txt") and not ending[1:].isdigit():
-        p.error(f"--output {o.output}: no format is known by this ending; use .xyz, .extxyz, .dat, .txt or none")
+    name = (o.output or "").removesuffix(".gz")
+    ending = os.path.splitext(name)[1]
+    if ending not in (*PACKINGS, "") and not ending[1:].isdigit():
+        p.error(f"--output {o.output}: no format is known by this ending; use {', '.join(PACKINGS)} or none")
     if o.non_additivity and o.output and not o.output.endswith((".xyz", ".extxyz")):
         p.error("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it")
     if o.resume and o.input:

@@ -1,6 +1,6 @@
-"""Files for other programs: VTK PolyData (.vtp, ParaView) of the spheres and of the force network, and CSV tables.
+"""Files for other programs: tables, ParaView's files, GSD, and what ASE reads.
 
-Extended XYZ (OVITO, ASE) and the plain format are written by System.write. Files are written beside and renamed.
+System.write and System.write_contacts write most of them by the ending of the name. All appear whole or not at all.
 """
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any, Iterator
 import numpy as np
 
 from .errors import StateError, UnsupportedError
+from .other_files import read_ase, read_gsd, write_gsd  # noqa: F401
 from .results import Modes
 from .system import System
 
@@ -53,52 +54,12 @@ def _kinds(system: System) -> np.ndarray | None:
         return None
 
 
-def _padded(x: np.ndarray) -> np.ndarray:
-    d = x.shape[-1]
-    if d > 3:
-        raise ValueError(f"VTK holds two or three dimensions, not {d}")
-    return np.concatenate([x, np.zeros((*x.shape[:-1], 3 - d))], -1)
-
-
-def _data(file: Any, name: str, values: np.ndarray, components: int = 1) -> None:
-    whole = np.issubdtype(values.dtype, np.integer)
-    file.write(
-        f'<DataArray type="{"Int64" if whole else "Float64"}" Name="{name}" NumberOfComponents="{components}" format="ascii">\n'
-    )
-    np.savetxt(file, values.reshape(-1, components), fmt="%d" if whole else "%.17g")
-    file.write("</DataArray>\n")
-
-
-def _polydata(path: Any, points: np.ndarray, cells: str, size: int, point_data: dict, cell_data: dict) -> None:
-    count = len(points) // size
-    with _replacing(path) as file:
-        file.write(
-            '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
-            f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{count if cells == "Verts" else 0}" '
-            f'NumberOfLines="{count if cells == "Lines" else 0}" NumberOfStrips="0" NumberOfPolys="0">\n<Points>\n'
-        )
-        _data(file, "Points", points, 3)
-        file.write(f"</Points>\n<{cells}>\n")
-        _data(file, "connectivity", np.arange(len(points)))
-        _data(file, "offsets", np.arange(size, len(points) + 1, size))
-        file.write(f"</{cells}>\n<PointData>\n")
-        for name, values in point_data.items():
-            _data(file, name, values)
-        file.write("</PointData>\n<CellData>\n")
-        for name, values in cell_data.items():
-            _data(file, name, values)
-        file.write("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n")
-
-
 def write_vtk(system: System, path: str | os.PathLike) -> None:
     """The spheres as .vtp points with diameter, contacts and kind (0 rattler, 1 buckler, 2 other).
 
     In ParaView: filter Glyph, sphere, scale by `diameter`, factor 1.
     """
-    data, kinds = {"diameter": system.diameters}, _kinds(system)
-    if kinds is not None:
-        data.update(contacts=system.coordination, kind=kinds)
-    _polydata(path, _padded(system.positions), "Verts", 1, data, {})
+    system.write(path, "vtp")
 
 
 def write_vtk_network(system: System, path: str | os.PathLike) -> None:
@@ -106,16 +67,7 @@ def write_vtk_network(system: System, path: str | os.PathLike) -> None:
 
     In ParaView: filter Tube, vary radius by `force`.
     """
-    ends, index = half_bonds(system)
-    contacts = system.contacts
-    _polydata(
-        path,
-        _padded(ends).reshape(-1, 3),
-        "Lines",
-        2,
-        {"force": np.repeat(contacts.forces[index], 2)},
-        {"force": contacts.forces[index], "gap": contacts.gaps[index], "contact": index},
-    )
+    system.write_contacts(path, "vtp")
 
 
 def _axes(d: int) -> list[str]:
@@ -133,17 +85,7 @@ def write_csv(system: System, path: str | os.PathLike) -> None:
 
 def write_contacts_csv(system: System, path: str | os.PathLike) -> None:
     """One line a contact: i, j, unit vector, gap, force (mean 1)."""
-    c = system.contacts
-    rows = np.hstack([c.pairs, c.vectors, c.gaps[:, None], c.forces[:, None]])
-    with _replacing(path) as file:
-        np.savetxt(
-            file,
-            rows,
-            fmt=["%d", "%d"] + ["%.17g"] * (rows.shape[1] - 2),
-            delimiter=",",
-            header=",".join(["i", "j"] + [f"n{k + 1}" for k in range(system.dim)] + ["gap", "force"]),
-            comments="",
-        )
+    system.write_contacts(path, "csv")
 
 
 def write_spectrum_csv(modes: Modes, path: str | os.PathLike) -> None:

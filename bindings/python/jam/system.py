@@ -1,10 +1,13 @@
 """The system of spheres: a thin, native-feeling layer over the C handle."""
 from __future__ import annotations
 
+import html
 import os
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, Mapping
+
+import numpy as np
 
 from . import _calls, errors, raw
 from ._generated import JAM_MAX_DIM
@@ -142,7 +145,10 @@ class System(State, Verbs, Network):
 
     @classmethod
     def read(cls, path: str | os.PathLike, **options: Any) -> "System":
-        """Reads a file of plain text or extended XYZ; the content tells which.
+        """Reads a packing: plain text, extended XYZ, LAMMPS data (atom_style sphere), each also compressed, or GSD.
+
+        The content tells the format, but for GSD (needs python3-gsd), which goes by the ending .gsd. For other formats
+        there is jam.files.read_ase.
 
         Parameters
         ----------
@@ -152,8 +158,13 @@ class System(State, Verbs, Network):
             overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, and box for a plain file that
             names none. What the file holds wins.
         """
+        name = os.fspath(path)
+        if name.endswith(".gsd"):
+            from . import other_files
+
+            return other_files.read_gsd(name, **options)
         made = _calls.options("jam_create_options", options)
-        return cls(raw.jam_read(os.fspath(path), made)[1])
+        return cls(raw.jam_read(name, made)[1])
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike) -> "System":
@@ -236,11 +247,78 @@ class System(State, Verbs, Network):
         ----------
         path : path-like
             The file appears whole or not at all.
-        format : {'auto', 'plain', 'xyz'}
-            'auto' goes by the ending: .xyz and .extxyz are extended XYZ; .dat, .txt and no ending are plain text. Other
-            endings are refused.
+        format : {'auto', 'plain', 'xyz', 'lammps', 'vtp'}
+            'auto' goes by the ending: .xyz and .extxyz are extended XYZ; .data and .lmp LAMMPS data; .vtp ParaView's;
+            .gsd HOOMD's (needs python3-gsd); .dat, .txt and no ending plain text. With .gz behind it the file is
+            compressed. Other endings are refused.
         """
-        raw.jam_write(self.handle, os.fspath(path), _calls.as_enum(format, "Format"))
+        name = os.fspath(path)
+        if format == "auto" and name.endswith(".gsd"):
+            from . import other_files
+
+            return other_files.write_gsd(self, name)
+        raw.jam_write(self.handle, name, _calls.as_enum(format, "Format"))
+
+    def write_contacts(self, path: str | os.PathLike, format: int | str = "auto") -> None:
+        """Writes the contact network: pairs, unit vectors, gaps and forces.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears whole or not at all.
+        format : {'auto', 'csv', 'dump', 'vtp'}
+            'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
+            behind it the file is compressed.
+        """
+        raw.jam_write_contacts(self.handle, os.fspath(path), _calls.as_enum(format, "ContactFormat"))
+
+    def page(
+        self, path: str | os.PathLike, title: str = "", *, values: Mapping[str, Any] | None = None, small: bool = False
+    ) -> None:
+        """Writes one HTML file to look at the packing in a browser; it needs no network.
+
+        It shows spheres and contact forces to turn and to slice, the numbers of each sphere, the certificate and
+        distributions.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears whole or not at all.
+        title : str
+            Its heading.
+        values : mapping of str to array_like, shape (n,)
+            More numbers that spheres can be coloured by, under these names.
+        small : bool
+            The picture alone, without the numbers beside it.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> disks.page("disks.html", values={"height": disks.positions[:, 1]})
+        """
+        columns = {name: _calls.as_array(x, name=name).reshape(-1) for name, x in (values or {}).items()}
+        for name, column in columns.items():
+            if "\n" in name or not name:
+                raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty")
+            if len(column) != self.n:
+                raise ValueError(f"{name} must have shape ({self.n},), not {column.shape}")
+        numbers = np.concatenate(list(columns.values())) if columns else None
+        raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers)
+
+    def _repr_html_(self) -> str:
+        """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""
+        if self._handle is None or self.n > 20000:
+            return f"<pre>{html.escape(repr(self))}</pre>"
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "page.html")
+            self.page(file, small=True)
+            text = file.read_text(encoding="utf-8")
+        return (
+            f'<iframe srcdoc="{html.escape(text)}" title="{html.escape(repr(self))}" '
+            'style="width:100%;height:480px;border:1px solid #ccc"></iframe>'
+        )
 
     def save(self, path: str | os.PathLike) -> None:
         """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).

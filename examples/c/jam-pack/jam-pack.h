@@ -21,7 +21,7 @@ typedef struct options {
   stage stages[MAX_STAGES];
   int stage_count;
   int no_md, no_crunch, quiet, shrink;
-  const char *input, *output, *contacts, *report;
+  const char *input, *output, *contacts, *report, *page;
   int64_t modes; /* how many --spectrum writes, 0: all; -1: not given */
   const char *spectrum, *gaps, *structure;
   int32_t model, n_given;
@@ -50,7 +50,6 @@ int take_diameters(const char *value, options *o);
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
 int check_writable(const char *path);
 int write_report(const outcome *result, const char *path);
-int write_contacts(const jam_system *sys, const char *path);
 void print_summary(const outcome *result);
 void complain(const char *format, ...);
 

@@ -164,15 +164,22 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 #undef LEFT
 }
 
+/* 1 after a message when a call failed. */
+static int told(jam_status status) {
+  if (status < 0) complain("%s", jam_last_error());
+  return status < 0;
+}
+
 static int write_all(jam_system *sys, const options *o, outcome *result) {
   int bad = 0;
   result->info.struct_size = sizeof result->info;
   jam_info_get(sys, &result->info);
-  if (o->output && jam_write(sys, o->output, JAM_FORMAT_AUTO) < 0) {
-    complain("%s", jam_last_error());
-    bad = 1;
+  if (o->output) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
+  if (o->contacts && result->has_crunch) {
+    const int table = !strcmp(o->contacts, "-");
+    bad |= told(jam_write_contacts(sys, table ? "/dev/stdout" : o->contacts, table ? JAM_CONTACTS_CSV : 0));
   }
-  if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts) != 0;
+  if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
   running = sys; /* a large spectrum takes long */
   if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;
   running = NULL;
@@ -191,7 +198,7 @@ int main(int argc, char **argv) {
   const int parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
   if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report) ||
-      check_writable(o.spectrum) || check_writable(o.gaps) || check_writable(o.structure))
+      check_writable(o.spectrum) || check_writable(o.gaps) || check_writable(o.structure) || check_writable(o.page))
     return EXIT_OUTPUT;
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);

@@ -46,9 +46,13 @@ static const char help[] =
     "  --threads T            1 or 2 (1; the same bits each time on 1)\n"
     "  --no-crunch            stop after molecular dynamics\n"
     "Output\n"
-    "  --output FILE          the packing: .xyz or .extxyz for extended XYZ; .dat, .txt or no\n"
-    "                         ending for plain text\n"
-    "  --contacts FILE.csv    the contact network: i,j,unit vector,gap,force (mean 1)\n"
+    "  --output FILE          the packing: .xyz or .extxyz for extended XYZ; .data or .lmp for\n"
+    "                         LAMMPS; .vtp for ParaView; .dat, .txt or no ending for plain text;\n"
+    "                         with .gz behind it compressed\n"
+    "  --page FILE.html       the packing to look at in a browser, with forces, certificate and\n"
+    "                         distributions; needs no network\n"
+    "  --contacts FILE        the contact network: i, j, unit vector, gap, force (mean 1), as\n"
+    "                         .csv, .dump (LAMMPS dump local) or .vtp (ParaView)\n"
     "  --spectrum FILE.csv    lowest modes of the harmonic Hessian: omega^2, omega, participation\n"
     "  --modes K              how many --spectrum writes (100); 0: all, which needs\n"
     "                         24 (d N)^2 bytes, at most 2e9\n"
@@ -183,6 +187,8 @@ static int take_value(const char *name, const char *value, options *o) {
     o->contacts = value;
   else if (!strcmp(name, "--report"))
     o->report = value;
+  else if (!strcmp(name, "--page"))
+    o->page = value;
   else if (!strcmp(name, "--modes"))
     status = take_integer(name, value, 0, INT32_MAX, &o->modes);
   else if (!strcmp(name, "--spectrum"))
@@ -217,8 +223,8 @@ static int same(const char *a, const char *b) { return a && b && strcmp(a, "-") 
 
 /* Every output to its own file, and none over the input. */
 static int settle_files(const options *o) {
-  const char *const name[] = {"--output", "--contacts", "--report", "--spectrum", "--gaps", "--structure"};
-  const char *const file[] = {o->output, o->contacts, o->report, o->spectrum, o->gaps, o->structure};
+  const char *const name[] = {"--output", "--contacts", "--report", "--spectrum", "--gaps", "--structure", "--page"};
+  const char *const file[] = {o->output, o->contacts, o->report, o->spectrum, o->gaps, o->structure, o->page};
   const int count = (int)(sizeof file / sizeof *file);
   int j, k;
   for (k = 0; k < count; ++k) {
@@ -231,7 +237,7 @@ static int settle_files(const options *o) {
       complain("%s would overwrite the input", name[k]);
       return -1;
     }
-    if (o->no_crunch && file[k] && k != 0 && k != 2) {
+    if (o->no_crunch && file[k] && k != 0 && k != 2 && k != 6) {
       complain("%s needs the crunch that --no-crunch leaves out", name[k]);
       return -1;
     }
@@ -243,30 +249,56 @@ static int settle_files(const options *o) {
   return 0;
 }
 
-static int is_xyz(const char *path) {
-  const char *dot = strrchr(path, '.');
-  return dot && (!strcmp(dot, ".xyz") || !strcmp(dot, ".extxyz"));
+/* What stands behind the last dot of a name, without .gz. */
+static void ending_of(const char *path, char ending[8]) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot;
+  char bare[256];
+  size_t length = strlen(name);
+  if (length > 3 && !strcmp(name + length - 3, ".gz")) length -= 3;
+  snprintf(bare, sizeof bare, "%.*s", (int)length, name);
+  dot = strrchr(bare, '.');
+  snprintf(ending, 8, "%.7s", dot && dot != bare ? dot + 1 : "");
 }
 
-/* Whether jam_write knows the format of this name: said before the work, not after it. */
-static int has_format(const char *path) {
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
-  return is_xyz(path) || !dot || dot == name || !strcmp(dot, ".dat") || !strcmp(dot, ".txt") ||
-         strspn(dot + 1, "0123456789") == strlen(dot + 1);
+static int is_one_of(const char *word, const char *const *list) {
+  while (*list && strcmp(word, *list)) ++list;
+  return *list != NULL;
+}
+
+/* Whether the library knows the formats of these names: said before the work, not after it. */
+static int settle_formats(const options *o) {
+  static const char *const packings[] = {"xyz", "extxyz", "data", "lmp", "vtp", "dat", "txt", "", NULL};
+  static const char *const networks[] = {"csv", "dump", "vtp", NULL};
+  char ending[8];
+  if (o->output) {
+    ending_of(o->output, ending);
+    if (!is_one_of(ending, packings) && strspn(ending, "0123456789") != strlen(ending)) {
+      complain(
+          "--output %s: no format is known by this ending; use .xyz, .extxyz, .data, .lmp, .vtp, .dat, .txt or none,"
+          " with .gz behind it or without",
+          o->output);
+      return -1;
+    }
+    if (o->non_additivity != 0 && strcmp(ending, "xyz") && strcmp(ending, "extxyz")) {
+      complain("--non-additivity needs an --output that ends in .xyz or .extxyz: no other format can hold it");
+      return -1;
+    }
+  }
+  if (o->contacts && strcmp(o->contacts, "-") && strncmp(o->contacts, "/dev/", 5)) {
+    ending_of(o->contacts, ending);
+    if (!is_one_of(ending, networks)) {
+      complain("--contacts %s: no format is known by this ending; use .csv, .dump or .vtp", o->contacts);
+      return -1;
+    }
+  }
+  return 0;
 }
 
 /* What contradicts itself, and what follows from the rest. */
 static int settle(options *o) {
   int k;
   if (settle_files(o)) return -1;
-  if (o->output && !has_format(o->output)) {
-    complain("--output %s: no format is known by this ending; use .xyz, .extxyz, .dat, .txt or none", o->output);
-    return -1;
-  }
-  if (o->non_additivity != 0 && o->output && !is_xyz(o->output)) {
-    complain("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it");
-    return -1;
-  }
+  if (settle_formats(o)) return -1;
   if (o->no_md && (o->stage_count || o->nve > 0)) {
     complain("--no-md contradicts %s", o->stage_count ? "--growth" : "--nve");
     return -1;

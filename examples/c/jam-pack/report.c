@@ -149,49 +149,6 @@ int write_report(const outcome *result, const char *path) {
   return close_output(&out);
 }
 
-static void put_contacts(FILE *f, int32_t dim, size_t count, const int32_t *pair, const double *vector,
-                         const double *gap, const double *force) {
-  size_t k;
-  int32_t c;
-  fputs("i,j", f);
-  for (c = 0; c < dim; ++c) fprintf(f, ",n%d", (int)c + 1);
-  fputs(",gap,force\n", f);
-  for (k = 0; k < count; ++k) {
-    fprintf(f, "%d,%d", (int)pair[2 * k], (int)pair[2 * k + 1]);
-    for (c = 0; c < dim; ++c) fprintf(f, ",%.17g", vector[k * (size_t)dim + (size_t)c]);
-    fprintf(f, ",%.17g,%.17g\n", gap[k], force[k]);
-  }
-}
-
-int write_contacts(const jam_system *sys, const char *path) {
-  size_t count = 0, vectors = 0, pairs = 0;
-  int32_t *pair = NULL;
-  double *number = NULL;
-  output out;
-  int bad = jam_forces(sys, NULL, 0, &count) < 0 || jam_contact_vectors(sys, NULL, 0, &vectors) < 0 ||
-            jam_contacts(sys, NULL, 0, &pairs) < 0;
-  if (!bad) {
-    pair = malloc((pairs + 1) * sizeof *pair);
-    number = malloc((vectors + 2 * count + 1) * sizeof *number);
-    bad = !pair || !number || jam_contacts(sys, pair, pairs, NULL) < 0 ||
-          jam_contact_vectors(sys, number, vectors, NULL) < 0 ||
-          jam_contact_gaps(sys, number + vectors, count, NULL) < 0 ||
-          jam_forces(sys, number + vectors + count, count, NULL) < 0;
-  }
-  if (bad) {
-    complain("cannot write %s: %s", path, pair && !number ? "out of memory" : jam_last_error());
-  } else if (open_output(&out, path) == 0) {
-    put_contacts(out.file, count ? (int32_t)(vectors / count) : 0, count, pair, number, number + vectors,
-                 number + vectors + count);
-    bad = close_output(&out);
-  } else {
-    bad = -1;
-  }
-  free(pair);
-  free(number);
-  return bad ? -1 : 0;
-}
-
 void print_summary(const outcome *result) {
   const jam_crunch_report *r = &result->crunch;
   const jam_info *info = &result->info;

@@ -86,9 +86,17 @@ const JAM_LOG_INFO = Int32(2)  # a line a stage or LP
 const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
 # jam_format: File formats. @since 0.1
-const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz, .extxyz are XYZ; .dat, .txt, no ending PLAIN; others are refused
+const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN; others are refused. With .gz behind it the file is compressed
 const JAM_FORMAT_PLAIN = Int32(1)  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
+const JAM_FORMAT_LAMMPS = Int32(3)  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
+const JAM_FORMAT_VTP = Int32(4)  # VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). Written only
+
+# jam_contact_format: Formats of contact networks. @since 0.1
+const JAM_CONTACTS_AUTO = Int32(0)  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
+const JAM_CONTACTS_CSV = Int32(1)  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
+const JAM_CONTACTS_DUMP = Int32(2)  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
+const JAM_CONTACTS_VTP = Int32(3)  # VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the cell, with force, gap and number of the contact
 
 # jam_growth_law: How the spheres grow. @since 0.1
 const JAM_GROWTH_DIAMETER = Int32(0)  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
@@ -1029,11 +1037,30 @@ end
 Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
 under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
 JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
-jam_checkpoint_write. Plain text cannot hold non_additivity: JAM_E_UNSUPPORTED.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_IO. Threads: const. @since 0.1
+jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
+JAM_E_UNSUPPORTED.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
 """
 function jam_write(sys, path, format)
     return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
+end
+
+"""
+Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+"""
+function jam_write_contacts(sys, path, format)
+    return ccall((:jam_write_contacts, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
+end
+
+"""
+Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
+numbers of each sphere, certificate and distributions. title: its heading, or "". small: 1 for the picture alone, 0
+for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or "".
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1
+"""
+function jam_write_page(sys, path, title, small, names, values, values_len)
+    return ccall((:jam_write_page, libjam), Int32, (Ptr{Cvoid}, Cstring, Cstring, Int32, Cstring, Ptr{Cdouble}, Csize_t), sys, path, title, small, names, _ptr(values), values_len)
 end
 
 """

@@ -1,0 +1,54 @@
+// Header section "files": jam_write_page gathers what the page shows.
+#include "io/page.hpp"
+#include <cmath>
+#include "analysis/structure.hpp"
+#include "capi/guard.hpp"
+
+using namespace jam;
+
+namespace {
+
+constexpr double gap_reach = 1.0;  // gaps up to one diameter are shown, as --gaps of jam-pack writes them
+
+void take_columns(const jam_system *sys, const char *names, const double *values, size_t len, PageContent &content) {
+  if (!values && len != 0) fail(JAM_E_NULL, "values is NULL but its length is %zu", len);
+  const size_t n = sys->packing.n();
+  std::vector<std::string> name;
+  for (const char *from = names; *from;) {
+    const size_t length = std::strcspn(from, "\n");
+    name.emplace_back(from, length);
+    from += length + (from[length] == '\n');
+  }
+  if (name.size() * n != len)
+    fail(JAM_E_ARGUMENT, "values has %zu numbers, %zu names of %zu spheres need %zu", len, name.size(), n,
+         name.size() * n);
+  for (size_t k = 0; k < len; ++k)
+    if (!std::isfinite(values[k])) fail(JAM_E_NONFINITE, "values[%zu] is %g", k, values[k]);
+  for (size_t k = 0; k < name.size(); ++k) content.columns.emplace_back(name[k], values + k * n);
+}
+
+}  // namespace
+
+extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
+                                     const char *names, const double *values, size_t values_len) {
+  return guard_const(sys, [&]() -> jam_status {
+    need(path, "path");
+    need(title, "title");
+    need(names, "names");
+    if (small != 0 && small != 1) fail(JAM_E_ARGUMENT, "small is %d, it must be 0 or 1", small);
+    PageContent content{sys->packing};
+    content.title = title;
+    content.small = small;
+    take_columns(sys, names, values, values_len, content);
+    if (sys->has_report) {
+      content.network = &sys->contacts;
+      content.report = &sys->report;
+      content.stop_reason = jam_stop_string(sys->report.stop_reason);
+      if (!small) content.gaps = find_gaps(sys->packing, &sys->contacts, gap_reach, true).gap;
+    }
+    if (sys->has_history)
+      for (const HistoryRow &row : sys->history) content.history.push_back(row[JAM_HISTORY_GAIN]);
+    write_page(content, path);
+    return JAM_OK;
+  });
+}

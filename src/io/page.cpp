@@ -1,0 +1,174 @@
+#include "io/page.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "io/output_file.hpp"
+#include "io/text.hpp"
+
+namespace jam {
+namespace {
+
+// A string of JSON inside a script element: nothing in it can end the element.
+void put_string(std::string &out, const std::string &text) {
+  out += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else if (static_cast<unsigned char>(c) < ' ' || c == '<') {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
+      out += code;
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
+
+// JSON has no NaN and no infinity.
+void put_number(std::string &out, double x) {
+  if (std::isfinite(x))
+    append_number(out, x);
+  else
+    out += "null";
+}
+
+// Numbers as base64 of their bytes, which a page decodes faster than digits.
+template <class T>
+void put_numbers(OutputFile &file, const T *values, size_t count) {
+  static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const unsigned char *bytes = reinterpret_cast<const unsigned char *>(values);
+  const size_t size = count * sizeof(T);
+  std::string &out = file.text();
+  out += '"';
+  for (size_t k = 0; k < size; k += 3) {
+    const size_t have = size - k < 3 ? size - k : 3;
+    unsigned word = 0;
+    for (size_t b = 0; b < 3; ++b) word = word << 8 | (b < have ? bytes[k + b] : 0u);
+    for (size_t b = 0; b < 4; ++b) out += b <= have ? digit[word >> (18 - 6 * b) & 63u] : '=';
+    file.flush_if_full();
+  }
+  out += '"';
+}
+template <class T, class From>
+void put_as(OutputFile &file, const std::vector<From> &values) {
+  const std::vector<T> as(values.begin(), values.end());
+  put_numbers(file, as.data(), as.size());
+}
+
+void put_network(OutputFile &file, const ContactNetwork &net) {
+  std::vector<int32_t> pair;
+  for (size_t k = 0; k < net.size(); ++k) {
+    pair.push_back(net.pairs.i[k]);
+    pair.push_back(net.pairs.j[k]);
+  }
+  file.text() += ",\n\"contacts\": {\"pair\": ";
+  put_numbers(file, pair.data(), pair.size());
+  file.text() += ", \"vector\": ";
+  put_as<float>(file, net.vector);
+  file.text() += ", \"gap\": ";
+  put_as<float>(file, net.gap);
+  file.text() += ", \"force\": ";
+  put_as<float>(file, net.force);
+  file.text() += "}";
+}
+
+void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason) {
+  const std::pair<const char *, double> rows[] = {
+      {"contacts", static_cast<double>(r.contacts)},
+      {"contacts above isostatic", static_cast<double>(r.excess_contacts)},
+      {"rattlers", static_cast<double>(r.rattlers)},
+      {"bucklers", static_cast<double>(r.bucklers)},
+      {"flexes", static_cast<double>(r.flexes)},
+      {"largest overlap", r.max_overlap},
+      {"force imbalance over mean force", r.force_residual},
+      {"largest gap of a contact", r.max_contact_gap},
+      {"smallest force", r.min_force},
+      {"smallest gap of no contact", r.min_gap},
+      {"rigidity margin", r.rigidity_margin},
+      {"duality gap of the last LP", r.duality_gap},
+      {"seconds of the crunch", r.seconds},
+  };
+  out += ",\n\"report\": {\"jammed\": ";
+  out += r.jammed ? "true" : "false";
+  out += ", \"stop_reason\": ";
+  put_string(out, stop_reason);
+  out += ", \"numbers\": {";
+  for (const auto &[name, value] : rows) {
+    if (&name != &rows[0].first && out.back() != '{') out += ", ";
+    put_string(out, name);
+    out += ": ";
+    put_number(out, value);
+  }
+  out += "}}";
+}
+
+// How many gaps are at most as long as each of some, about evenly spaced on a logarithmic axis.
+void put_gaps(std::string &out, const std::vector<double> &gaps) {
+  constexpr double ratio = 1.05;
+  out += ",\n\"gaps\": [";
+  double last = 0.0;
+  bool first = true;
+  for (size_t k = 0; k < gaps.size(); ++k) {
+    if (gaps[k] <= 0.0 || (gaps[k] < ratio * last && k + 1 < gaps.size())) continue;
+    last = gaps[k];
+    out += first ? "[" : ", [";
+    first = false;
+    append_number(out, gaps[k]);
+    out += ", " + std::to_string(k + 1) + "]";
+  }
+  out += "]";
+}
+
+}  // namespace
+
+void write_page(const PageContent &content, const char *path) {
+  const Packing &p = content.packing;
+  OutputFile file(path);
+  std::string &out = file.text();
+  out += page_head;
+  out += "{\"title\": ";
+  put_string(out, content.title);
+  out += std::string(", \"small\": ") + (content.small ? "true" : "false");
+  out += ", \"dim\": " + std::to_string(p.dim) + ", \"n\": " + std::to_string(p.n()) +
+         ", \"seed\": " + std::to_string(p.seed) + ", \"non_additivity\": ";
+  append_number(out, p.non_additivity);
+  out += ", \"packing_fraction\": ";
+  put_number(out, packing_fraction(p));
+  out += ",\n\"cell\": [";
+  for (int row = 0; row < p.dim; ++row) {
+    out += row ? ", [" : "[";
+    for (int c = 0; c < p.dim; ++c) {
+      if (c) out += ", ";
+      append_number(out, c == row ? p.cell.edge(row) : c < row ? p.cell.row(row)[c] : 0.0);
+    }
+    out += "]";
+  }
+  out += "],\n\"position\": ";
+  put_numbers(file, p.position.data(), p.position.size());
+  out += ",\n\"diameter\": ";
+  put_numbers(file, p.diameter.data(), p.diameter.size());
+  if (content.network) put_network(file, *content.network);
+  if (content.report) put_report(out, *content.report, content.stop_reason);
+  put_gaps(out, content.gaps);
+  out += ",\n\"history\": [";
+  for (size_t k = 0; k < content.history.size(); ++k) {
+    if (k) out += ", ";
+    put_number(out, content.history[k]);
+  }
+  out += "],\n\"values\": [";
+  for (size_t k = 0; k < content.columns.size(); ++k) {
+    out += k ? ", {\"name\": " : "{\"name\": ";
+    put_string(out, content.columns[k].first);
+    out += ", \"values\": ";
+    put_numbers(file, content.columns[k].second, p.n());
+    out += "}";
+  }
+  out += "]}";
+  out += page_tail;
+  file.commit();
+}
+
+}  // namespace jam

@@ -1,0 +1,74 @@
+// The packing: numbers of the JSON block, and what follows from them.
+const data = JSON.parse(document.getElementById("data").textContent);
+
+function numbers(text, Type) {
+  const raw = atob(text), bytes = new Uint8Array(raw.length);
+  for (let k = 0; k < raw.length; ++k) bytes[k] = raw.charCodeAt(k);
+  return new Type(bytes.buffer);
+}
+
+const dim = data.dim, n = data.n, cell = data.cell;
+const position = numbers(data.position, Float64Array), diameter = numbers(data.diameter, Float64Array);
+const radius = (i) => 0.5 * diameter[diameter.length > 1 ? i : 0];
+const cube = cell.every((row, r) => row.every((x, c) => (r === c ? x === cell[0][0] : x === 0)));
+let meanDiameter = 0;
+for (const s of diameter) meanDiameter += s / diameter.length;
+
+// Rows of contacts: spheres i and j, the unit vector from j to i, gap and force (mean 1).
+const network = data.contacts && {
+  pair: numbers(data.contacts.pair, Int32Array),
+  vector: numbers(data.contacts.vector, Float32Array),
+  gap: numbers(data.contacts.gap, Float32Array),
+  force: numbers(data.contacts.force, Float32Array),
+};
+const contactCount = network ? network.force.length : 0;
+const coordination = new Int32Array(n), load = new Float64Array(n), contactsOf = new Map();
+for (let k = 0; k < contactCount; ++k)
+  for (const end of [network.pair[2 * k], network.pair[2 * k + 1]]) {
+    ++coordination[end];
+    load[end] += network.force[k];
+  }
+
+// 0 stable, 1 buckler, 2 rattler: colours that stay apart for every kind of colour vision, and a letter each.
+const CLASSES = [
+  { name: "stable", letter: "S", colour: [0, 114, 178] },
+  { name: "buckler", letter: "B", colour: [230, 159, 0] },
+  { name: "rattler", letter: "R", colour: [190, 190, 190] },
+];
+const classOf = (i) => (!network ? 0 : coordination[i] === 0 ? 2 : coordination[i] === dim + 1 ? 1 : 0);
+
+// What spheres can be coloured by: a name and a number a sphere.
+const quantities = [{ name: "diameter", of: (i) => 2 * radius(i) }];
+if (network)
+  quantities.unshift({ name: "class", of: classOf, classes: true },
+    { name: "coordination", of: (i) => coordination[i], whole: true }, { name: "sum of forces", of: (i) => load[i] });
+for (const own of data.values) {
+  const list = numbers(own.values, Float64Array);
+  quantities.push({ name: own.name, of: (i) => list[i] });
+}
+
+function shownNumber(x, digits = 6) {
+  if (x === null || x === undefined || Number.isNaN(x)) return "–";
+  if (Number.isInteger(x) && Math.abs(x) < 1e9) return String(x);
+  return Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6 ? x.toPrecision(digits) : x.toExponential(Math.min(3, digits - 1));
+}
+
+// The contacts of one sphere, found when they are asked for.
+function contacts(i) {
+  if (!contactsOf.has(i)) {
+    const rows = [];
+    for (let k = 0; k < contactCount; ++k) {
+      const [a, b] = [network.pair[2 * k], network.pair[2 * k + 1]];
+      if (a === i || b === i) rows.push({ other: a === i ? b : a, force: network.force[k], gap: network.gap[k] });
+    }
+    contactsOf.set(i, rows.sort((a, b) => b.force - a.force));
+  }
+  return contactsOf.get(i);
+}
+
+const VIRIDIS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
+  [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+function viridis(t) {
+  const x = Math.min(Math.max(t, 0), 1) * (VIRIDIS.length - 1), k = Math.min(Math.floor(x), VIRIDIS.length - 2);
+  return VIRIDIS[k].map((c, m) => Math.round(c + (x - k) * (VIRIDIS[k + 1][m] - c)));
+}

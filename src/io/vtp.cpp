@@ -1,0 +1,74 @@
+#include "io/vtp.hpp"
+
+#include <cstring>
+#include <numeric>
+
+namespace jam {
+
+template <class T>
+VtpFile::Array VtpFile::array(const char *name, const std::vector<T> &values, int components) {
+  Array made{name, std::is_integral<T>::value, components, std::string(values.size() * sizeof(T), '\0')};
+  if (!values.empty()) std::memcpy(&made.bytes[0], values.data(), made.bytes.size());
+  return made;
+}
+
+VtpFile::VtpFile(std::vector<double> points, int cell_size)
+    : points_(points.size() / 3), cell_size_(static_cast<size_t>(cell_size)), place_(array("Points", points, 3)) {
+  std::vector<int64_t> point(points_), end(points_ / cell_size_);
+  std::iota(point.begin(), point.end(), 0);
+  for (size_t k = 0; k < end.size(); ++k) end[k] = static_cast<int64_t>((k + 1) * cell_size_);
+  connectivity_ = array("connectivity", point, 1);
+  offsets_ = array("offsets", end, 1);
+}
+
+void VtpFile::add_point_data(const char *name, std::vector<double> values) {
+  point_data_.push_back(array(name, values, 1));
+}
+void VtpFile::add_point_data(const char *name, std::vector<int64_t> values) {
+  point_data_.push_back(array(name, values, 1));
+}
+void VtpFile::add_cell_data(const char *name, std::vector<double> values) {
+  cell_data_.push_back(array(name, values, 1));
+}
+void VtpFile::add_cell_data(const char *name, std::vector<int64_t> values) {
+  cell_data_.push_back(array(name, values, 1));
+}
+
+void VtpFile::write(OutputFile &file) const {
+  std::string &out = file.text();
+  std::vector<const Array *> order;
+  size_t offset = 0;
+  const auto announce = [&](const Array &a) {
+    out += "<DataArray type=\"" + std::string(a.whole ? "Int64" : "Float64") + "\" Name=\"" + a.name +
+           "\" NumberOfComponents=\"" + std::to_string(a.components) + "\" format=\"appended\" offset=\"" +
+           std::to_string(offset) + "\"/>\n";
+    offset += sizeof(uint64_t) + a.bytes.size();
+    order.push_back(&a);
+  };
+  const std::string cells = std::to_string(points_ / cell_size_), kind = cell_size_ == 1 ? "Verts" : "Lines";
+  out +=
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+      std::to_string(points_) + "\" NumberOfVerts=\"" + (cell_size_ == 1 ? cells : "0") + "\" NumberOfLines=\"" +
+      (cell_size_ == 2 ? cells : "0") + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
+  announce(place_);
+  out += "</Points>\n<" + kind + ">\n";
+  announce(connectivity_);
+  announce(offsets_);
+  out += "</" + kind + ">\n<PointData>\n";
+  for (const Array &a : point_data_) announce(a);
+  out += "</PointData>\n<CellData>\n";
+  for (const Array &a : cell_data_) announce(a);
+  out += "</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  for (const Array *a : order) {
+    const uint64_t size = a->bytes.size();
+    char head[sizeof size];
+    std::memcpy(head, &size, sizeof size);
+    out.append(head, sizeof head);
+    out += a->bytes;
+    file.flush_if_full();
+  }
+  out += "\n</AppendedData>\n</VTKFile>\n";
+}
+
+}  // namespace jam

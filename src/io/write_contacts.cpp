@@ -1,0 +1,117 @@
+// Contact networks as files: a table, a LAMMPS dump local, lines for ParaView.
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+#include "io/files.hpp"
+#include "io/lammps.hpp"
+#include "io/output_file.hpp"
+#include "io/text.hpp"
+#include "io/vtp.hpp"
+
+namespace jam {
+namespace {
+
+// Rows of both text formats; first: the number of the first sphere.
+void put_rows(const Packing &p, const ContactNetwork &net, int first, char between, OutputFile &file) {
+  std::string &out = file.text();
+  const size_t d = static_cast<size_t>(p.dim);
+  for (size_t k = 0; k < net.size(); ++k) {
+    (out += std::to_string(net.pairs.i[k] + first)) += between;
+    out += std::to_string(net.pairs.j[k] + first);
+    for (size_t c = 0; c < d + 2; ++c) {
+      out += between;
+      append_number(out, c < d ? net.vector[k * d + c] : c == d ? net.gap[k] : net.force[k]);
+    }
+    out += '\n';
+    file.flush_if_full();
+  }
+}
+
+void write_csv(const Packing &p, const ContactNetwork &net, OutputFile &file) {
+  file.text() += "i,j";
+  for (int c = 0; c < p.dim; ++c) file.text() += ",n" + std::to_string(c + 1);
+  file.text() += ",gap,force\n";
+  put_rows(p, net, 0, ',', file);
+}
+
+// A dump of a tilted cell names the smallest brick around it.
+void write_dump(const Packing &p, const ContactNetwork &net, OutputFile &file) {
+  const LammpsBox box = lammps_box(p, "a LAMMPS dump");
+  std::string &out = file.text();
+  out += "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n" + std::to_string(net.size()) + "\nITEM: BOX BOUNDS ";
+  out += box.tilted ? "xy xz yz pp pp pp\n" : "pp pp pp\n";
+  const double xy = box.tilt[0], xz = box.tilt[1], yz = box.tilt[2];
+  const std::array<double, 3> below{std::min({0.0, xy, xz, xy + xz}), std::min(0.0, yz), 0.0};
+  const std::array<double, 3> above{std::max({0.0, xy, xz, xy + xz}), std::max(0.0, yz), 0.0};
+  for (size_t c = 0; c < 3; ++c) {
+    append_number(out, box.low[c] + below[c]);
+    out += ' ';
+    append_number(out, box.high[c] + above[c]);
+    if (box.tilted) {
+      out += ' ';
+      append_number(out, box.tilt[c]);
+    }
+    out += '\n';
+  }
+  out += "ITEM: ENTRIES i j";
+  for (int c = 0; c < p.dim; ++c) out += std::string(" n") + "xyz"[c];
+  out += " gap force\n";
+  put_rows(p, net, 1, ' ', file);
+}
+
+void write_lines(const Packing &p, const ContactNetwork &net, OutputFile &file) {
+  if (p.dim > 3) fail(JAM_E_UNSUPPORTED, "VTP holds d = 2 and d = 3, this packing has d = %d", p.dim);
+  const size_t d = static_cast<size_t>(p.dim);
+  std::vector<double> points, force, gap;
+  std::vector<int64_t> contact;
+  for (const int end : {0, 1})
+    for (size_t k = 0; k < net.size(); ++k) {
+      const int32_t i = net.pairs.i[k], j = net.pairs.j[k];
+      const double half = 0.5 * contact_distance(p, i, j) * (1.0 + net.gap[k]);
+      const double *x = &p.position[static_cast<size_t>(end == 0 ? i : j) * d];
+      for (const double step : {0.0, end == 0 ? -half : half})
+        for (size_t c = 0; c < 3; ++c) points.push_back(c < d ? x[c] + step * net.vector[k * d + c] : 0.0);
+      force.push_back(net.force[k]);
+      gap.push_back(net.gap[k]);
+      contact.push_back(static_cast<int64_t>(k));
+    }
+  std::vector<double> at_points;  // ParaView's filter Tube takes its radius from data of points
+  for (const double f : force) at_points.insert(at_points.end(), {f, f});
+  VtpFile lines(std::move(points), 2);
+  lines.add_point_data("force", std::move(at_points));
+  lines.add_cell_data("force", std::move(force));
+  lines.add_cell_data("gap", std::move(gap));
+  lines.add_cell_data("contact", std::move(contact));
+  lines.write(file);
+}
+
+int32_t format_by_name(const char *path) {
+  const std::string ending = file_ending(path);
+  if (ending == "csv") return JAM_CONTACTS_CSV;
+  if (ending == "dump") return JAM_CONTACTS_DUMP;
+  if (ending == "vtp") return JAM_CONTACTS_VTP;
+  fail(JAM_E_ARGUMENT,
+       "%.200s: no format of contacts is known by the ending '%.20s': write .csv, .dump (LAMMPS) or .vtp (ParaView), "
+       "with .gz behind it or without, or name the format",
+       path, ending.c_str());
+}
+
+}  // namespace
+
+void write_contacts(const Packing &p, const ContactNetwork &net, const char *path, int32_t format) {
+  if (format < JAM_CONTACTS_AUTO || format > JAM_CONTACTS_VTP)
+    fail(JAM_E_ARGUMENT, "format is %d, not a jam_contact_format", format);
+  if (format == JAM_CONTACTS_AUTO) format = format_by_name(path);
+  OutputFile file(path);
+  if (format == JAM_CONTACTS_CSV)
+    write_csv(p, net, file);
+  else if (format == JAM_CONTACTS_DUMP)
+    write_dump(p, net, file);
+  else
+    write_lines(p, net, file);
+  file.commit();
+}
+
+}  // namespace jam

@@ -1,0 +1,203 @@
+"""The page in a real browser: it draws what the packing holds, without a word on the console. Skipped without Chromium."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+import browser
+import jam
+
+BACKGROUND = (246, 247, 249)
+
+
+def pixels(page, path, area=None):
+    page.picture(path)
+    image = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    if area:
+        u, v, w, h = (round(x) for x in area)
+        image = image[v : v + h, u : u + w]
+    return image
+
+
+def disks(n=120):
+    s = jam.System.random(n=n, dim=2, seed=1, diameters=[1.0] * (n // 2) + [1.4] * (n // 2))
+    s.compress(growth_rate=3e-2, pressure=1e4)
+    s.crunch()
+    return s
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = Path(cls.folder.name)
+        cls.disks = disks()
+        cls.page = browser.Browser(1200, 800)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.close()
+        cls.folder.cleanup()
+
+    def tearDown(self):
+        self.assertEqual(self.page.errors, [])
+        self.page.errors.clear()
+
+    def show(self, system, **more):
+        system.page(self.path / "page.html", **more)
+        self.page.open(self.path / "page.html")
+        self.page.run("document.getElementById('legend').style.display = 'none'")  # it lies on some spheres
+
+    def spot(self, i):
+        """Where sphere i stands on the screen, and its radius in pixels."""
+        found = self.page.run(
+            f"(() => {{ const o = onCanvas(scene.owner.indexOf({i}), viewNow());" " return [o.u, o.v, o.pixels]; })()"
+        )
+        return found
+
+    def test_disks_cover_what_the_packing_fraction_says(self):
+        self.show(self.disks)
+        self.page.run("state.forces = 0; state.images = true; state.box = false; rebuild()")
+        self.page.settle()
+        cell = self.page.run(
+            "(() => { const v = viewNow(), a = cell[0][0]; const u = x => 0.5 * canvas.width + (x + v.shift[0]) * v.scale,"
+            " w = y => 0.5 * canvas.height - (y + v.shift[1]) * v.scale; return [u(0), w(a), a * v.scale, a * v.scale]; })()"
+        )
+        image = pixels(self.page, self.path / "a.png", cell)
+        covered = (np.abs(image - BACKGROUND).max(2) > 8).mean()
+        self.assertAlmostEqual(covered, self.disks.packing_fraction, delta=0.01)
+
+    def test_every_disk_has_the_colour_of_its_class(self):
+        self.show(self.disks)
+        self.page.run("state.forces = 0; rebuild()")
+        self.page.settle()
+        image = pixels(self.page, self.path / "a.png")
+        want = np.where(self.disks.rattlers, 2, np.where(self.disks.bucklers, 1, 0))
+        colours = np.array([(0, 114, 178), (230, 159, 0), (190, 190, 190)])
+        for i in range(self.disks.n):
+            u, v, _ = self.spot(i)
+            found = np.abs(colours - image[int(v), int(u)]).sum(1).argmin()
+            self.assertEqual(found, want[i], f"sphere {i}")
+
+    def test_spheres_in_front_hide_those_behind(self):
+        s = jam.System.random(n=200, dim=3, seed=2, packing_fraction=0.3)
+        height = np.arange(200.0)
+        self.show(s, values={"number": height})
+        self.page.run("state.colour = quantities.findIndex(q => q.name === 'number'); rebuild()")
+        self.page.settle()
+        image = pixels(self.page, self.path / "a.png")
+        front = self.page.run(
+            "Array.from({length: n}, (_, i) => { const o = onCanvas(i, viewNow());"
+            " return [Math.round(o.u), Math.round(o.v), instanceAt(Math.round(o.u) + .5, Math.round(o.v) + .5, viewNow())]; })"
+        )
+        tones = np.array(self.page.run("Array.from({length: n}, (_, i) => viridis(i / (n - 1)))"))
+        right = 0
+        for u, v, i in front:  # the hue tells the sphere, light and shade aside
+            a, b = image[v, u] / np.linalg.norm(image[v, u]), tones[i] / np.linalg.norm(tones[i])
+            right += np.abs(a - b).max() < 0.06
+        self.assertGreaterEqual(right, 196)  # at an edge the middle of a pixel may lie on the next sphere
+
+    def test_numbers_of_a_sphere(self):
+        self.show(self.disks)
+        u, v, _ = self.spot(5)
+        self.page.mouse("mouseMoved", u, v)
+        self.assertIn("sphere 5, ", self.page.run("tip.textContent"))
+        self.assertFalse(self.page.run("tip.hidden"))
+        for kind in ("mousePressed", "mouseReleased"):
+            self.page.mouse(kind, u, v)
+        shown = self.page.run("document.getElementById('chosen').innerText")
+        self.assertIn(f"{self.disks.positions[5, 0]:.11f}"[:12], shown)
+        forces = self.page.run("contacts(5).map(c => c.force)")
+        mine = self.disks.forces[(self.disks.contacts.pairs == 5).any(1)]
+        np.testing.assert_allclose(sorted(forces), sorted(mine), rtol=1e-6)
+
+    def test_keys(self):
+        self.show(self.disks)
+        self.page.run("canvas.focus()")
+        for key, script in (("f", "state.forces"), ("l", "state.names"), ("i", "state.images")):
+            before = self.page.run("!!" + script)
+            self.page.key(key)
+            self.assertEqual(self.page.run("!!" + script), not before, key)
+        self.page.key("n")
+        self.page.key("n")
+        self.assertEqual(self.page.run("state.chosen"), 1)
+        self.assertIn("sphere 1", self.page.run("document.querySelector('[aria-live]').innerText"))
+        self.page.key("c")
+        self.assertIn("coordination", self.page.run("document.getElementById('legend').innerText"))
+        zoom = self.page.run("camera.zoom")
+        self.page.key("+")
+        self.assertGreater(self.page.run("camera.zoom"), zoom)
+        self.page.key("r")
+        self.assertEqual(self.page.run("camera.zoom"), 1)
+
+    def test_threshold_and_classes(self):
+        self.show(self.disks)
+        cell_edges = 4
+        count = "(state.box = true, rebuild(), scene.sticks)"
+        self.assertEqual(self.page.run(count), 2 * len(self.disks.forces) + cell_edges)
+        self.page.run("state.threshold = 1")
+        self.assertEqual(self.page.run(count), 2 * int((self.disks.forces >= 1).sum()) + cell_edges)
+        self.page.run("state.hide.add(2); rebuild()")
+        self.assertEqual(self.page.run("scene.count"), int((~self.disks.rattlers).sum()))
+
+    def test_four_dimensions_are_cut(self):
+        s = jam.System.random(n=300, dim=4, seed=1)
+        self.show(s)
+        x, r = s.positions[:, 3] - 0.5, 0.5 * s.diameters
+        x = x - np.round(x)
+        self.assertEqual(self.page.run("scene.count"), int((np.abs(x) < r).sum()))
+        cut = self.page.run("Array.from({length: scene.count}, (_, k) => [scene.owner[k], scene.sphere[4 * k + 3]])")
+        for i, radius in cut:
+            self.assertAlmostEqual(radius, np.sqrt(r[i] ** 2 - x[i] ** 2), delta=1e-6)
+
+    def test_before_a_crunch_and_small_and_markup(self):
+        s = jam.System.random(n=50, dim=3, seed=1)
+        self.show(s, title="<b>&</b>", small=True)
+        self.assertEqual(self.page.run("document.title"), "<b>&</b>")
+        self.assertTrue(self.page.run("document.body.classList.contains('small')"))
+        text = s._repr_html_()
+        (self.path / "notebook.html").write_text(f"<!DOCTYPE html><meta charset=utf-8>{text}", encoding="utf-8")
+        self.page.open(self.path / "notebook.html")
+        self.assertEqual(self.page.run("document.querySelector('iframe').contentWindow.eval('scene.count')"), 50)
+
+    def test_sheared_cell(self):
+        s = jam.System.random(n=60, dim=2, seed=3, cell=[[1, 0], [0.45, 1]], packing_fraction=0.3)
+        self.show(s)
+        a = np.array(s.cell)
+        where = np.array(self.page.run("Array.from({length: n}, (_, i) => placed(i).slice(0, 2))"))
+        inside = np.linalg.solve(a.T, where.T).T
+        self.assertTrue((inside > -1e-12).all() and (inside < 1 + 1e-12).all())
+        moved = np.linalg.solve(a.T, (where - s.positions).T).T
+        np.testing.assert_allclose(moved, np.round(moved), atol=1e-12)
+
+    @unittest.skipUnless(os.environ.get("JAM_PACK"), "jam-pack is not built")
+    def test_jam_pack_writes_it(self):
+        page = self.path / "pack.html"
+        command = [
+            os.environ["JAM_PACK"],
+            "--n",
+            "64",
+            "--dim",
+            "2",
+            "--diameters-ratio",
+            "1.4",
+            "--quiet",
+            "--page",
+            page,
+        ]
+        self.assertIn(subprocess.run(command).returncode, (0, 1))
+        self.page.open(page)
+        self.assertEqual(self.page.run("scene.count"), 64)
+        self.assertIn("Collectively jammed", self.page.run("document.querySelector('.verdict').innerText"))
+
+
+if __name__ == "__main__":
+    if browser.find() is None:
+        print("Chromium is not installed (Debian: chromium): the page was not looked at")
+        sys.exit(77)
+    unittest.main()

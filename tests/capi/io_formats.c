@@ -1,0 +1,157 @@
+/* Files for other programs: LAMMPS data, compressed files, contact networks, ParaView's files, the page. */
+#include <math.h>
+#include "io_helpers.h"
+
+static jam_system *in_cell(int32_t dim, const double *cell) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim;
+  o.n = 40;
+  o.packing_fraction = 0.1;
+  assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static void same_after(jam_system *sys, const char *name) {
+  jam_system *back = NULL;
+  const char *path = in_scratch(name);
+  assert_int_equal(jam_write(sys, path, JAM_FORMAT_AUTO), JAM_OK);
+  if (jam_read(path, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
+  assert_same_bits(sys, back);
+  jam_destroy(back);
+}
+
+static void lammps_data_keeps_the_bits(void **state) {
+  const double flat[4] = {1.0, 0.0, 0.4, 1.1}, solid[9] = {1.0, 0.0, 0.0, 0.3, 1.1, 0.0, -0.2, 0.45, 0.9};
+  int32_t dim;
+  (void)state;
+  for (dim = 2; dim <= 3; ++dim) {
+    jam_system *cube = some_packing(dim, 60, 1.4, 7.3), *tilted = in_cell(dim, dim == 2 ? flat : solid), *back = NULL;
+    double before[9], after[9];
+    const size_t count = (size_t)(dim * dim);
+    same_after(cube, "a.data");
+    same_after(cube, "a.lmp.gz");
+    same_after(tilted, "b.data");
+    assert_int_equal(jam_read(in_scratch("b.data"), NULL, &back), JAM_OK);
+    jam_cell_get(tilted, before, count, NULL);
+    jam_cell_get(back, after, count, NULL);
+    assert_memory_equal(before, after, count * sizeof *before);
+    jam_destroy(back);
+    jam_destroy(cube);
+    jam_destroy(tilted);
+  }
+}
+
+/* As write_data of LAMMPS leaves it: a box that does not start at 0, atoms in any order, image counts, velocities. */
+static void lammps_writes_it_otherwise(void **state) {
+  static const char text[] =
+      "LAMMPS data file via write_data\n\n3 atoms\n2 atom types\n\n-1 3 xlo xhi\n1 5 ylo yhi\n0 4 zlo zhi\n\n"
+      "Atoms # sphere\n\n3 1 0.5 1.9 2 4 3 0 0 0\n1 1 1 1.9 -0.5 1.5 0.5 0 0 1\n2 2 0.25 1.9 1 3 2 0 0 0\n\n"
+      "Velocities\n\n1 0 0 0 0 0 0\n2 0 0 0 0 0 0\n3 0 0 0 0 0 0\n";
+  const double want[3] = {0.5, 0.5, 0.5}, sizes[3] = {1.0, 0.25, 0.5}, *x, *s;
+  jam_system *sys = NULL;
+  size_t x_len, s_len;
+  (void)state;
+  put_bytes(in_scratch("any.name"), text, sizeof text - 1);
+  if (jam_read(in_scratch("any.name"), NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  jam_positions_view(sys, &x, &x_len);
+  jam_diameters_view(sys, &s, &s_len);
+  assert_int_equal(x_len, 9);
+  assert_memory_equal(x, want, sizeof want);
+  assert_memory_equal(s, sizes, sizeof sizes);
+  jam_destroy(sys);
+}
+
+static void lammps_data_that_cannot_be_read(void **state) {
+  (void)state;
+#define HEAD "LAMMPS\n\n2 atoms\n\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\n"
+  expect_refused(HEAD "Atoms # atomic\n\n1 1 0 0 0\n", JAM_E_UNSUPPORTED, "atom_style 'atomic' has no diameters");
+  expect_refused(HEAD "Atoms\n\n1 1 0.1 1 0.2 0.2 0.2\n", JAM_E_FORMAT, "ends after 1 of 2 spheres");
+  expect_refused(HEAD "Atoms\n\n1 1 0.1 1 0.2 0.2 0.2\n1 1 0.1 1 0.7 0.2 0.2\n", JAM_E_FORMAT, "atom 1 is there twice");
+  expect_refused(HEAD "Atoms\n\n1 1 0.1 0.2 0.2 0.2\n", JAM_E_FORMAT, "line 11: 6 columns");
+  expect_refused(HEAD, JAM_E_FORMAT, "ends before the section Atoms");
+  expect_refused("LAMMPS\n\nAtoms\n\n1 1 0.1 1 0 0 0\n", JAM_E_FORMAT, "no line '<N> atoms'");
+  expect_refused("LAMMPS\n\n1 atoms\n1 1 xlo xhi\n", JAM_E_FORMAT, "no extent along x");
+#undef HEAD
+}
+
+static void compressed_files_keep_the_bits(void **state) {
+  jam_system *sys = some_packing(3, 500, 1.4, 7.3), *back = NULL;
+  size_t plain, packed;
+  char *bytes, *once;
+  (void)state;
+  same_after(sys, "a.xyz.gz");
+  same_after(sys, "a.dat.gz");
+  same_after(sys, "a.xyz");
+  bytes = get_bytes(in_scratch("a.xyz"), &plain);
+  free(bytes);
+  once = get_bytes(in_scratch("a.xyz.gz"), &packed);
+  assert_true(packed < plain);
+  assert_memory_equal(once, "\x1f\x8b", 2);
+  same_after(sys, "b.xyz.gz"); /* the same packing gives the same bytes */
+  bytes = get_bytes(in_scratch("b.xyz.gz"), &plain);
+  assert_int_equal(plain, packed);
+  assert_memory_equal(bytes, once, packed);
+  put_bytes(in_scratch("cut.xyz.gz"), bytes, packed / 2);
+  assert_int_equal(jam_read(in_scratch("cut.xyz.gz"), NULL, &back), JAM_E_FORMAT);
+  assert_non_null(strstr(jam_last_error(), "compressed file is cut short"));
+  bytes[packed / 2] ^= 0x55;
+  put_bytes(in_scratch("bad.xyz.gz"), bytes, packed);
+  assert_int_equal(jam_read(in_scratch("bad.xyz.gz"), NULL, &back), JAM_E_FORMAT);
+  assert_null(back);
+  free(bytes);
+  free(once);
+  jam_destroy(sys);
+}
+
+static void what_a_format_cannot_hold_is_refused(void **state) {
+  jam_system *four = some_packing(4, 60, 1.0, 1.0);
+  (void)state;
+  assert_int_equal(jam_write(four, in_scratch("a.data"), JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_write(four, in_scratch("a.vtp"), JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_write_contacts(four, in_scratch("c.csv"), JAM_CONTACTS_AUTO), JAM_E_STATE);
+  assert_int_equal(jam_crunch(four, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_write_contacts(four, in_scratch("c.csv"), JAM_CONTACTS_AUTO), JAM_OK);
+  assert_int_equal(jam_write_contacts(four, in_scratch("c.dump"), JAM_CONTACTS_AUTO), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_write_contacts(four, in_scratch("c.vtp"), JAM_CONTACTS_AUTO), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_write_contacts(four, in_scratch("c.xyz"), JAM_CONTACTS_AUTO), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), ".dump (LAMMPS)"));
+  assert_int_equal(jam_write_contacts(four, in_scratch("c.csv"), 4), JAM_E_ARGUMENT);
+  assert_int_equal(jam_write(four, in_scratch("c.csv"), 5), JAM_E_ARGUMENT);
+  jam_destroy(four);
+}
+
+static void page_holds_its_data_and_nothing_else(void **state) {
+  jam_system *sys = some_packing(2, 60, 1.4, 1.0);
+  double values[120];
+  size_t size, k;
+  char *text;
+  (void)state;
+  for (k = 0; k < 120; ++k) values[k] = (double)k;
+  assert_int_equal(jam_write_page(sys, in_scratch("a.html"), "</script>\"", 0, "a\nb", values, 120), JAM_OK);
+  text = get_bytes(in_scratch("a.html"), &size);
+  assert_non_null(strstr(text, "\"title\": \"\\u003c/script>\\\"\""));
+  assert_non_null(strstr(text, "{\"name\": \"b\", \"values\": \""));
+  assert_null(strstr(text, "http"));
+  assert_memory_equal(text + size - 8, "</html>\n", 8);
+  free(text);
+  assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 0, "a", values, 120), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "1 names of 60 spheres need 60"));
+  assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 2, "", NULL, 0), JAM_E_ARGUMENT);
+  assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 0, "", NULL, 3), JAM_E_NULL);
+  assert_int_equal(jam_write_page(sys, in_scratch("b.html"), NULL, 0, "", NULL, 0), JAM_E_NULL);
+  values[7] = NAN;
+  assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 0, "a", values, 60), JAM_E_NONFINITE);
+  assert_int_equal(access(in_scratch("b.html"), F_OK), -1);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(lammps_data_keeps_the_bits),           cmocka_unit_test(lammps_writes_it_otherwise),
+      cmocka_unit_test(lammps_data_that_cannot_be_read),      cmocka_unit_test(compressed_files_keep_the_bits),
+      cmocka_unit_test(what_a_format_cannot_hold_is_refused), cmocka_unit_test(page_holds_its_data_and_nothing_else),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

@@ -1,4 +1,4 @@
-"""Writes every generated file of the bindings from include/jam/jam.h. With --check only says what differs.
+"""Writes every generated file of the bindings from include/jam/jam.h and the table of options. With --check only says what differs.
 
 usage: generate.py [--check] [--header FILE] [--swig PROGRAM]
 """
@@ -10,6 +10,7 @@ import emit_c
 import emit_fortran
 import emit_julia
 import emit_methods
+import emit_options
 import emit_python
 import emit_swig
 from model import HeaderError, read_header
@@ -22,6 +23,11 @@ FILES = {
     "bindings/python/jam/_generated.py": emit_python.emit,
     "bindings/python/jam/_methods.py": emit_methods.emit,
     "tests/bindings/layout.c": emit_c.emit,
+    "examples/c/jam-pack/options_table.h": emit_options.emit_c,
+    "bindings/python/jam/_options.py": emit_options.emit_python,
+    "pkgconfig/completion/jam-pack.bash": emit_options.emit_bash,
+    "pkgconfig/completion/_jam-pack": emit_options.emit_zsh,
+    "bindings/docs/command_line.md": emit_options.emit_page,
 }
 
 
@@ -45,7 +51,7 @@ def main():
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
     for name in stale:
-        print(("differs from the header: " if args.check else "written: ") + name)
+        print(("is not what the generator makes: " if args.check else "written: ") + name)
     if args.check and stale:
         sys.exit("run: sh bindings/gen/regenerate.sh")
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import sys
+import time
 from typing import Any, Callable
 
 
@@ -61,6 +62,20 @@ class Line:
             self._bar.close()
         elif self._last:
             sys.stderr.write("\n")
+
+
+def every_ten_seconds() -> Callable[[Any], bool]:
+    """For pipes and files: a line on stderr now and then."""
+    told = time.monotonic()
+
+    def line(p: Any) -> bool:
+        nonlocal told
+        if time.monotonic() - told >= 10.0:
+            told = time.monotonic()
+            print(_text(p), file=sys.stderr, flush=True)
+        return False
+
+    return line
 
 
 def reporter(progress: bool | Callable | None) -> Callable | None:

@@ -7,10 +7,12 @@ import math
 import os
 import sys
 import time
-from typing import Any
+from typing import Any, Callable
 
 from . import files, raw
-from ._generated import Phase, StopReason
+from ._generated import LogLevel, Phase, StopReason
+from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS
+from ._progress import every_ten_seconds
 from ._start import start, take_diameters
 from .errors import JamError
 from .system import System
@@ -43,10 +45,13 @@ def _delta(text: str) -> float:
     return float(text)
 
 
-def _whole(text: str) -> int:
-    if int(text) < 0:
-        raise argparse.ArgumentTypeError(f"{text!r} must be an integer >= 0")
-    return int(text)
+def _integer(low: int, high: int) -> Callable[[str], int]:
+    def take(text: str) -> int:
+        if not low <= int(text) <= high:
+            raise argparse.ArgumentTypeError(f"{text!r} must be an integer in {low}..{high}")
+        return int(text)
+
+    return take
 
 
 def _stage(text: str) -> tuple[float, float | None]:
@@ -54,100 +59,62 @@ def _stage(text: str) -> tuple[float, float | None]:
     return _positive(rate), _pressure(pressure) if colon else None
 
 
+_KINDS: dict[str, Callable[[str], Any]] = {
+    "positive": _positive,
+    "not_negative": _not_negative,
+    "pressure": _pressure,
+    "delta": _delta,
+    "stage": _stage,
+    "diameters": take_diameters,
+}
+
+
 def parser() -> argparse.ArgumentParser:
+    """By the table of options, which jam-pack's parser is made from too."""
     p = argparse.ArgumentParser(
         prog="python3 -m jam",
-        description="Makes a jammed packing of hard spheres: random start, "
-        "event-driven molecular dynamics with growth, then iterated linear programming.",
-        epilog="Example: python3 -m jam --n 512 --dim 2 --diameters-ratio 1.4 --output p.xyz --plot p.png. "
-        "Exit status: 0 done; 1 stopped early or not jammed, the state reached is written; 2 wrong command "
-        "line; 3 request or input refused; 4 an output cannot be written.",
+        description=ABOUT,
+        epilog=f"Example: python3 -m jam {EXAMPLE}. {NOTES}",
+        allow_abbrev=False,
     )
-    p.add_argument("--n", type=int, help="spheres (1024)")
-    p.add_argument("--dim", type=int, default=3, help="dimension, 2..8 (3)")
-    p.add_argument(
-        "--phi0", type=_positive, help="packing fraction of the random start (0.2; halved per dimension above 3)"
-    )
-    p.add_argument(
-        "--diameters-ratio",
-        type=_positive,
-        default=1.0,
-        metavar="R",
-        help="half of the spheres are R times as large (1)",
-    )
-    p.add_argument(
-        "--diameters",
-        type=take_diameters,
-        metavar="WHAT",
-        help="bidisperse:R as above; lognormal:S with S the standard "
-        "deviation over the mean; or a file of diameters, of which the ratios count",
-    )
-    p.add_argument(
-        "--non-additivity",
-        type=_delta,
-        default=0.0,
-        metavar="D",
-        help="spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)",
-    )
-    p.add_argument(
-        "--model", choices=["euclid", "mk"], default="euclid", help="distance: Euclidean (default) or Mari-Kurchan"
-    )
-    p.add_argument("--zeta", type=_not_negative, metavar="Z", help="strength of the Mari-Kurchan shifts (infinite)")
-    p.add_argument(
-        "--plant", type=_positive, metavar="F", help="Mari-Kurchan start, planted in equilibrium at packing fraction F"
-    )
-    p.add_argument("--seed", type=int, default=1)
-    p.add_argument(
-        "--input", metavar="FILE", help="start from a file; MD is then off unless --growth or --nve is given"
-    )
-    p.add_argument("--box", type=_positive, default=1.0, help="side of the box for a plain file that names none (1)")
-    p.add_argument("--shrink", action="store_true", help="shrink overlapping spheres of the file to contact")
-    p.add_argument(
-        "--nve", type=_not_negative, default=0.0, metavar="C", help="first C collisions per particle without growth (0)"
-    )
-    p.add_argument(
-        "--growth",
-        type=_stage,
-        action="append",
-        metavar="RATE[:P]",
-        help="a stage; repeatable. Default 1e-2:500, then 3e-3",
-    )
-    p.add_argument("--pressure", type=_pressure, default=1e7, metavar="P", help="target of stages without :P (1e7)")
-    p.add_argument("--no-md", action="store_true")
-    p.add_argument("--checkpoint", metavar="FILE", help="state of the dynamics, every minute and where they stop")
-    p.add_argument(
-        "--resume",
-        metavar="FILE",
-        help="go on from a checkpoint, to the same bits: the stage that was cut off, then those "
-        "stages whose pressure lies beyond",
-    )
-    p.add_argument("--no-crunch", action="store_true")
-    p.add_argument("--lp", choices=["ipm", "clp"], default="ipm")
-    p.add_argument("--threads", type=int, choices=[1, 2], default=1)
-    p.add_argument("--wall-time", type=_positive, metavar="SECONDS", help="limit for the whole run")
-    p.add_argument(
-        "--output",
-        metavar="FILE",
-        help="the packing: .xyz or .extxyz for extended XYZ; .dat, .txt or no ending for plain text",
-    )
-    p.add_argument("--page", metavar="FILE.html", help="the packing to look at in a browser; needs no network")
-    p.add_argument("--contacts", metavar="FILE", help="the contact network as .csv, .dump (LAMMPS) or .vtp (ParaView)")
-    p.add_argument(
-        "--spectrum", metavar="FILE.csv", help="lowest modes of the harmonic Hessian: omega^2, omega, participation"
-    )
-    p.add_argument("--modes", type=_whole, metavar="K", help="how many --spectrum writes (100); 0: all")
-    p.add_argument("--gaps", metavar="FILE.csv", help="gaps h < 1 of pairs that are no contacts, sorted")
-    p.add_argument(
-        "--structure",
-        metavar="FILE.csv",
-        help="a line a sphere: contacts, class, sums of contact vectors and forces, Q6, " "local packing fraction",
-    )
-    p.add_argument("--report", metavar="FILE|-", help="figures and certificate as JSON")
-    p.add_argument("--vtk", metavar="PREFIX", help="PREFIX.vtp and PREFIX-forces.vtp for ParaView")
-    p.add_argument("--plot", metavar="PICTURE", help="spheres, force network, forces and the way there, by matplotlib")
-    p.add_argument("--quiet", action="store_true")
+    for name, kind, metavar, default, (low, high), words, _, text in OPTIONS:
+        more: dict[str, Any] = {"help": text.replace("%", "%%"), "default": default}
+        if kind == "switch":
+            more.update(action="store_true", default=False)
+        elif kind == "choice":
+            more["choices"] = words
+        else:
+            more["metavar"] = metavar
+            more["type"] = _integer(low, high) if kind == "integer" else _KINDS.get(kind, str)
+        if kind == "stage":
+            more["action"] = "append"
+        p.add_argument("--" + name, **more)
     p.add_argument("--version", action="version", version=f"jam {raw.jam_version()}")
     return p
+
+
+class _Log:
+    """--log: what the library says, a line each; written in place, so that it can be read while the program runs."""
+
+    def __init__(self, path: str | None) -> None:
+        self.begin = time.monotonic()
+        self.file = None if path is None else sys.stdout if path == "-" else open(path, "w", encoding="utf-8")
+
+    def line(self, level: int, text: str) -> None:
+        assert self.file is not None
+        word = "warning" if level == LogLevel.WARNING else "info"
+        print(f"{time.monotonic() - self.begin:10.3f} {word} {text}", file=self.file, flush=True)
+
+    def follow(self, system: System) -> None:
+        if self.file is not None:
+            self.callable = self.line  # the C side holds a borrowed reference
+            raw.set_log(system.handle, self.callable, LogLevel.INFO)
+
+    def close(self, system: System) -> None:
+        if self.file is not None:
+            raw.set_log(system.handle, None, 0)
+        if self.file not in (None, sys.stdout):
+            self.file.close()
 
 
 class _Work:
@@ -155,6 +122,7 @@ class _Work:
 
     def __init__(self, system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
         self.system, self.o, self.out = system, o, out
+        self.progress = None if o.quiet else True if sys.stderr.isatty() else every_ten_seconds()
         self.deadline = time.monotonic() + (math.inf if o.wall_time is None else o.wall_time)
 
     def left(self) -> float:
@@ -166,7 +134,7 @@ class _Work:
         while True:
             try:
                 md = getattr(self.system, verb)(
-                    progress=not o.quiet, wall_time=min(60.0, self.left()) if o.checkpoint else self.left(), **options
+                    progress=self.progress, wall_time=min(60.0, self.left()) if o.checkpoint else self.left(), **options
                 )
             finally:
                 if o.checkpoint:
@@ -197,12 +165,24 @@ class _Work:
         for verb, options in self.stages():
             if o.resume and options.get("pressure", math.inf) <= reached:
                 continue
+            if not options.get("resume"):
+                stage = {"run": "nve", "compress": "growth"}[verb]
+                out["protocol"].append({"stage": stage} | {k: float(x) for k, x in options.items()})
             status = self.stage(verb, **options)
             reached = self.system.pressure
             if status in (CANCELLED, LIMIT):
                 return status
         if not o.no_crunch:
-            r = self.system.crunch(progress=not o.quiet, wall_time=self.left(), lp_solver=o.lp, threads=o.threads)
+            method = {"barrier": "barrier_path"}.get(o.method, o.method.replace("-", "_"))
+            r = self.system.crunch(
+                progress=self.progress,
+                wall_time=self.left(),
+                method=method,
+                strain=o.strain,
+                lp_solver=o.lp,
+                threads=o.threads,
+            )
+            out["protocol"].append({"stage": "crunch", "method": method, "strain": o.strain})
             status, out["crunch"], out["stop_reason"] = int(r.status), r, r.stop_reason.name.lower()
         return status
 
@@ -213,6 +193,10 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
         "n": i.n,
         "dim": i.dim,
         "seed": i.seed,
+        "options": out["options"],
+        "protocol": out["protocol"],
+        "method": r.method.name.lower() if r else None,
+        "lp_solver": r.lp_solver.name.lower() if r else None,
         "packing_fraction": i.packing_fraction,
         "diameter_mean": i.diameter_mean,
         "pressure": out["pressure"],
@@ -286,23 +270,23 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
 
 def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     """The files that will be written: each its own, none over the input, none without the crunch that it shows."""
-    chosen = {
-        k: getattr(o, k)
-        for k in ("output", "contacts", "report", "spectrum", "gaps", "structure", "plot", "vtk", "page", "checkpoint")
-    }
+    outputs = {name: after_crunch for name, kind, *_, after_crunch, _ in OPTIONS if kind == "output"} | {"vtk": False}
+    chosen = {k: getattr(o, k) for k in outputs}
     chosen = {k: path for k, path in chosen.items() if path and path != "-"}
     for key, path in chosen.items():
         for other in chosen:
             if other != key and chosen[other] == path:
                 p.error(f"--{key} and --{other} must be different files")
-        if key not in ("output", "checkpoint") and path == o.input:
+        if key != "output" and path == o.input:
             p.error(f"--{key} would overwrite the input")
-        if o.no_crunch and key in ("contacts", "spectrum", "gaps", "structure"):
+        if o.no_crunch and outputs[key]:
             p.error(f"--{key} needs the crunch that --no-crunch leaves out")
     name = (o.output or "").removesuffix(".gz")
     ending = os.path.splitext(name)[1]
     if ending not in (*PACKINGS, "") and not ending[1:].isdigit():
         p.error(f"--output {o.output}: no format is known by this ending; use {', '.join(PACKINGS)} or none")
+    if o.strain != "none" and o.output and (ending in (".dat", ".txt", "") or ending[1:].isdigit()):
+        p.error("--strain needs an --output in another format: plain text holds cubes alone")
     if o.non_additivity and o.output and not o.output.endswith((".xyz", ".extxyz")):
         p.error("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it")
     if o.resume and o.input:
@@ -324,6 +308,8 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"jam: {path}: the folder cannot be written", file=sys.stderr)
             return OUTPUT
     out: dict[str, Any] = {
+        "options": list(sys.argv[1:] if arguments is None else arguments),
+        "protocol": [],
         "collisions": 0,
         "seconds_md": 0.0,
         "pressure": None,
@@ -337,7 +323,9 @@ def main(arguments: list[str] | None = None) -> int:
     except (JamError, ValueError, OSError) as error:
         print(f"jam: {error}", file=sys.stderr)
         return FAILED
+    log = _Log(o.log)
     try:
+        log.follow(system)
         code = EARLY if _Work(system, o, out).run() > 0 else DONE
     except KeyboardInterrupt:
         print("jam: interrupted; writing the state reached", file=sys.stderr)
@@ -346,6 +334,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"jam: {error}", file=sys.stderr)
         code = FAILED
     try:
+        log.close(system)
         _write(system, o, out)
     except (JamError, OSError, ValueError) as error:
         print(f"jam: {error}", file=sys.stderr)

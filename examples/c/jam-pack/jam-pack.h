@@ -8,26 +8,24 @@
 enum { EXIT_DONE = 0, EXIT_EARLY = 1, EXIT_USAGE = 2, EXIT_FAILED = 3, EXIT_OUTPUT = 4 };
 
 #define MAX_STAGES 32
+enum { NOT_GIVEN = -1 };
 
 typedef struct stage {
   double growth;   /* G */
   double pressure; /* target; 0: that of --pressure */
 } stage;
 
-typedef struct options {
-  int64_t n, seed;
-  int32_t dim, threads, lp_solver;
-  double phi0, ratio, nve, pressure, wall_time, box;
+typedef struct given {
   stage stages[MAX_STAGES];
   int stage_count;
-  int no_md, no_crunch, quiet, shrink;
-  const char *input, *output, *contacts, *report, *page;
-  int64_t modes; /* how many --spectrum writes, 0: all; -1: not given */
-  const char *spectrum, *gaps, *structure;
-  int32_t model, n_given;
-  double zeta, lognormal, non_additivity;
-  const char *diameters_file, *checkpoint, *resume;
-} options;
+  double lognormal; /* 0: not asked for */
+  const char *diameters_file;
+  int n;        /* whether --n was given */
+  char **words; /* the command line, for the report */
+  int word_count;
+} given;
+
+#include "options_table.h"
 
 /* What the program has done, for the report and the summary. */
 typedef struct outcome {
@@ -36,20 +34,34 @@ typedef struct outcome {
   int has_md, has_crunch;
   int32_t md_stop;
   int64_t collisions;
-  double pressure; /* that dynamics reached; the crunch ends at infinite pressure */
+  double pressure;            /* that dynamics reached; the crunch ends at infinite pressure */
+  int stage_done[MAX_STAGES]; /* which of the stages were begun */
   double seconds_md;
 } outcome;
 
+/* progress.c: lines on stderr, rewritten in place on a terminal, every ten seconds elsewhere; and the log. */
+typedef struct terminal {
+  const char *stage;
+  double begin, told; /* seconds on the clock of seconds_now */
+  int is_terminal;
+  FILE *log;
+} terminal;
+double seconds_now(void);
+int start_progress(terminal *t, const options *o, jam_system *sys);
+int end_progress(terminal *t, const options *o);
+
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
 int parse_options(int argc, char **argv, options *o);
+/* Calls f for every file that will be written, until it returns something else than 0. */
+int each_output(const options *o, int (*f)(const char *path));
 
 /* start.c: each returns 0 or -1, start after a message on stderr. */
 int start(const options *o, jam_system **sys);
-int take_diameters(const char *value, options *o);
+int take_diameters(const char *value, options *o); /* without a message */
 
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
 int check_writable(const char *path);
-int write_report(const outcome *result, const char *path);
+int write_report(const options *o, const outcome *result, const char *path);
 void print_summary(const outcome *result);
 void complain(const char *format, ...);
 

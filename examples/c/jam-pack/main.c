@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 #include "jam-pack.h"
 
@@ -18,31 +17,6 @@ static void on_signal(int number) {
   interrupted = 1;
   if (running) jam_cancel(running);
   signal(number, SIG_DFL); /* a second Ctrl-C ends the program at once */
-}
-
-static double seconds_now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* ---- progress: one line on a terminal, rewritten in place */
-
-typedef struct terminal {
-  const char *stage;
-  double begin;
-} terminal;
-
-static int32_t show_progress(const jam_progress *p, void *user) {
-  const terminal *t = user;
-  if (p->phase == JAM_PHASE_RUN || p->phase == JAM_PHASE_COMPRESS)
-    fprintf(stderr, "\r\033[K%s  p %.4g  phi %.6f  %.3g collisions  %.1f s", t->stage, p->pressure, p->packing_fraction,
-            (double)p->collisions, seconds_now() - t->begin);
-  else
-    fprintf(stderr, "\r\033[K%s  LP %lld  sqrt(Gamma)-1 %.3e  phi %.9f  %.1f s", t->stage, (long long)p->steps, p->gain,
-            p->packing_fraction, seconds_now() - t->begin);
-  fflush(stderr);
-  return 0;
 }
 
 /* ---- the parts of the job; each returns the library's status */
@@ -119,8 +93,11 @@ static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, 
 static jam_status run_crunch(jam_system *sys, const options *o, double wall_time, outcome *result) {
   jam_crunch_options crunch;
   jam_status status = jam_crunch_options_init(&crunch, sizeof crunch);
-  crunch.lp_solver = o->lp_solver;
-  crunch.threads = o->threads;
+  crunch.lp_solver = (int32_t)o->lp;
+
+  crunch.method = (int32_t)o->method;
+  crunch.strain = (int32_t)o->strain;
+  crunch.threads = (int32_t)o->threads;
   crunch.wall_time = wall_time;
   result->crunch.struct_size = sizeof result->crunch;
   if (status >= 0) status = jam_crunch(sys, &crunch, &result->crunch);
@@ -152,10 +129,11 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   else if (o->nve > 0)
     status = run_nve(sys, o, 0, deadline, result);
   t->stage = name;
-  for (k = 0; k < o->stage_count && !ends_job(status); ++k) {
-    if (o->resume && o->stages[k].pressure <= result->pressure) continue;
-    snprintf(name, sizeof name, "growth %g", o->stages[k].growth);
-    status = run_stage(sys, o, &o->stages[k], deadline, result);
+  for (k = 0; k < o->given.stage_count && !ends_job(status); ++k) {
+    if (o->resume && o->given.stages[k].pressure <= result->pressure) continue;
+    snprintf(name, sizeof name, "growth %g", o->given.stages[k].growth);
+    status = run_stage(sys, o, &o->given.stages[k], deadline, result);
+    result->stage_done[k] = 1;
   }
   if (o->no_crunch || ends_job(status)) return status;
   if (result->has_md) keep(sys, o->output);
@@ -183,7 +161,7 @@ static int write_all(jam_system *sys, const options *o, outcome *result) {
   running = sys; /* a large spectrum takes long */
   if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;
   running = NULL;
-  if (o->report) bad |= write_report(result, o->report) != 0;
+  if (o->report) bad |= write_report(o, result, o->report) != 0;
   if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(result);
   return bad || fflush(stdout);
 }
@@ -191,31 +169,29 @@ static int write_all(jam_system *sys, const options *o, outcome *result) {
 int main(int argc, char **argv) {
   options o;
   outcome result;
-  terminal t = {"start", seconds_now()};
+  terminal t = {"start", seconds_now(), 0, 0, NULL};
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
   int bad;
   const int parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
-  if (check_writable(o.output) || check_writable(o.contacts) || check_writable(o.report) ||
-      check_writable(o.spectrum) || check_writable(o.gaps) || check_writable(o.structure) || check_writable(o.page))
-    return EXIT_OUTPUT;
+  if (each_output(&o, check_writable)) return EXIT_OUTPUT;
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
   if (start(&o, &sys)) return EXIT_FAILED;
   running = sys;
-  if (!o.quiet && isatty(STDERR_FILENO)) jam_set_progress(sys, show_progress, &t);
+  if (start_progress(&t, &o, sys)) return EXIT_OUTPUT;
   if (!interrupted) status = work(sys, &o, &t, &result);
   running = NULL;
-  if (!o.quiet && isatty(STDERR_FILENO)) fputs("\r\033[K", stderr);
+  bad = end_progress(&t, &o);
   if (status < 0)
     complain("%s", jam_last_error());
   else if (interrupted)
     complain("interrupted; writing the state reached");
   else if (status > 0)
     complain("stopped early: %s", jam_status_string(status));
-  bad = write_all(sys, &o, &result);
+  bad |= write_all(sys, &o, &result);
   jam_destroy(sys);
   if (bad) return EXIT_OUTPUT;
   if (status < 0) return EXIT_FAILED;

@@ -104,7 +104,54 @@ static void put_count(FILE *f, const char *key, int64_t x, int known) {
     fprintf(f, "  \"%s\": null,\n", key);
 }
 
-int write_report(const outcome *result, const char *path) {
+static void put_text(FILE *f, const char *text) {
+  fputc('"', f);
+  for (; *text; ++text)
+    if (*text == '"' || *text == '\\')
+      fprintf(f, "\\%c", *text);
+    else if ((unsigned char)*text < ' ')
+      fprintf(f, "\\u%04x", (unsigned)(unsigned char)*text);
+    else
+      fputc(*text, f);
+  fputc('"', f);
+}
+
+/* What stands before the next item of a list. */
+static const char *next(int *first) {
+  const char *between = *first ? "" : ", ";
+  *first = 0;
+  return between;
+}
+
+/* What was asked for, and what was done of it in this run. */
+static void put_protocol(FILE *f, const options *o, const outcome *result) {
+  static const char *const methods[] = {"barrier_path", "sequential_lp"}, *const solvers[] = {"ipm", "clp"},
+                           *const strains[] = {"none", "edges", "tilts", "free"};
+  int k, first = 1;
+  fputs("  \"options\": [", f);
+  for (k = 0; k < o->given.word_count; ++k) {
+    if (k) fputs(", ", f);
+    put_text(f, o->given.words[k]);
+  }
+  fputs("],\n  \"protocol\": [", f);
+  if (o->nve > 0 && !o->resume)
+    fprintf(f, "%s{\"stage\": \"nve\", \"collisions_per_particle\": %.17g}", next(&first), o->nve);
+  for (k = 0; k < o->given.stage_count; ++k)
+    if (result->stage_done[k])
+      fprintf(f, "%s{\"stage\": \"growth\", \"growth_rate\": %.17g, \"pressure\": %.17g}", next(&first),
+              o->given.stages[k].growth, o->given.stages[k].pressure);
+  if (result->has_crunch)
+    fprintf(f, "%s{\"stage\": \"crunch\", \"method\": \"%s\", \"strain\": \"%s\"}", next(&first), methods[o->method],
+            strains[o->strain]);
+  fputs("],\n", f);
+  if (result->has_crunch)
+    fprintf(f, "  \"method\": \"%s\",\n  \"lp_solver\": \"%s\",\n", methods[result->crunch.method],
+            solvers[result->crunch.lp_solver]);
+  else
+    fputs("  \"method\": null,\n  \"lp_solver\": null,\n", f);
+}
+
+int write_report(const options *o, const outcome *result, const char *path) {
   const jam_info *info = &result->info;
   const jam_crunch_report *r = &result->crunch;
   const int crunched = result->has_crunch;
@@ -118,6 +165,7 @@ int write_report(const outcome *result, const char *path) {
   put_count(f, "n", info->n, 1);
   put_count(f, "dim", info->dim, 1);
   put_count(f, "seed", info->seed, 1);
+  put_protocol(f, o, result);
   put_number(f, "packing_fraction", info->packing_fraction);
   put_number(f, "diameter_mean", info->diameter_mean);
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);

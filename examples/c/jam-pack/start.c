@@ -49,20 +49,20 @@ static int read_diameters(const char *path, double **out, int64_t *count) {
 
 /* Ratios of diameters as --diameters asks; NULL when all are equal. */
 static int make_diameters(const options *o, double **out, int64_t *n) {
-  const double width = o->lognormal > 0 ? sqrt(log1p(o->lognormal * o->lognormal)) : 0;
+  const double width = o->given.lognormal > 0 ? sqrt(log1p(o->given.lognormal * o->given.lognormal)) : 0;
   int64_t k;
   *out = NULL;
-  if (o->diameters_file) {
-    if (read_diameters(o->diameters_file, out, &k)) return -1;
-    if (o->n_given && k != *n) {
-      complain("%s holds %lld diameters, --n is %lld", o->diameters_file, (long long)k, (long long)*n);
+  if (o->given.diameters_file) {
+    if (read_diameters(o->given.diameters_file, out, &k)) return -1;
+    if (o->given.n && k != *n) {
+      complain("%s holds %lld diameters, --n is %lld", o->given.diameters_file, (long long)k, (long long)*n);
       free(*out);
       return -1;
     }
     *n = k;
     return 0;
   }
-  if (o->ratio == 1 && width == 0) return 0;
+  if (o->diameters_ratio == 1 && width == 0) return 0;
   *out = malloc((size_t)*n * sizeof **out);
   if (!*out) {
     complain("out of memory");
@@ -73,7 +73,7 @@ static int make_diameters(const options *o, double **out, int64_t *n) {
       (*out)[k] =
           exp(width * sqrt(-2 * log(uniform(o->seed, 2 * k))) * cos(6.283185307179586 * uniform(o->seed, 2 * k + 1)));
     else
-      (*out)[k] = k < *n / 2 ? 1 : o->ratio;
+      (*out)[k] = k < *n / 2 ? 1 : o->diameters_ratio;
   }
   return 0;
 }
@@ -85,7 +85,7 @@ int start(const options *o, jam_system **sys) {
   create.seed = o->seed;
   create.box = o->box;
   create.overlap = o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE;
-  create.model = o->model;
+  create.model = (int32_t)o->model;
   create.mk_zeta = o->zeta;
   create.non_additivity = o->non_additivity;
   create.n = o->n;
@@ -95,7 +95,7 @@ int start(const options *o, jam_system **sys) {
     status = jam_read(o->input, &create, sys);
   else {
     if (make_diameters(o, &diameters, &create.n)) return -1;
-    create.dim = o->dim;
+    create.dim = (int32_t)o->dim;
     create.packing_fraction = o->phi0;
     status = jam_create(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, sys);
     free(diameters);
@@ -111,14 +111,14 @@ int take_diameters(const char *value, options *o) {
   char *end = NULL;
   double x;
   if (!colon || (strncmp(value, "lognormal:", 10) && strncmp(value, "bidisperse:", 11))) {
-    o->diameters_file = value;
+    o->given.diameters_file = value;
     return 0;
   }
   x = strtod(colon + 1, &end);
   if (end == colon + 1 || *end || !isfinite(x) || x <= 0) return -1;
   if (value[0] == 'l')
-    o->lognormal = x;
+    o->given.lognormal = x;
   else
-    o->ratio = x;
+    o->diameters_ratio = x;
   return 0;
 }

@@ -1,0 +1,210 @@
+"""What is made from the table of options: jam-pack's parser and help, python3 -m jam's, completion of bash and zsh, and the
+page of the guide."""
+import textwrap
+
+from options import ABOUT, EXAMPLE, NOTES, PACK, PYTHON, options, usage
+
+MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
+COLUMN = 25  # where the help begins what it says of an option
+
+
+def help_text():
+    lines = ["Usage: jam-pack [options]", *textwrap.wrap(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, ""]
+    for section, rows in options(PACK):
+        lines.append(section)
+        for o in rows:
+            said = textwrap.wrap(o.help, 92 - COLUMN)
+            head = "  " + usage(o)
+            if len(head) < COLUMN - 1:
+                lines.append(head.ljust(COLUMN) + said.pop(0))
+            else:
+                lines.append(head)
+            lines += [" " * COLUMN + line for line in said]
+    for note in NOTES:
+        lines += ["", *textwrap.wrap(note, 92)]
+    return lines
+
+
+C_TYPES = {
+    "switch": "int",
+    "integer": "int64_t",
+    "choice": "int64_t",
+    "text": "const char *",
+    "input": "const char *",
+    "output": "const char *",
+}
+
+
+def _c_default(o):
+    if o.kind == "choice":
+        return str(o.words.index(o.default))
+    if o.kind == "integer":
+        return "NOT_GIVEN" if o.default is None else str(o.default)
+    if o.kind in ("positive", "not_negative", "pressure", "delta"):
+        return "INFINITY" if o.default is None else repr(o.default)
+    return None
+
+
+def emit_c(_api):
+    rows = [o for _, section in options(PACK) for o in section if o.kind != "help"]
+    fields = "\n".join(
+        f"  {C_TYPES.get(o.kind, 'double')}{'' if 'char' in C_TYPES.get(o.kind, '') else ' '}{o.field};"
+        for o in rows
+        if o.kind not in ("stage", "diameters")
+    )
+    table, defaults = [], []
+    for o in rows:
+        place = "0" if o.kind in ("stage", "diameters") else f"offsetof(options, {o.field})"
+        low, high = (o.low, o.high) if o.kind == "integer" else (0, 0)
+        words = '"' + " ".join(o.words) + '"' if o.words else "NULL"
+        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout)) if on]) or "0"
+        table.append(f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {words}, {flags}}},')
+        if _c_default(o):
+            defaults.append(f"    .{o.field} = {_c_default(o)},")
+    said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"') + '",' for line in help_text())
+    kinds = ", ".join(f"TAKE_{k.upper()}" for k in dict.fromkeys(o.kind for o in rows))
+    return f"""/* The options of jam-pack: {MADE}. */
+/* clang-format off */
+#ifndef JAM_PACK_OPTIONS_TABLE_H
+#define JAM_PACK_OPTIONS_TABLE_H
+
+/* Numbers that were not given are INFINITY, integers NOT_GIVEN. */
+typedef struct options {{
+{fields}
+  given given; /* what has a form of its own */
+}} options;
+
+#ifdef JAM_PACK_OPTIONS_TABLE
+enum {{ {kinds} }};
+enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2 }};
+
+typedef struct option_row {{
+  const char *name;
+  int kind;
+  size_t place; /* in options */
+  int64_t low, high;
+  const char *words;
+  int flags;
+}} option_row;
+
+static const option_row table[] = {{
+{chr(10).join(table)}
+}};
+
+static const options defaults = {{
+{chr(10).join(defaults)}
+}};
+
+static const char *const help[] = {{
+{said}
+    NULL}};
+#endif
+#endif
+"""
+
+
+def emit_python(_api):
+    out = []
+    for section, list_ in options(PYTHON):
+        out.append(f"    # {section}")
+        for o in list_:
+            if o.kind == "help":
+                continue
+            parts = [
+                repr(o.name),
+                repr(o.kind),
+                repr(o.metavar),
+                repr(o.default),
+                repr((o.low, o.high)),
+                repr(o.words),
+                repr(o.after_crunch),
+            ]
+            said = textwrap.wrap(o.help, 96)
+            said = ["        " + repr(line + (" " if k + 1 < len(said) else "")) for k, line in enumerate(said)]
+            out.append("    (" + ", ".join(parts) + ",\n" + "\n".join(said) + "),")
+    return (
+        f'"""The options of python3 -m jam: {MADE}."""\n# fmt: off\n\nABOUT = (\n'
+        + "\n".join("    " + repr(line + " ") for line in textwrap.wrap(ABOUT, 96))
+        + "\n)\n"
+        + f"EXAMPLE = {EXAMPLE!r}\nNOTES = (\n"
+        + "\n".join("    " + repr(line + " ") for note in NOTES for line in textwrap.wrap(note, 96))
+        + "\n)\n"
+        + "# name, kind, metavar, default, (low, high), words, needs the crunch, help\nOPTIONS = (\n"
+        + "\n".join(out)
+        + "\n)\n"
+    )
+
+
+def _completed(where):
+    return [o for _, rows in options(where) for o in rows]
+
+
+def emit_bash(_api):
+    rows = _completed(PACK)
+    words = " ".join("--" + o.name for o in rows)
+    choices = "".join(
+        f"    --{o.name}) COMPREPLY=($(compgen -W '{' '.join(o.words)}' -- \"$word\")); return ;;\n"
+        for o in rows
+        if o.words
+    )
+    files = "|".join("--" + o.name for o in rows if o.kind in ("input", "output", "diameters"))
+    others = "|".join(
+        "--" + o.name for o in rows if o.kind not in ("switch", "help", "choice", "input", "output", "diameters")
+    )
+    return f"""# Completion of jam-pack for bash: {MADE}.
+_jam_pack() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}}
+  COMPREPLY=()
+  case $before in
+{choices}    {files}) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    {others}) return ;;
+  esac
+  COMPREPLY=($(compgen -W '{words}' -- "$word"))
+}}
+complete -o filenames -F _jam_pack jam-pack
+"""
+
+
+def emit_zsh(_api):
+    lines = []
+    for o in _completed(PACK):
+        said = o.help.split(";")[0].replace("[", "(").replace("]", ")").replace(":", ",").replace("'", "")
+        value = ""
+        if o.words:
+            value = f":{o.name}:({' '.join(o.words)})"
+        elif o.kind in ("input", "output", "diameters"):
+            value = f":{o.name}:_files"
+        elif o.kind not in ("switch", "help"):
+            value = f":{o.metavar.replace(':', ' ').replace('[', '').replace(']', '')}: "
+        star = "*" if o.kind == "stage" else ""
+        lines.append(f"  '{star}--{o.name}[{said}]{value}'")
+    return f"#compdef jam-pack\n# Completion of jam-pack for zsh: {MADE}.\n_arguments \\\n" + " \\\n".join(lines) + "\n"
+
+
+def emit_page(_api):
+    out = [
+        f"<!-- {MADE} -->",
+        "# The command line",
+        "",
+        *textwrap.wrap(ABOUT, 120),
+        "",
+        "```sh",
+        "jam-pack " + EXAMPLE,
+        "python3 -m jam " + EXAMPLE,
+        "```",
+        "",
+        "Both programs take the same options and write the same bytes. Options of Python alone are marked.",
+        "",
+    ]
+    python_only = {o.name for o in _completed(PYTHON)} - {o.name for o in _completed(PACK)}
+    for section, rows in options(PYTHON):
+        out += [f"## {section}", "", "| option | meaning |", "|---|---|"]
+        for o in rows:
+            mark = " (Python)" if o.name in python_only else ""
+            out.append(f"| `{usage(o).replace('|', chr(92) + '|')}`{mark} | {o.help.replace('|', chr(92) + '|')} |")
+        out.append("")
+    out += ["## How it ends", ""]
+    for note in NOTES:
+        out += [*textwrap.wrap(note, 120), ""]
+    out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]
+    return "\n".join(out)

@@ -1,0 +1,221 @@
+"""The options of jam-pack and of python3 -m jam: the one table that both parsers, both helps, the manual page, the completion
+of shells and the guide's page are made from. After a change: sh bindings/gen/regenerate.sh.
+
+Kinds: what a value may be and where it goes.
+    switch        0 or 1
+    integer       within low .. high
+    positive      a finite number > 0
+    not_negative  a finite number >= 0
+    pressure      a finite number > 1, that of an ideal gas
+    delta         a number above -1 and at most 1
+    choice        one of `words`; its number counts, as in the enum of jam.h
+    text          any text
+    input         the name of a file that is read
+    output        the name of a file that is written; `after_crunch` marks those that show its network
+    stage         RATE[:P], repeatable
+    diameters     lognormal:S, bidisperse:R or a file
+"""
+from dataclasses import dataclass
+
+BOTH, PACK, PYTHON = "both", "jam-pack", "python3 -m jam"
+
+
+@dataclass(frozen=True)
+class Option:
+    name: str  # without the dashes
+    kind: str
+    metavar: str
+    help: str
+    default: object = None
+    low: int = 0
+    high: int = 0
+    words: tuple = ()
+    where: str = BOTH
+    after_crunch: bool = False
+    stdout: bool = False  # "-" is standard output
+
+    @property
+    def field(self):
+        return self.name.replace("-", "_")
+
+
+INT32_MAX, INT64_MAX = 2**31 - 1, 2**63 - 1
+
+TABLE = {
+    "Start": (
+        Option("n", "integer", "N", "spheres (1024)", None, 1, INT32_MAX),
+        Option("dim", "integer", "D", "dimension, 2..8 (3)", 3, 2, 8),
+        Option(
+            "phi0", "positive", "F", "packing fraction of the random start (0.2; halved for each dimension above 3)"
+        ),
+        Option("diameters-ratio", "positive", "R", "half of the spheres are R times as large (1)", 1.0),
+        Option(
+            "diameters",
+            "diameters",
+            "WHAT",
+            "bidisperse:R as above; lognormal:S with S the standard deviation over the mean; or a file of diameters, of which "
+            "the ratios count",
+        ),
+        Option(
+            "non-additivity",
+            "delta",
+            "D",
+            "spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)",
+            0.0,
+        ),
+        Option(
+            "model", "choice", "", "distance: Euclidean (default) or Mari-Kurchan", "euclid", words=("euclid", "mk")
+        ),
+        Option("zeta", "not_negative", "Z", "strength of the Mari-Kurchan shifts (infinite)"),
+        Option("plant", "positive", "F", "Mari-Kurchan start, planted in equilibrium at packing fraction F"),
+        Option("seed", "integer", "S", "of all random numbers (1)", 1, -INT64_MAX, INT64_MAX),
+        Option(
+            "input",
+            "input",
+            "FILE",
+            "start from a file: plain text, extended XYZ or LAMMPS data, compressed or not; molecular dynamics is then off "
+            "unless --growth or --nve is given",
+        ),
+        Option("box", "positive", "L", "side of the box for a plain file that names none (1)", 1.0),
+        Option("shrink", "switch", "", "shrink overlapping spheres of the file to contact"),
+    ),
+    "Molecular dynamics": (
+        Option("nve", "not_negative", "C", "first C collisions per particle without growth (0)", 0.0),
+        Option(
+            "growth",
+            "stage",
+            "RATE[:P]",
+            "one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced pressure P. Give it again for more stages. "
+            "Default: 1e-2:500, then 3e-3 up to --pressure",
+        ),
+        Option("pressure", "pressure", "P", "target of stages without :P (1e7)", 1e7),
+        Option("no-md", "switch", "", "none"),
+        Option("checkpoint", "output", "FILE", "state of the dynamics, every minute and where they stop"),
+        Option(
+            "resume",
+            "input",
+            "FILE",
+            "go on from a checkpoint, to the same bits: the stage that was cut off, then those stages whose pressure lies "
+            "beyond",
+        ),
+    ),
+    "Crunch": (
+        Option(
+            "method",
+            "choice",
+            "",
+            "the quench: barrier path (default), or the published sequence of linear programs alone",
+            "barrier",
+            words=("barrier", "sequential-lp"),
+        ),
+        Option(
+            "strain",
+            "choice",
+            "",
+            "let the cell deform too, at fixed volume: its edges, its tilts, or both; free: the packing ends strictly jammed "
+            "(none)",
+            "none",
+            words=("none", "edges", "tilts", "free"),
+        ),
+        Option(
+            "lp",
+            "choice",
+            "",
+            "linear programs by interior point (default) or Clp's simplex",
+            "ipm",
+            words=("ipm", "clp"),
+        ),
+        Option("threads", "integer", "T", "1 or 2 (1; the same bits each time on 1)", 1, 1, 2),
+        Option("no-crunch", "switch", "", "stop after molecular dynamics"),
+    ),
+    "Output": (
+        Option(
+            "output",
+            "output",
+            "FILE",
+            "the packing. The ending tells the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), "
+            "plain text (.dat, .txt, none). With .gz behind it the file is compressed",
+        ),
+        Option(
+            "page",
+            "output",
+            "FILE.html",
+            "the packing to look at in a browser, with forces, certificate and distributions; needs no network",
+        ),
+        Option(
+            "contacts",
+            "output",
+            "FILE",
+            "the contact network: i, j, unit vector, gap, force (mean 1), as .csv, .dump (LAMMPS dump local) or .vtp "
+            "(ParaView)",
+            after_crunch=True,
+            stdout=True,
+        ),
+        Option(
+            "spectrum",
+            "output",
+            "FILE.csv",
+            "lowest modes of the harmonic Hessian: omega^2, omega, participation",
+            after_crunch=True,
+        ),
+        Option(
+            "modes",
+            "integer",
+            "K",
+            "how many --spectrum writes (100); 0: all, which needs 24 (d N)^2 bytes, at most 2e9",
+            None,
+            0,
+            INT32_MAX,
+        ),
+        Option("gaps", "output", "FILE.csv", "gaps h < 1 of pairs that are no contacts, sorted", after_crunch=True),
+        Option(
+            "structure",
+            "output",
+            "FILE.csv",
+            "a line a sphere: coordination, class, sums of contact vectors and forces, Q6, local packing fraction",
+            after_crunch=True,
+        ),
+        Option(
+            "report", "output", "FILE|-", "figures, protocol and certificate as JSON; - is standard output", stdout=True
+        ),
+        Option(
+            "log",
+            "output",
+            "FILE|-",
+            "what the library says of each stage and LP, a line each with its time",
+            stdout=True,
+        ),
+        Option("vtk", "text", "PREFIX", "PREFIX.vtp and PREFIX-forces.vtp for ParaView", where=PYTHON),
+        Option("plot", "output", "PICTURE", "spheres, forces and the way there, by matplotlib", where=PYTHON),
+        Option("quiet", "switch", "", "no progress, no summary"),
+    ),
+    "Other": (
+        Option("wall-time", "positive", "SECONDS", "limit for the whole run"),
+        Option("help", "help", "", "these lines"),
+        Option("version", "help", "", "the version of the library"),
+    ),
+}
+
+ABOUT = (
+    "Makes a jammed packing of hard spheres: random start, event-driven molecular dynamics with growth, then iterated linear "
+    "programming down to the jamming point."
+)
+EXAMPLE = "--n 1024 --seed 1 --output packing.xyz --page packing.html --report -"
+NOTES = (
+    "Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file progress goes as a line "
+    "every ten seconds, on a terminal as one line that changes.",
+    "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early or not jammed; the valid state reached is written. "
+    "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
+)
+
+
+def options(where):
+    """Sections with the options that one of the programs has."""
+    for section, rows in TABLE.items():
+        yield section, [o for o in rows if o.where in (BOTH, where)]
+
+
+def usage(o):
+    """As the help writes it: --name VALUE."""
+    value = "|".join(o.words) or o.metavar
+    return f"--{o.name} {value}".rstrip()

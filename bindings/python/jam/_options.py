@@ -1,0 +1,106 @@
+"""The options of python3 -m jam: made by bindings/gen/generate.py from bindings/gen/options.py; do not edit."""
+# fmt: off
+
+ABOUT = (
+    'Makes a jammed packing of hard spheres: random start, event-driven molecular dynamics with '
+    'growth, then iterated linear programming down to the jamming point. '
+)
+EXAMPLE = '--n 1024 --seed 1 --output packing.xyz --page packing.html --report -'
+NOTES = (
+    'Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file '
+    'progress goes as a line every ten seconds, on a terminal as one line that changes. '
+    'Exit status 0: done, and jammed unless --no-crunch. 1: stopped early or not jammed; the valid '
+    'state reached is written. 2: wrong command line. 3: request or input refused, or the computation '
+    'failed. 4: an output cannot be written. '
+)
+# name, kind, metavar, default, (low, high), words, needs the crunch, help
+OPTIONS = (
+    # Start
+    ('n', 'integer', 'N', None, (1, 2147483647), (), False,
+        'spheres (1024)'),
+    ('dim', 'integer', 'D', 3, (2, 8), (), False,
+        'dimension, 2..8 (3)'),
+    ('phi0', 'positive', 'F', None, (0, 0), (), False,
+        'packing fraction of the random start (0.2; halved for each dimension above 3)'),
+    ('diameters-ratio', 'positive', 'R', 1.0, (0, 0), (), False,
+        'half of the spheres are R times as large (1)'),
+    ('diameters', 'diameters', 'WHAT', None, (0, 0), (), False,
+        'bidisperse:R as above; lognormal:S with S the standard deviation over the mean; or a file of '
+        'diameters, of which the ratios count'),
+    ('non-additivity', 'delta', 'D', 0.0, (0, 0), (), False,
+        'spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)'),
+    ('model', 'choice', '', 'euclid', (0, 0), ('euclid', 'mk'), False,
+        'distance: Euclidean (default) or Mari-Kurchan'),
+    ('zeta', 'not_negative', 'Z', None, (0, 0), (), False,
+        'strength of the Mari-Kurchan shifts (infinite)'),
+    ('plant', 'positive', 'F', None, (0, 0), (), False,
+        'Mari-Kurchan start, planted in equilibrium at packing fraction F'),
+    ('seed', 'integer', 'S', 1, (-9223372036854775807, 9223372036854775807), (), False,
+        'of all random numbers (1)'),
+    ('input', 'input', 'FILE', None, (0, 0), (), False,
+        'start from a file: plain text, extended XYZ or LAMMPS data, compressed or not; molecular '
+        'dynamics is then off unless --growth or --nve is given'),
+    ('box', 'positive', 'L', 1.0, (0, 0), (), False,
+        'side of the box for a plain file that names none (1)'),
+    ('shrink', 'switch', '', None, (0, 0), (), False,
+        'shrink overlapping spheres of the file to contact'),
+    # Molecular dynamics
+    ('nve', 'not_negative', 'C', 0.0, (0, 0), (), False,
+        'first C collisions per particle without growth (0)'),
+    ('growth', 'stage', 'RATE[:P]', None, (0, 0), (), False,
+        'one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced pressure P. Give it again for '
+        'more stages. Default: 1e-2:500, then 3e-3 up to --pressure'),
+    ('pressure', 'pressure', 'P', 10000000.0, (0, 0), (), False,
+        'target of stages without :P (1e7)'),
+    ('no-md', 'switch', '', None, (0, 0), (), False,
+        'none'),
+    ('checkpoint', 'output', 'FILE', None, (0, 0), (), False,
+        'state of the dynamics, every minute and where they stop'),
+    ('resume', 'input', 'FILE', None, (0, 0), (), False,
+        'go on from a checkpoint, to the same bits: the stage that was cut off, then those stages whose '
+        'pressure lies beyond'),
+    # Crunch
+    ('method', 'choice', '', 'barrier', (0, 0), ('barrier', 'sequential-lp'), False,
+        'the quench: barrier path (default), or the published sequence of linear programs alone'),
+    ('strain', 'choice', '', 'none', (0, 0), ('none', 'edges', 'tilts', 'free'), False,
+        'let the cell deform too, at fixed volume: its edges, its tilts, or both; free: the packing ends '
+        'strictly jammed (none)'),
+    ('lp', 'choice', '', 'ipm', (0, 0), ('ipm', 'clp'), False,
+        "linear programs by interior point (default) or Clp's simplex"),
+    ('threads', 'integer', 'T', 1, (1, 2), (), False,
+        '1 or 2 (1; the same bits each time on 1)'),
+    ('no-crunch', 'switch', '', None, (0, 0), (), False,
+        'stop after molecular dynamics'),
+    # Output
+    ('output', 'output', 'FILE', None, (0, 0), (), False,
+        'the packing. The ending tells the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), '
+        'ParaView (.vtp), plain text (.dat, .txt, none). With .gz behind it the file is compressed'),
+    ('page', 'output', 'FILE.html', None, (0, 0), (), False,
+        'the packing to look at in a browser, with forces, certificate and distributions; needs no '
+        'network'),
+    ('contacts', 'output', 'FILE', None, (0, 0), (), True,
+        'the contact network: i, j, unit vector, gap, force (mean 1), as .csv, .dump (LAMMPS dump local) '
+        'or .vtp (ParaView)'),
+    ('spectrum', 'output', 'FILE.csv', None, (0, 0), (), True,
+        'lowest modes of the harmonic Hessian: omega^2, omega, participation'),
+    ('modes', 'integer', 'K', None, (0, 2147483647), (), False,
+        'how many --spectrum writes (100); 0: all, which needs 24 (d N)^2 bytes, at most 2e9'),
+    ('gaps', 'output', 'FILE.csv', None, (0, 0), (), True,
+        'gaps h < 1 of pairs that are no contacts, sorted'),
+    ('structure', 'output', 'FILE.csv', None, (0, 0), (), True,
+        'a line a sphere: coordination, class, sums of contact vectors and forces, Q6, local packing '
+        'fraction'),
+    ('report', 'output', 'FILE|-', None, (0, 0), (), False,
+        'figures, protocol and certificate as JSON; - is standard output'),
+    ('log', 'output', 'FILE|-', None, (0, 0), (), False,
+        'what the library says of each stage and LP, a line each with its time'),
+    ('vtk', 'text', 'PREFIX', None, (0, 0), (), False,
+        'PREFIX.vtp and PREFIX-forces.vtp for ParaView'),
+    ('plot', 'output', 'PICTURE', None, (0, 0), (), False,
+        'spheres, forces and the way there, by matplotlib'),
+    ('quiet', 'switch', '', None, (0, 0), (), False,
+        'no progress, no summary'),
+    # Other
+    ('wall-time', 'positive', 'SECONDS', None, (0, 0), (), False,
+        'limit for the whole run'),
+)

@@ -1,0 +1,194 @@
+/* The options of jam-pack: made by bindings/gen/generate.py from bindings/gen/options.py; do not edit. */
+/* clang-format off */
+#ifndef JAM_PACK_OPTIONS_TABLE_H
+#define JAM_PACK_OPTIONS_TABLE_H
+
+/* Numbers that were not given are INFINITY, integers NOT_GIVEN. */
+typedef struct options {
+  int64_t n;
+  int64_t dim;
+  double phi0;
+  double diameters_ratio;
+  double non_additivity;
+  int64_t model;
+  double zeta;
+  double plant;
+  int64_t seed;
+  const char *input;
+  double box;
+  int shrink;
+  double nve;
+  double pressure;
+  int no_md;
+  const char *checkpoint;
+  const char *resume;
+  int64_t method;
+  int64_t strain;
+  int64_t lp;
+  int64_t threads;
+  int no_crunch;
+  const char *output;
+  const char *page;
+  const char *contacts;
+  const char *spectrum;
+  int64_t modes;
+  const char *gaps;
+  const char *structure;
+  const char *report;
+  const char *log;
+  int quiet;
+  double wall_time;
+  given given; /* what has a form of its own */
+} options;
+
+#ifdef JAM_PACK_OPTIONS_TABLE
+enum { TAKE_INTEGER, TAKE_POSITIVE, TAKE_DIAMETERS, TAKE_DELTA, TAKE_CHOICE, TAKE_NOT_NEGATIVE, TAKE_INPUT, TAKE_SWITCH, TAKE_STAGE, TAKE_PRESSURE, TAKE_OUTPUT };
+enum { AFTER_CRUNCH = 1, TAKES_STDOUT = 2 };
+
+typedef struct option_row {
+  const char *name;
+  int kind;
+  size_t place; /* in options */
+  int64_t low, high;
+  const char *words;
+  int flags;
+} option_row;
+
+static const option_row table[] = {
+    {"--n", TAKE_INTEGER, offsetof(options, n), 1, 2147483647, NULL, 0},
+    {"--dim", TAKE_INTEGER, offsetof(options, dim), 2, 8, NULL, 0},
+    {"--phi0", TAKE_POSITIVE, offsetof(options, phi0), 0, 0, NULL, 0},
+    {"--diameters-ratio", TAKE_POSITIVE, offsetof(options, diameters_ratio), 0, 0, NULL, 0},
+    {"--diameters", TAKE_DIAMETERS, 0, 0, 0, NULL, 0},
+    {"--non-additivity", TAKE_DELTA, offsetof(options, non_additivity), 0, 0, NULL, 0},
+    {"--model", TAKE_CHOICE, offsetof(options, model), 0, 0, "euclid mk", 0},
+    {"--zeta", TAKE_NOT_NEGATIVE, offsetof(options, zeta), 0, 0, NULL, 0},
+    {"--plant", TAKE_POSITIVE, offsetof(options, plant), 0, 0, NULL, 0},
+    {"--seed", TAKE_INTEGER, offsetof(options, seed), -9223372036854775807, 9223372036854775807, NULL, 0},
+    {"--input", TAKE_INPUT, offsetof(options, input), 0, 0, NULL, 0},
+    {"--box", TAKE_POSITIVE, offsetof(options, box), 0, 0, NULL, 0},
+    {"--shrink", TAKE_SWITCH, offsetof(options, shrink), 0, 0, NULL, 0},
+    {"--nve", TAKE_NOT_NEGATIVE, offsetof(options, nve), 0, 0, NULL, 0},
+    {"--growth", TAKE_STAGE, 0, 0, 0, NULL, 0},
+    {"--pressure", TAKE_PRESSURE, offsetof(options, pressure), 0, 0, NULL, 0},
+    {"--no-md", TAKE_SWITCH, offsetof(options, no_md), 0, 0, NULL, 0},
+    {"--checkpoint", TAKE_OUTPUT, offsetof(options, checkpoint), 0, 0, NULL, 0},
+    {"--resume", TAKE_INPUT, offsetof(options, resume), 0, 0, NULL, 0},
+    {"--method", TAKE_CHOICE, offsetof(options, method), 0, 0, "barrier sequential-lp", 0},
+    {"--strain", TAKE_CHOICE, offsetof(options, strain), 0, 0, "none edges tilts free", 0},
+    {"--lp", TAKE_CHOICE, offsetof(options, lp), 0, 0, "ipm clp", 0},
+    {"--threads", TAKE_INTEGER, offsetof(options, threads), 1, 2, NULL, 0},
+    {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), 0, 0, NULL, 0},
+    {"--output", TAKE_OUTPUT, offsetof(options, output), 0, 0, NULL, 0},
+    {"--page", TAKE_OUTPUT, offsetof(options, page), 0, 0, NULL, 0},
+    {"--contacts", TAKE_OUTPUT, offsetof(options, contacts), 0, 0, NULL, AFTER_CRUNCH | TAKES_STDOUT},
+    {"--spectrum", TAKE_OUTPUT, offsetof(options, spectrum), 0, 0, NULL, AFTER_CRUNCH},
+    {"--modes", TAKE_INTEGER, offsetof(options, modes), 0, 2147483647, NULL, 0},
+    {"--gaps", TAKE_OUTPUT, offsetof(options, gaps), 0, 0, NULL, AFTER_CRUNCH},
+    {"--structure", TAKE_OUTPUT, offsetof(options, structure), 0, 0, NULL, AFTER_CRUNCH},
+    {"--report", TAKE_OUTPUT, offsetof(options, report), 0, 0, NULL, TAKES_STDOUT},
+    {"--log", TAKE_OUTPUT, offsetof(options, log), 0, 0, NULL, TAKES_STDOUT},
+    {"--quiet", TAKE_SWITCH, offsetof(options, quiet), 0, 0, NULL, 0},
+    {"--wall-time", TAKE_POSITIVE, offsetof(options, wall_time), 0, 0, NULL, 0},
+};
+
+static const options defaults = {
+    .n = NOT_GIVEN,
+    .dim = 3,
+    .phi0 = INFINITY,
+    .diameters_ratio = 1.0,
+    .non_additivity = 0.0,
+    .model = 0,
+    .zeta = INFINITY,
+    .plant = INFINITY,
+    .seed = 1,
+    .box = 1.0,
+    .nve = 0.0,
+    .pressure = 10000000.0,
+    .method = 0,
+    .strain = 0,
+    .lp = 0,
+    .threads = 1,
+    .modes = NOT_GIVEN,
+    .wall_time = INFINITY,
+};
+
+static const char *const help[] = {
+    "Usage: jam-pack [options]",
+    "Makes a jammed packing of hard spheres: random start, event-driven molecular",
+    "dynamics with growth, then iterated linear programming down to the jamming",
+    "point.",
+    "",
+    "Example: jam-pack --n 1024 --seed 1 --output packing.xyz --page packing.html --report -",
+    "",
+    "Start",
+    "  --n N                  spheres (1024)",
+    "  --dim D                dimension, 2..8 (3)",
+    "  --phi0 F               packing fraction of the random start (0.2; halved for each",
+    "                         dimension above 3)",
+    "  --diameters-ratio R    half of the spheres are R times as large (1)",
+    "  --diameters WHAT       bidisperse:R as above; lognormal:S with S the standard deviation",
+    "                         over the mean; or a file of diameters, of which the ratios count",
+    "  --non-additivity D     spheres of unequal diameters touch at (1 + D) times their mean",
+    "                         diameter, -1 < D <= 1 (0)",
+    "  --model euclid|mk      distance: Euclidean (default) or Mari-Kurchan",
+    "  --zeta Z               strength of the Mari-Kurchan shifts (infinite)",
+    "  --plant F              Mari-Kurchan start, planted in equilibrium at packing fraction F",
+    "  --seed S               of all random numbers (1)",
+    "  --input FILE           start from a file: plain text, extended XYZ or LAMMPS data,",
+    "                         compressed or not; molecular dynamics is then off unless --growth",
+    "                         or --nve is given",
+    "  --box L                side of the box for a plain file that names none (1)",
+    "  --shrink               shrink overlapping spheres of the file to contact",
+    "Molecular dynamics",
+    "  --nve C                first C collisions per particle without growth (0)",
+    "  --growth RATE[:P]      one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced",
+    "                         pressure P. Give it again for more stages. Default: 1e-2:500, then",
+    "                         3e-3 up to --pressure",
+    "  --pressure P           target of stages without :P (1e7)",
+    "  --no-md                none",
+    "  --checkpoint FILE      state of the dynamics, every minute and where they stop",
+    "  --resume FILE          go on from a checkpoint, to the same bits: the stage that was cut",
+    "                         off, then those stages whose pressure lies beyond",
+    "Crunch",
+    "  --method barrier|sequential-lp",
+    "                         the quench: barrier path (default), or the published sequence of",
+    "                         linear programs alone",
+    "  --strain none|edges|tilts|free",
+    "                         let the cell deform too, at fixed volume: its edges, its tilts, or",
+    "                         both; free: the packing ends strictly jammed (none)",
+    "  --lp ipm|clp           linear programs by interior point (default) or Clp's simplex",
+    "  --threads T            1 or 2 (1; the same bits each time on 1)",
+    "  --no-crunch            stop after molecular dynamics",
+    "Output",
+    "  --output FILE          the packing. The ending tells the format: extended XYZ (.xyz,",
+    "                         .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), plain text (.dat,",
+    "                         .txt, none). With .gz behind it the file is compressed",
+    "  --page FILE.html       the packing to look at in a browser, with forces, certificate and",
+    "                         distributions; needs no network",
+    "  --contacts FILE        the contact network: i, j, unit vector, gap, force (mean 1), as",
+    "                         .csv, .dump (LAMMPS dump local) or .vtp (ParaView)",
+    "  --spectrum FILE.csv    lowest modes of the harmonic Hessian: omega^2, omega, participation",
+    "  --modes K              how many --spectrum writes (100); 0: all, which needs 24 (d N)^2",
+    "                         bytes, at most 2e9",
+    "  --gaps FILE.csv        gaps h < 1 of pairs that are no contacts, sorted",
+    "  --structure FILE.csv   a line a sphere: coordination, class, sums of contact vectors and",
+    "                         forces, Q6, local packing fraction",
+    "  --report FILE|-        figures, protocol and certificate as JSON; - is standard output",
+    "  --log FILE|-           what the library says of each stage and LP, a line each with its",
+    "                         time",
+    "  --quiet                no progress, no summary",
+    "Other",
+    "  --wall-time SECONDS    limit for the whole run",
+    "  --help                 these lines",
+    "  --version              the version of the library",
+    "",
+    "Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file",
+    "progress goes as a line every ten seconds, on a terminal as one line that changes.",
+    "",
+    "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early or not jammed; the",
+    "valid state reached is written. 2: wrong command line. 3: request or input refused, or the",
+    "computation failed. 4: an output cannot be written.",
+    NULL};
+#endif
+#endif

@@ -1,0 +1,61 @@
+/* What jam-pack tells while it works: progress on stderr, and the log. */
+#define _XOPEN_SOURCE 700
+#include <errno.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+#include "jam-pack.h"
+
+static const double seconds_between_lines = 10;
+
+double seconds_now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int32_t show_progress(const jam_progress *p, void *user) {
+  terminal *t = user;
+  const double now = seconds_now();
+  if (!t->is_terminal && now - t->told < seconds_between_lines) return 0;
+  t->told = now;
+  if (t->is_terminal) fputs("\r\033[K", stderr);
+  if (p->phase == JAM_PHASE_RUN || p->phase == JAM_PHASE_COMPRESS)
+    fprintf(stderr, "%s  p %.4g  phi %.6f  %.3g collisions  %.1f s", t->stage, p->pressure, p->packing_fraction,
+            (double)p->collisions, now - t->begin);
+  else
+    fprintf(stderr, "%s  step %lld  sqrt(Gamma)-1 %.3e  phi %.9f  %.1f s", t->stage, (long long)p->steps, p->gain,
+            p->packing_fraction, now - t->begin);
+  if (!t->is_terminal) fputc('\n', stderr);
+  fflush(stderr);
+  return 0;
+}
+
+static void write_log(int32_t level, const char *line, void *user) {
+  terminal *t = user;
+  fprintf(t->log, "%10.3f %s %s\n", seconds_now() - t->begin, level == JAM_LOG_WARNING ? "warning" : "info", line);
+  fflush(t->log); /* a killed job leaves what was said */
+}
+
+/* The log is written in place, so that it can be read while the program runs. */
+int start_progress(terminal *t, const options *o, jam_system *sys) {
+  t->is_terminal = isatty(STDERR_FILENO);
+  t->told = t->begin;
+  if (!o->quiet) jam_set_progress(sys, show_progress, t);
+  if (!o->log) return 0;
+  t->log = strcmp(o->log, "-") ? fopen(o->log, "w") : stdout;
+  if (t->log) return jam_set_log(sys, write_log, JAM_LOG_INFO, t) < 0;
+  complain("cannot write %s: %s", o->log, strerror(errno));
+  return -1;
+}
+
+int end_progress(terminal *t, const options *o) {
+  int bad = 0;
+  if (!o->quiet && t->is_terminal) fputs("\r\033[K", stderr);
+  if (t->log) {
+    bad = ferror(t->log) != 0;
+    if (t->log != stdout) bad |= fclose(t->log) != 0;
+    if (bad) complain("cannot write %s: %s", o->log, strerror(errno));
+  }
+  return bad;
+}

@@ -2412,6 +2412,23 @@ module jam
       integer(c_int32_t) :: status
     end function jam_moduli_get
 
+    ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
+    ! (d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
+    ! With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
+    ! Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1
+    function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed) &
+        bind(c, name="jam_elastic_tensor") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      real(c_double), intent(inout), optional :: affine(*)
+      integer(c_size_t), value :: affine_len
+      real(c_double), intent(inout), optional :: relaxed(*)
+      integer(c_size_t), value :: relaxed_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function jam_elastic_tensor
+
     ! Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
     ! other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
     ! Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
@@ -3027,6 +3044,18 @@ module jam
       real(c_double), intent(out), optional :: value
       integer(c_int32_t) :: status
     end function c_jam_curvature
+    function c_jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed) &
+        bind(c, name="jam_elastic_tensor") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_hessian_options), intent(in), optional :: h
+      type(c_ptr), value :: affine
+      integer(c_size_t), value :: affine_len
+      type(c_ptr), value :: relaxed
+      integer(c_size_t), value :: relaxed_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_elastic_tensor
     function c_jam_compare(sys, other, comparison, out, out_len, needed) &
         bind(c, name="jam_compare") result(status)
       import
@@ -3320,6 +3349,11 @@ module jam
     module procedure f_jam_curvature
   end interface jam_curvature
 
+  interface jam_elastic_tensor
+    procedure jam_elastic_tensor
+    module procedure f_jam_elastic_tensor
+  end interface jam_elastic_tensor
+
   interface jam_compare
     procedure jam_compare
     module procedure f_jam_compare
@@ -3381,6 +3415,7 @@ module jam
   private :: c_jam_density_of_states, f_jam_density_of_states
   private :: c_jam_project, f_jam_project
   private :: c_jam_curvature, f_jam_curvature
+  private :: c_jam_elastic_tensor, f_jam_elastic_tensor
   private :: c_jam_compare, f_jam_compare
 
 contains
@@ -4554,6 +4589,31 @@ contains
     end if
     status = c_jam_curvature(sys, h, at_u, count_u, value)
   end function f_jam_curvature
+
+  function f_jam_elastic_tensor(sys, h, affine, relaxed) result(status)
+    type(c_ptr), intent(in) :: sys
+    type(jam_hessian_options), intent(in), optional :: h
+    real(c_double), intent(inout), target, contiguous, optional :: affine(..)
+    real(c_double), intent(inout), target, contiguous, optional :: relaxed(..)
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_affine
+    integer(c_size_t) :: count_affine
+    type(c_ptr) :: at_relaxed
+    integer(c_size_t) :: count_relaxed
+    at_affine = c_null_ptr
+    count_affine = 0
+    if (present(affine)) then
+      at_affine = c_loc(affine)
+      count_affine = size(affine, kind=c_size_t)
+    end if
+    at_relaxed = c_null_ptr
+    count_relaxed = 0
+    if (present(relaxed)) then
+      at_relaxed = c_loc(relaxed)
+      count_relaxed = size(relaxed, kind=c_size_t)
+    end if
+    status = c_jam_elastic_tensor(sys, h, at_affine, count_affine, at_relaxed, count_relaxed)
+  end function f_jam_elastic_tensor
 
   function f_jam_compare(sys, other, comparison, out) result(status)
     type(c_ptr), intent(in) :: sys

@@ -53,6 +53,8 @@
 %apply (const double *IN, size_t IN_LEN) {(const double *vector, size_t vector_len)};
 %apply (const double *IN, size_t IN_LEN) {(const double *u, size_t u_len)};
 %apply double *RESULT {double *value};
+%apply (double *FILL, size_t FILL_LEN) {(double *affine, size_t affine_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *relaxed, size_t relaxed_len)};
 %extend jam_create_options {
   jam_create_options() {
     jam_create_options *made = (jam_create_options *)calloc(1, sizeof *made);
@@ -594,6 +596,10 @@ squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE
 %feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
 %feature("docstring") jam_moduli_get "Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
 the network unstable. Threads: alone. @since 0.1"
+%feature("docstring") jam_elastic_tensor "Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
+(d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
+With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
+Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1"
 %feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
 other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
 Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"

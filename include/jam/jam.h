@@ -1421,6 +1421,12 @@ JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_option
 /* Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
  * the network unstable. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli);
+/* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
+ * (d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
+ * With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
+ * Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
+                                      double *relaxed, size_t relaxed_len, size_t *needed);
 /* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
  * other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
  * Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */

@@ -1,4 +1,4 @@
-// Elastic moduli with the non-affine part, and comparing two packings.
+// Elastic tensor and moduli with the non-affine part, and comparing two packings.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,9 +10,9 @@
 namespace jam {
 namespace {
 
-// Second derivative of the energy when contact vectors change by du (contacts, d) times a strain: affine, and with
-// relaxed spheres. The relaxed one is summed over the residual of each du, so that no digits cancel.
-struct Strained {
+// Quadratic form of the energy in changes du (contacts, d) of contact vectors, and the spheres that follow such
+// changes.
+struct Network {
   const RigidityMatrix &g;
   const ContactWeights &w;
   const GroundedSolver &solver;
@@ -25,16 +25,22 @@ struct Strained {
     for (int c = 0; c < g.dim; ++c) along += n[c] * x[c];
     for (int c = 0; c < g.dim; ++c) f[c] = (w.stiffness[k] + t) * along * n[c] - t * x[c];
   }
-  double energy(size_t k, const double *x) const {
-    const double *n = &g.normal[k * g.dim];
-    double along = 0.0, all = 0.0;
-    for (int c = 0; c < g.dim; ++c) along += n[c] * x[c], all += x[c] * x[c];
-    return w.stiffness[k] * along * along - transverse(k) * (all - along * along);
-  }
-
-  void relax(const std::vector<double> &du, double &affine, double &relaxed) const {
+  // sum over contacts of x . H_k . y
+  double product(const std::vector<double> &x, const std::vector<double> &y) const {
     const size_t d = static_cast<size_t>(g.dim);
-    std::vector<double> u(g.unknowns(), 0.0), f(d), left(d);
+    double sum = 0.0;
+    for (size_t k = 0; k < g.contacts(); ++k) {
+      const double *n = &g.normal[k * d], *a = &x[k * d], *b = &y[k * d];
+      double an = 0.0, bn = 0.0, ab = 0.0;
+      for (size_t c = 0; c < d; ++c) an += n[c] * a[c], bn += n[c] * b[c], ab += a[c] * b[c];
+      sum += w.stiffness[k] * an * bn - transverse(k) * (ab - an * bn);
+    }
+    return sum;
+  }
+  // What is left of du when the spheres have moved to where forces balance again.
+  std::vector<double> relaxed(const std::vector<double> &du) const {
+    const size_t d = static_cast<size_t>(g.dim);
+    std::vector<double> u(g.unknowns(), 0.0), f(d), left(du);
     for (size_t k = 0; k < g.contacts(); ++k) {
       force(k, &du[k * d], f.data());
       for (size_t c = 0; c < d; ++c) {
@@ -43,55 +49,67 @@ struct Strained {
       }
     }
     solver.solve(u.data(), 1);
-    affine = relaxed = 0.0;
-    for (size_t k = 0; k < g.contacts(); ++k) {
+    for (size_t k = 0; k < g.contacts(); ++k)
       for (size_t c = 0; c < d; ++c)
-        left[c] = du[k * d + c] - (u[static_cast<size_t>(g.a[k]) * d + c] - u[static_cast<size_t>(g.b[k]) * d + c]);
-      affine += energy(k, &du[k * d]);
-      relaxed += energy(k, left.data());
-    }
+        left[k * d + c] -= u[static_cast<size_t>(g.a[k]) * d + c] - u[static_cast<size_t>(g.b[k]) * d + c];
+    return left;
   }
 };
 
 }  // namespace
 
-// With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round, G = E'' / V. Bulk:
-// K = V d^2 E / dV^2 = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
-jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                          const CancellationPoint &cancel_point) {
-  jam_moduli m{};
-  const int d = p.dim;
-  const size_t width = static_cast<size_t>(d);
-  const double volume = p.cell.volume(), directions = d * (d - 1);
+// The relaxed tensor is the form of what is left of two strains, not a difference of two energies: no digits cancel.
+ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                             const CancellationPoint &cancel_point) {
+  const size_t d = static_cast<size_t>(p.dim), gradients = d * d;
+  const double volume = p.cell.volume();
   const GroundedSolver solver(g, w);
   if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.hessian().norm_bound())
     fail(JAM_E_STATE,
          "with this pre-stress the Hessian has negative eigenvalues: the network is unstable and has no moduli");
-  const Strained strained{g, w, solver};
-  std::vector<double> du(g.contacts() * width);
-  double affine = 0.0, relaxed = 0.0, pressure = 0.0;
-  for (size_t k = 0; k < g.contacts(); ++k) {
-    for (size_t c = 0; c < width; ++c)
-      du[k * width + c] = g.distance[k] * g.normal[k * width + c] / d;  // volume strain 1
-    pressure += strained.transverse(k) * g.distance[k] * g.distance[k] / (d * volume);
+  const Network network{g, w, solver};
+  std::vector<std::vector<double>> strained, left;
+  for (size_t e = 0; e < gradients; ++e) {
+    cancel_point();
+    std::vector<double> du(g.contacts() * d, 0.0);
+    for (size_t k = 0; k < g.contacts(); ++k) du[k * d + e / d] = g.distance[k] * g.normal[k * d + e % d];
+    left.push_back(network.relaxed(du));
+    strained.push_back(std::move(du));
   }
-  strained.relax(du, affine, relaxed);
-  m.bulk_affine = affine / volume + pressure * (d - 1) / d;
-  m.bulk = relaxed / volume + pressure * (d - 1) / d;
+  ElasticTensor c;
+  c.affine.resize(gradients * gradients);
+  c.relaxed.resize(gradients * gradients);
+  for (size_t e = 0; e < gradients; ++e)
+    for (size_t f = 0; f <= e; ++f) {
+      c.affine[e * gradients + f] = c.affine[f * gradients + e] = network.product(strained[e], strained[f]) / volume;
+      c.relaxed[e * gradients + f] = c.relaxed[f * gradients + e] = network.product(left[e], left[f]) / volume;
+    }
+  return c;
+}
+
+// With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round. Bulk:
+// K = V d^2 E / dV^2 = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
+jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                          const CancellationPoint &cancel_point) {
+  jam_moduli m{};
+  const size_t d = static_cast<size_t>(p.dim);
+  const double dim = p.dim, directions = dim * (dim - 1.0);
+  const ElasticTensor tensor = elastic_tensor(p, g, w, cancel_point);
+  const auto at = [&](const std::vector<double> &c, size_t ab, size_t cd) { return c[ab * d * d + cd]; };
+  for (size_t k = 0; k < g.contacts() && !w.transverse.empty(); ++k)
+    m.bulk += w.transverse[k] * g.distance[k] * g.distance[k] * (dim - 1.0) / (dim * dim * p.cell.volume());
+  m.bulk_affine = m.bulk;
   m.shear_min = std::numeric_limits<double>::infinity();
   m.shear_max = -m.shear_min;
-  for (int a = 0; a < d; ++a)
-    for (int b = 0; b < a; ++b) {
-      double plane = 0.0;
-      for (const auto &[x, y] : {std::pair<int, int>(a, b), std::pair<int, int>(b, a)}) {
-        cancel_point();
-        std::fill(du.begin(), du.end(), 0.0);
-        for (size_t k = 0; k < g.contacts(); ++k) du[k * width + x] = g.distance[k] * g.normal[k * width + y];
-        strained.relax(du, affine, relaxed);
-        m.shear_affine += affine / volume / directions;
-        m.shear += relaxed / volume / directions;
-        plane += 0.5 * relaxed / volume;
-      }
+  for (size_t a = 0; a < d; ++a)
+    for (size_t b = 0; b < d; ++b) {
+      m.bulk += at(tensor.relaxed, a * d + a, b * d + b) / (dim * dim);
+      m.bulk_affine += at(tensor.affine, a * d + a, b * d + b) / (dim * dim);
+      if (a == b) continue;
+      const size_t ab = a * d + b, ba = b * d + a;
+      m.shear += at(tensor.relaxed, ab, ab) / directions;
+      m.shear_affine += at(tensor.affine, ab, ab) / directions;
+      const double plane = 0.5 * (at(tensor.relaxed, ab, ab) + at(tensor.relaxed, ba, ba));
       m.shear_min = std::min(m.shear_min, plane);
       m.shear_max = std::max(m.shear_max, plane);
     }

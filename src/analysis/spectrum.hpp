@@ -16,7 +16,14 @@ struct DensityOfStates {
 DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o,
                                   const CancellationPoint &cancel_point = CancellationPoint());
 
-// JAM_E_STATE when pre-stress makes the network unstable.
+// Second derivatives of the energy a volume by the gradients E_ab and E_cd of x -> (1 + E) x, tables (d, d, d, d):
+// spheres moved by it alone, and relaxed. JAM_E_STATE when pre-stress makes the network unstable.
+struct ElasticTensor {
+  std::vector<double> affine, relaxed;
+};
+ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                             const CancellationPoint &cancel_point = CancellationPoint());
+// Moduli from that tensor.
 jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
                           const CancellationPoint &cancel_point = CancellationPoint());
 

@@ -83,6 +83,27 @@ jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_mod
   });
 }
 
+jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
+                              double *relaxed, size_t relaxed_len, size_t *needed) {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+    const jam_hessian_options options = take_hessian_options(h);
+    need_network(sys);
+    const size_t d = static_cast<size_t>(sys->packing.dim), count = d * d * d * d;
+    if (needed) *needed = count;
+    if (!needed && !affine && !relaxed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    check_output(affine, affine_len, count, "affine");
+    check_output(relaxed, relaxed_len, count, "relaxed");
+    if (empty_network(sys)) return JAM_NOT_JAMMED;
+    if (!affine && !relaxed) return JAM_OK;
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
+    const ElasticTensor c =
+        elastic_tensor(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), cancel_point);
+    put_output(c.affine, affine, count);
+    put_output(c.relaxed, relaxed, count);
+    return JAM_OK;
+  });
+}
+
 jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
                        size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {

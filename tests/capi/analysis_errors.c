@@ -59,6 +59,7 @@ static void null_handles_are_refused(void **state) {
   assert_int_equal(jam_histogram(NULL, 0, 0, 0.0, 1.0, 1, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_contact_candidates(NULL, 0.1, &x, 1, &m), JAM_E_NULL);
   assert_int_equal(jam_moduli_get(NULL, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_elastic_tensor(NULL, NULL, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_compare(NULL, NULL, NULL, NULL, 0, NULL), JAM_E_NULL);
 }
 
@@ -114,6 +115,7 @@ static void a_fluid_has_an_empty_network(void **state) {
   assert_int_equal(jam_floppy_mode(s, 0, x, 10, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_density_of_states(s, NULL, NULL, x, 10, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_moduli_get(s, NULL, &moduli), JAM_NOT_JAMMED);
+  assert_int_equal(jam_elastic_tensor(s, NULL, NULL, 0, NULL, 0, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_class_values(s, JAM_QUANTITY_COORDINATION, JAM_CLASS_ALL, x, 10, &m), JAM_OK);
   assert_int_equal(m, 0);
   assert_int_equal(jam_histogram(s, JAM_QUANTITY_VECTOR_PAIRS, JAM_CLASS_ALL, -3.0, 0.0, 10, x, 10, &m), JAM_OK);

@@ -170,6 +170,69 @@ static void response(void **state) {
   jam_destroy(sys);
 }
 
+/* Energy after a strain x times e, relaxed. */
+static double strained_energy(const jam_system *sys, const double *e, double x) {
+  double strain[9];
+  jam_system *copy = NULL;
+  jam_relax_report r = {.struct_size = sizeof r};
+  for (int k = 0; k < 9; ++k) strain[k] = x * e[k];
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_strain(copy, strain, 9), JAM_OK);
+  assert_int_equal(jam_relax(copy, NULL, &r), JAM_OK);
+  jam_destroy(copy);
+  return r.energy;
+}
+
+/* The relaxed tensor along any gradient is the curvature of the relaxed energy a volume. */
+static void elastic_tensor(void **state) {
+  (void)state;
+  enum { GRADIENTS = 3 };
+  static const double gradient[GRADIENTS][9] = {
+      {0.3, -0.8, 0.5, 0.1, 0.6, -0.4, 0.9, 0.2, -0.7},
+      {0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, /* to first order a rotation */
+      {-0.2, 0.4, 0.7, 0.9, -0.5, 0.3, -0.6, 0.8, 0.1}};
+  jam_system *sys = soft_start(80, 0.75, 3);
+  jam_relax_report r = {.struct_size = sizeof r};
+  jam_hessian_options h;
+  jam_moduli m = {.struct_size = sizeof m};
+  double affine[81], relaxed[81], bare[81], shear = 0.0;
+  size_t needed;
+  assert_int_equal(jam_hessian_options_init(&h, sizeof h), JAM_OK);
+  h.stiffness = JAM_STIFFNESS_SOFT, h.prestress = 1.0;
+  assert_int_equal(jam_elastic_tensor(sys, &h, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
+  assert_int_equal(jam_relax(sys, NULL, &r), JAM_OK);
+  assert_int_equal(jam_elastic_tensor(sys, &h, NULL, 0, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 81);
+  assert_int_equal(jam_elastic_tensor(sys, &h, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_elastic_tensor(sys, &h, affine, 80, NULL, 0, NULL), JAM_E_BUFFER);
+  assert_int_equal(jam_elastic_tensor(sys, &h, affine, 81, relaxed, 81, NULL), JAM_OK);
+  for (int g = 0; g < GRADIENTS; ++g) {
+    const double x = 2e-6, *e = gradient[g];
+    double form = 0.0, free_form = 0.0;
+    for (int k = 0; k < 81; ++k) {
+      form += e[k / 9] * e[k % 9] * relaxed[k];
+      free_form += e[k / 9] * e[k % 9] * affine[k];
+    }
+    const double change =
+        (strained_energy(sys, e, x) - 2.0 * strained_energy(sys, e, 0.0) + strained_energy(sys, e, -x)) / (x * x);
+    print_message("form %.6g (affine %.6g), energies %.6g\n", form, free_form, change);
+    assert_true(fabs(change / form - 1.0) < 1e-4);
+    assert_true(form < free_form + 1e-9);
+  }
+  assert_int_equal(jam_moduli_get(sys, &h, &m), JAM_OK);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      if (a != b) shear += relaxed[10 * (3 * a + b)] / 6.0;
+  assert_true(fabs(shear / m.shear - 1.0) < 1e-12);
+  /* Unstressed, a rotation costs nothing. */
+  h.prestress = 0.0;
+  assert_int_equal(jam_elastic_tensor(sys, &h, NULL, 0, bare, 81, NULL), JAM_OK);
+  for (int ab = 0; ab < 9; ++ab)
+    for (int cd = 0; cd < 9; ++cd)
+      assert_true(fabs(bare[9 * ab + cd] - bare[9 * (3 * (ab % 3) + ab / 3) + cd]) < 1e-10);
+  jam_destroy(sys);
+}
+
 static int32_t stop_soon(const jam_progress *p, void *user) {
   assert_true(p->phase == JAM_PHASE_DECOMPRESS || p->phase == JAM_PHASE_RELAX);
   return ++*(int *)user > 1;
@@ -223,6 +286,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(hard_verbs_refuse_overlaps),
                                      cmocka_unit_test(files_and_checkpoints),
                                      cmocka_unit_test(options_are_checked),
+                                     cmocka_unit_test(elastic_tensor),
                                      cmocka_unit_test(response),
                                      cmocka_unit_test(down_to_jamming),
                                      cmocka_unit_test(unjammed_start)};

@@ -123,6 +123,19 @@ void prestressed_moduli(void **) {
   };
   const double step = 1e-5, bulk = -(pressure(1 + step) - pressure(1 - step)) / (2 * step) / 3.0;
   assert_true(std::fabs(m.bulk / bulk - 1.0) < 1e-7);
+  // The tensor along other gradients than simple shears.
+  const ElasticTensor tensor = elastic_tensor(box, g, contact_weights(g, 1.0, h));
+  Rng rng(3, Stream::analysis_start);
+  for (int trial = 0; trial < 5; ++trial) {
+    std::vector<double> f(9);
+    for (double &x : f) x = rng.normal();
+    double affine = 0.0, relaxed = 0.0;
+    for (size_t e = 0; e < 81; ++e) {
+      affine += f[e / 9] * f[e % 9] * tensor.affine[e];
+      relaxed += f[e / 9] * f[e % 9] * tensor.relaxed[e];
+    }
+    assert_true(std::fabs(affine / strained(c, f, volume) - 1.0) < 1e-6 && std::fabs(relaxed / affine - 1.0) < 1e-12);
+  }
   h.prestress = 0.3;
   jam_status code = JAM_OK;
   try {
@@ -207,6 +220,14 @@ void moduli_of_fcc(void **) {
   assert_true(std::fabs(m.shear - std::sqrt(0.5)) < 1e-12);  // c44 in the cubic axes
   assert_true(std::fabs(m.bulk - 2.0 * std::sqrt(2.0) / 3.0) < 1e-12);
   assert_true(std::fabs(m.shear_max - m.shear_min) < 1e-12);
+  const ElasticTensor tensor = elastic_tensor(c.packing, g, contact_weights(g, 1.0, default_hessian_options()));
+  for (size_t i = 0; i < 81; ++i) {
+    const size_t index[4] = {i / 27, i / 9 % 3, i / 3 % 3, i % 3};
+    const auto same = [&](int x, int y) { return index[x] == index[y]; };
+    const bool pairs = (same(0, 1) && same(2, 3)) || (same(0, 2) && same(1, 3)) || (same(0, 3) && same(1, 2));
+    const double exact = same(0, 1) && same(1, 2) && same(2, 3) ? std::sqrt(2.0) : pairs ? std::sqrt(0.5) : 0.0;
+    assert_true(std::fabs(tensor.affine[i] - exact) < 1e-12 && std::fabs(tensor.relaxed[i] - exact) < 1e-12);
+  }
 }
 
 }  // namespace

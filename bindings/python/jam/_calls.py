@@ -134,6 +134,7 @@ SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
     "crunch_step_vectors": {"out": lambda m, d: (m // d, d)},
     "floppy_mode": {"out": lambda m, d: (m // d, d)},
     "compare": {"out": lambda m, d: (m // d, d)},
+    "elastic_tensor": {"affine": lambda m, d: (d, d, d, d), "relaxed": lambda m, d: (d, d, d, d)},
     "gaps": {"pair": lambda m, d: (m, 2)},
     "sphere_structure": {"c": lambda m, d: (m, d)},
     "observed_spheres": {"displacement": lambda m, d: (m, d)},

@@ -1058,5 +1058,6 @@ CALLS = {
     "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
     "jam_moduli_get": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli"))),
+    "jam_elastic_tensor": (True, (("h", "struct_in", "jam_hessian_options"), ("affine", "array_out", "double"), ("affine_len", "len", "size_t"), ("relaxed", "array_out", "double"), ("relaxed_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_compare": (True, (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

@@ -348,6 +348,18 @@ class Methods:
         prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
         return self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
 
+    def elastic_tensor(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ElasticTensorResult:
+        """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
+        (d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
+        With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
+        Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1
+
+        Options:
+        stiffness: jam_stiffness, default HARMONIC
+        alpha: POWER: > 1, default 2
+        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
+        return self.call('elastic_tensor', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
+
     def compare(self, other: Any) -> CompareResult:
         """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
         other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
@@ -479,6 +491,13 @@ class DensityOfStatesResult(NamedTuple):
     edge: np.ndarray  # upper end of the bin
     cumulative: np.ndarray  # share of modes below the edge
     cumulative_error: np.ndarray  # its standard error
+
+
+class ElasticTensorResult(NamedTuple):
+    """What elastic_tensor returns."""
+
+    affine: np.ndarray
+    relaxed: np.ndarray
 
 
 class CompareResult(NamedTuple):

@@ -1711,6 +1711,16 @@ function jam_moduli_get(sys, h, moduli)
 end
 
 """
+Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
+(d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
+With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
+Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1
+"""
+function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
+    return ccall((:jam_elastic_tensor, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))
+end
+
+"""
 Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
 other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
 Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1

@@ -11,6 +11,7 @@ from typing import Any, Iterator
 
 import numpy as np
 
+from ._paths import replaceable
 from .errors import StateError, UnsupportedError
 from .other_files import read_ase, read_gsd, write_gsd  # noqa: F401
 from .results import Modes
@@ -20,7 +21,8 @@ from .system import System
 @contextmanager
 def _replacing(path: str | os.PathLike) -> Iterator[Any]:
     """A text file that takes the place of path when all went well."""
-    folder, name = os.path.split(os.fspath(path))
+    path = replaceable(path)
+    folder, name = os.path.split(path)
     descriptor, beside = tempfile.mkstemp(prefix=name + ".", dir=folder or ".", text=True)
     try:
         with os.fdopen(descriptor, "w", encoding="ascii") as file:

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _calls, raw
 from ._generated import IsoconfColumn, StatusCode
+from ._paths import replaceable
 
 _SUMS = ("displacement", "square", "distance2", "distance4")
 
@@ -132,7 +133,8 @@ class Runs:
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
         arrays.update({"series_" + k: v for k, v in self.series.items()})
         arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
-        new = Path(path).with_suffix(".new.npz")
+        path = Path(replaceable(path))
+        new = path.with_suffix(".new.npz")
         np.savez(new, **arrays)
         os.replace(new, path)
 

@@ -33,6 +33,7 @@ from typing import Any, Mapping
 import numpy as np
 
 from . import _generated, raw
+from ._paths import replaceable
 from .results import Contacts
 from .system import System, _restore
 
@@ -198,7 +199,10 @@ def write_file(path: str | os.PathLike, data: bytes, parts: str | os.PathLike | 
     parts : path, optional
         Folder of the unfinished file, on the same file system; default that of the file.
     """
-    path = Path(path)
+    try:
+        path = Path(replaceable(path))
+    except OSError as error:
+        raise StoreError(error.errno, f"{path} cannot be written: {error.strerror}") from error
     name = f".{path.name}.{socket.gethostname()}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part"
     beside = Path(parts or path.parent) / name
     try:

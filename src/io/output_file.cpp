@@ -1,12 +1,15 @@
 #include "io/output_file.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <system_error>
 #include <vector>
@@ -18,6 +21,7 @@ namespace jam {
 namespace {
 
 constexpr size_t chunk = 1 << 16;
+constexpr char part[] = ".part-";
 
 // The target of a sequence of symbolic links, which need not exist. Relative links start from their own folder.
 std::string follow_links(std::string path) {
@@ -32,10 +36,44 @@ std::string follow_links(std::string path) {
   return path;
 }
 
+std::string folder_of(const std::string &file) {
+  const size_t slash = file.rfind('/');
+  return slash == std::string::npos ? "./" : file.substr(0, slash + 1);
+}
+
+// A temporary file that can be locked has no writer: its process was killed. Locks fall with their process, on other
+// machines too. What fails here is no error.
+void remove_orphans(const std::string &target) {
+  const std::string folder = folder_of(target), begin = target.substr(target.rfind('/') + 1) + part;
+  const std::unique_ptr<DIR, int (*)(DIR *)> entries(::opendir(folder.c_str()), ::closedir);
+  if (!entries) return;
+  while (const dirent *entry = ::readdir(entries.get())) {
+    if (std::strncmp(entry->d_name, begin.c_str(), begin.size()) != 0) continue;
+    if (std::strspn(entry->d_name + begin.size(), "0123456789-") != std::strlen(entry->d_name + begin.size())) continue;
+    const std::string orphan = folder + entry->d_name;
+    const int fd = ::open(orphan.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+    if (fd < 0) continue;
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(orphan.c_str());
+    ::close(fd);
+  }
+}
+
+// A new file under a lock, or -1 with errno. EEXIST: another name is to be tried.
+int open_locked(const std::string &name) {
+  const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0) return fd;
+  struct stat there;
+  // File systems without locks refuse them otherwise. Before the lock another writer may have taken it for an orphan.
+  const bool taken = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!taken && ::fstat(fd, &there) == 0 && there.st_nlink > 0) return fd;
+  ::close(fd);
+  errno = EEXIST;
+  return -1;
+}
+
 // Makes a rename outlive a crash of the machine. The new file is whole either way, so what fails here is no error.
 void sync_folder(const std::string &file) {
-  const size_t slash = file.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : file.substr(0, slash + 1);
+  const std::string folder = folder_of(file);
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;
   (void)::fsync(fd);
@@ -81,10 +119,11 @@ OutputFile::OutputFile(const char *path) : path_(path), target_(follow_links(pat
   }
   // Renaming would bypass a write protection that the user set.
   if (exists && ::access(path, W_OK) != 0) fail_errno("write");
+  remove_orphans(target_);
   const long long stamp = static_cast<long long>(now_seconds() * 1e9);
   for (int attempt = 0; attempt < 100 && fd_ < 0; ++attempt) {
-    temporary_ = target_ + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(stamp + attempt);
-    fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    temporary_ = target_ + part + std::to_string(::getpid()) + "-" + std::to_string(stamp + attempt);
+    fd_ = open_locked(temporary_);
     if (fd_ < 0 && errno != EEXIST) break;
   }
   if (fd_ < 0) {
@@ -135,12 +174,15 @@ void OutputFile::commit() {
   flush();
   // Without fsync a crash of the machine soon after the rename can leave an empty file in place of the old one.
   if (!temporary_.empty() && ::fsync(fd_) != 0) fail_errno("write");
+  // The lock holds until the file has its name. What fsync has taken, close cannot lose.
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail_errno("rename onto");
+  const bool renamed = !temporary_.empty();
+  temporary_.clear();
   const int fd = fd_;
   fd_ = -1;
-  if (::close(fd) != 0) fail_errno("write");
-  if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_errno("rename onto");
-  temporary_.clear();
+  const bool closed = ::close(fd) == 0;
+  if (!renamed && !closed) fail_errno("write");
+  if (!renamed) return;
   sync_folder(target_);
 }
 

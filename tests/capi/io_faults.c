@@ -1,0 +1,171 @@
+/* Every call that a write makes of the system fails once, and writers are killed at random moments: the old file or the
+ * new one stands there whole, and nothing is left beside it. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <sys/file.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include "io_helpers.h"
+
+/* The library finds these in the program before it looks in libc. */
+enum { calls_write, calls_fsync, calls_rename, calls_open, calls_close, kinds };
+static long until_failure[kinds] = {-1, -1, -1, -1, -1}; /* calls that still succeed; -1: all */
+static int halves;                                       /* a write that fails first writes half of what it was given */
+
+static int fails(int kind) {
+  if (until_failure[kind] < 0) return 0;
+  if (until_failure[kind]-- > 0) return 0;
+  errno = EIO;
+  return 1;
+}
+ssize_t write(int fd, const void *data, size_t size) {
+  if (fails(calls_write)) {
+    if (halves) return syscall(SYS_write, fd, data, size / 2); /* short: the rest must follow */
+    return -1;
+  }
+  return syscall(SYS_write, fd, data, size);
+}
+int fsync(int fd) { return fails(calls_fsync) ? -1 : (int)syscall(SYS_fsync, fd); }
+int rename(const char *from, const char *to) {
+  return fails(calls_rename) ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
+}
+int open(const char *path, int flags, ...) {
+  mode_t mode = 0;
+  if (fails(calls_open)) return -1;
+  if (flags & O_CREAT) {
+    va_list rest;
+    va_start(rest, flags);
+    mode = (mode_t)va_arg(rest, int);
+    va_end(rest);
+  }
+  return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+}
+int close(int fd) {
+  const int failed = fails(calls_close), result = (int)syscall(SYS_close, fd);
+  if (failed) errno = EIO;
+  return failed ? -1 : result;
+}
+
+typedef jam_status (*writer)(const jam_system *sys, const char *path);
+static jam_status write_text(const jam_system *sys, const char *path) { return jam_write(sys, path, 0); }
+
+static void assert_file(const char *path, const char *bytes, size_t size) {
+  size_t now;
+  char *text = get_bytes(path, &now);
+  assert_int_equal(now, size);
+  assert_memory_equal(text, bytes, size);
+  free(text);
+}
+
+static void each_failure(writer save, const char *name) {
+  jam_system *old = some_packing(3, 40, 1.4, 1.0), *sys = some_packing(3, 4000, 1.0, 1.0);
+  const char *path = in_scratch(name);
+  char *before, *after;
+  size_t before_size, after_size;
+  int kind, files;
+  long k;
+  assert_int_equal(save(sys, path), JAM_OK);
+  after = get_bytes(path, &after_size);
+  assert_int_equal(save(old, path), JAM_OK);
+  before = get_bytes(path, &before_size);
+  files = count_files();
+  for (kind = 0; kind < kinds; ++kind)
+    for (halves = 0; halves < (kind == calls_write ? 2 : 1); ++halves)
+      for (k = 0;; ++k) {
+        jam_status status;
+        int reached;
+        until_failure[kind] = k;
+        status = save(sys, path);
+        reached = until_failure[kind] < 0;
+        until_failure[kind] = -1;
+        assert_int_equal(count_files(), files);
+        if (status == JAM_OK) {
+          assert_file(path, after, after_size);
+          assert_int_equal(save(old, path), JAM_OK);
+        } else {
+          assert_int_equal(status, JAM_E_IO);
+          assert_non_null(strstr(jam_last_error(), strerror(EIO)));
+          assert_file(path, before, before_size);
+        }
+        if (!reached) break;
+        /* All but what only makes things tidy or safe against a fall of the machine are told. */
+        if (kind == calls_rename || (kind == calls_write && !halves) || (k == 0 && kind != calls_close && !halves))
+          assert_int_equal(status, JAM_E_IO);
+      }
+  free(before), free(after);
+  jam_destroy(old), jam_destroy(sys);
+}
+
+static void every_system_call(void **state) {
+  (void)state;
+  each_failure(write_text, "faults.dat");
+  each_failure(jam_checkpoint_write, "faults.jam");
+}
+
+/* One writer after the other is killed; some are caught amid a write. */
+static void kills(void **state) {
+  const int times = 150;
+  jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
+  const char *path = in_scratch("killed.jam");
+  int k, files, orphans = 0;
+  unsigned random = 12345;
+  (void)state;
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  files = count_files();
+  for (k = 0; k < times; ++k) {
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+      for (;;) jam_checkpoint_write(sys, path);
+    random = random * 1664525u + 1013904223u;
+    usleep(500 + (random >> 16) % 4000);
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    assert_int_equal(jam_checkpoint_read(path, &back), JAM_OK);
+    assert_same_bits(sys, back);
+    jam_destroy(back);
+    orphans += count_files() - files;
+    assert_true(count_files() - files <= 1); /* each writer removes what the one before left */
+  }
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(count_files(), files);
+  print_message("%d of %d kills left a file, which the next writer removed\n", orphans, times);
+  jam_destroy(sys);
+}
+
+/* Not an orphan: another process still writes it, or it is a file of another name. */
+static void files_of_others_stay(void **state) {
+  jam_system *sys = some_packing(2, 10, 1.0, 1.0);
+  const char *path = in_scratch("mine.dat"), *other = in_scratch("mine.dat.part-old"),
+             *locked = in_scratch("mine.dat.part-1-2"), *orphan = in_scratch("mine.dat.part-1-3");
+  int gate[2];
+  pid_t child;
+  char byte = 0;
+  (void)state;
+  put_bytes(other, "x", 1), put_bytes(locked, "x", 1), put_bytes(orphan, "x", 1);
+  assert_int_equal(pipe(gate), 0);
+  child = fork();
+  if (child == 0) { /* a writer at work */
+    const int fd = open(locked, O_WRONLY);
+    if (flock(fd, LOCK_EX) == 0 && write(gate[1], &byte, 1) == 1) pause();
+    _exit(1);
+  }
+  assert_int_equal(read(gate[0], &byte, 1), 1);
+  assert_int_equal(jam_write(sys, path, 0), JAM_OK);
+  assert_int_equal(access(other, F_OK), 0);
+  assert_int_equal(access(locked, F_OK), 0);
+  assert_int_equal(access(orphan, F_OK), -1);
+  kill(child, SIGKILL);
+  waitpid(child, NULL, 0);
+  assert_int_equal(jam_write(sys, path, 0), JAM_OK);
+  assert_int_equal(access(locked, F_OK), -1);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_system_call), cmocka_unit_test(kills),
+                                     cmocka_unit_test(files_of_others_stay)};
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

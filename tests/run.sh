@@ -5,7 +5,7 @@
 #   sanitizers  address and undefined behaviour, over the unit tests and those of the C interface; with
 #               `sanitizers sanitized_physics` also over physics and bindings, which takes much longer
 #   threads     the thread sanitizer over the tests that use several threads
-#   fuzz        libFuzzer on every target for 20 seconds
+#   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-clang, ./build-asan, ./build-tsan, ./build-fuzz.
 # Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu

@@ -4,8 +4,8 @@
 #include "input.h"
 
 enum { many = 4096 };
-static double values[3][many];
-static int32_t integers[2][many];
+static __thread double values[3][many];
+static __thread int32_t integers[2][many];
 
 static void call_network(input *in, jam_system *sys) {
   jam_geometry_options o;

@@ -1,83 +1,8 @@
 /* Fuzz target over sequences of calls on tiny systems of any dimension, size ratio, model, cell and overlap policy.
  * Option structs hold bytes of the input behind a struct_size that is mostly right. Every call ends with a known status
- * and a valid state, and soon: the progress callback asks it to stop after a tenth of a second. */
+ * and a valid state, and soon. */
 #define _POSIX_C_SOURCE 200809L
-#include <time.h>
-#include "calls_analysis.h"
-#include "calls_dynamics.h"
-
-typedef void (*call)(input *in, jam_system *sys);
-static const call calls[] = {
-    call_run,
-    call_compress,
-    call_crunch,
-    call_monte_carlo,
-    call_isoconfigurational,
-    call_relax,
-    call_decompress,
-    call_observe,
-    call_scale,
-    call_set_positions,
-    call_set_velocities,
-    call_cell,
-    call_network,
-    call_rigidity,
-    call_modes,
-    call_spectrum,
-    call_floppy,
-    call_gaps,
-    call_structure,
-    call_classes,
-    call_copy,
-};
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double begun;
-static int32_t stop_soon(const jam_progress *p, void *user) {
-  (void)p, (void)user;
-  return now() - begun > 0.1;
-}
-
-static jam_system *create(input *in) {
-  jam_create_options o;
-  jam_system *sys = NULL;
-  double x[6 * 8], diameter[6];
-  int k, given, n, coordinates;
-  jam_status status;
-  jam_create_options_init(&o, sizeof o);
-  o.dim = 2 + byte(in) % 7;
-  n = 1 + byte(in) % 6;
-  o.n = n;
-  o.seed = byte(in);
-  o.model = byte(in) % 4 == 0;
-  o.packing_fraction = 0.001 * (1 + byte(in) % 100);
-  o.wall_time = 0.2, o.memory_limit = 1e8;
-  given = byte(in);
-  o.overlap = given % 16 >= 12 ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_SHRINK;
-  if (given % 8 == 0) o.box = number(in);
-  if (given % 16 == 1) o.mk_zeta = number(in);
-  if (given % 16 == 5) o.non_additivity = number(in);
-  damage(in, &o, sizeof o);
-  o.wall_time = at_most(o.wall_time, 0.2);
-  if (!(o.memory_limit < 1e8) || o.memory_limit == 0.0) o.memory_limit = 1e8;
-  for (k = 0; k < n; ++k) diameter[k] = given % 4 == 2 ? number(in) : given % 4 == 3 ? 0.1 + 0.002 * byte(in) : 0.1;
-  coordinates = o.dim >= 2 && o.dim <= 8 ? n * o.dim : 0;
-  for (k = 0; k < coordinates; ++k) x[k] = given % 32 == 3 ? number(in) : byte(in) / 256.0;
-  if (coordinates == 0 || o.n != n || given % 3 == 0) {
-    if (o.n > 50) o.n = 50;
-    status = jam_create(&o, NULL, 0, NULL, 0, &sys);
-  } else {
-    status = jam_create(&o, x, (size_t)coordinates, diameter, (size_t)n, &sys);
-  }
-  check_status(status);
-  demand((status == JAM_OK) == (sys != NULL), "a handle exactly with success");
-  return sys;
-}
+#include "calls.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   input in = {data, size};
@@ -85,11 +10,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   jam_system *sys = create(&in);
   if (!sys) return 0;
   check_state(sys);
-  jam_set_memory_limit(sys, 1e8); /* and with it the time of searches for pairs */
-  jam_set_progress(sys, stop_soon, NULL);
+  limit(sys);
   for (k = 0; k < 6 && in.left > 0; ++k) {
-    begun = now();
-    calls[(size_t)byte(&in) % (sizeof calls / sizeof *calls)](&in, sys);
+    any_call(&in, sys);
     check_state(sys);
   }
   jam_destroy(sys);

@@ -20,9 +20,10 @@ static void check_round_trip(const jam_system *sys, int32_t format) {
   jam_system *back = NULL;
   const double *x, *y;
   size_t x_len, y_len;
-  char path[64];
+  const char *folder = getenv("TMPDIR");
+  char path[4096];
   jam_status written;
-  snprintf(path, sizeof path, "/tmp/jam-fuzz-%ld", (long)getpid());
+  snprintf(path, sizeof path, "%s/jam-fuzz-%ld", folder ? folder : "/tmp", (long)getpid());
   written = jam_write(sys, path, format);
   if (format == JAM_FORMAT_PLAIN && written == JAM_E_UNSUPPORTED) return; /* a cell or Delta that it cannot hold */
   demand(written == JAM_OK, "what was read can be written");

@@ -62,7 +62,7 @@ def emit_c(_api):
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
     said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"') + '",' for line in help_text())
-    kinds = ", ".join(f"TAKE_{k.upper()}" for k in dict.fromkeys(o.kind for o in rows))
+    kinds = ",\n  ".join(f"TAKE_{k.upper()}" for k in dict.fromkeys(o.kind for o in rows))
     return f"""/* The options of jam-pack: {MADE}. */
 /* clang-format off */
 #ifndef JAM_PACK_OPTIONS_TABLE_H
@@ -75,7 +75,9 @@ typedef struct options {{
 }} options;
 
 #ifdef JAM_PACK_OPTIONS_TABLE
-enum {{ {kinds} }};
+enum {{
+  {kinds}
+}};
 enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2 }};
 
 typedef struct option_row {{

@@ -28,6 +28,13 @@ def _enum_of(member, enums):
     return None
 
 
+def member_type(member):
+    """bool for a member that its comment describes as `1: ...`, with no other value than 0 beside it."""
+    if member.type == "int32_t" and re.match(r"1(, the default)?: ", member.doc) and "-1:" not in member.doc:
+        return "bool"
+    return TYPES[member.type][3]
+
+
 def enum_of_argument(f, a, api):
     """An int32_t argument is an enum's when the comment names an enum of the header that ends with the argument's name; `which` is
     of the one named beside it. A comment that sends to another function sends to its arguments of the same names too.
@@ -58,6 +65,8 @@ def is_free(f, inits):
 
 
 def emit(api):
+    from numpydoc import spoken
+
     inits = options_init(api)
     enums = {e.name for e in api.enums}
     out = [HEAD]
@@ -72,13 +81,13 @@ def emit(api):
         members = [m for m in s.members if m.name not in ("struct_size", "reserved")]
         notes = "\n".join(f"{m.name}: {m.doc}" for m in members)
         out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}:", _doc(f"{s.doc}\n\n{notes}\n")]
-        out += [f"    {m.name}: {_enum_of(m, enums) or TYPES[m.type][3]}" for m in members]
+        out += [f"    {m.name}: {_enum_of(m, enums) or member_type(m)}" for m in members]
     out += ["", "", "# option structs: {C name: {member: (type, meaning)}}", "OPTIONS = {"]
     for s in api.structs:
         if s.name in inits:
             out.append(f'    "{s.name}": {{')
             out += [
-                f'        "{m.name}": ("{_enum_of(m, enums) or TYPES[m.type][3]}", {m.doc!r}),'
+                f'        "{m.name}": ("{_enum_of(m, enums) or member_type(m)}", {spoken(" ".join(m.doc.split()), api)!r}),'
                 for m in s.members
                 if m.name not in ("struct_size", "reserved")
             ]

@@ -146,8 +146,8 @@ TABLE = {
             "contacts",
             "output",
             "FILE",
-            "the contact network: i, j, unit vector, gap, force (mean 1), as .csv, .dump (LAMMPS dump local) or .vtp "
-            "(ParaView)",
+            "the contact network: i, j, unit vector, gap, force (mean 1), as .csv (also without an ending), .dump "
+            "(LAMMPS dump local) or .vtp (ParaView)",
             after_crunch=True,
             stdout=True,
         ),

@@ -150,7 +150,7 @@ def file_sizes():
         "bindings/**/*.py",
     ):
         count = len(path.read_text().splitlines())
-        if path.name.startswith("_generated") or path.name == "layout.c":  # generated: as long as the header asks for
+        if path.name in ("_generated.py", "_methods.py", "layout.c"):  # generated: as long as the header asks
             continue
         if count > 600:
             problem(path, count, "more than 600 lines")

@@ -13,13 +13,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import errors, raw
+from . import errors as errors, raw as raw
 from ._generated import *  # noqa: F401,F403  enums and report dataclasses
-from ._generated import JAM_ABI, StatusCode
-from ._methods import eos, glass_fit
-from .errors import JamError
-from ._observe import Observed, Step
-from .system import Contacts, Modes, System
+from ._generated import JAM_ABI, StatusCode as StatusCode
+from ._methods import eos as eos, glass_fit as glass_fit
+from .errors import JamError as JamError
+from ._observe import Observed as Observed, Step as Step
+from .system import Contacts as Contacts, Modes as Modes, System as System
 
 __version__ = raw.jam_version()
 if raw.jam_abi_version() != JAM_ABI:

@@ -2,11 +2,14 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import math
+import textwrap
 from typing import Any, Callable
 
 import numpy as np
 
+from ._types import Array
 from . import _generated, _methods, errors, raw
 from ._generated import CALLS, OPTIONS, REPORTS, ROWS, TABLES, StatusCode
 
@@ -14,7 +17,7 @@ raw.set_error_factory(errors.make)
 _DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint64_t": np.uint64, "size_t": np.uint64}
 
 
-def as_array(values: Any, dtype: str = "double", name: str = "array") -> np.ndarray:
+def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
     """Values as a C-contiguous array of the C type, copied only if needed. Complex numbers and text are refused."""
     array = np.asarray(values)
     wanted = np.dtype(_DTYPES[dtype])
@@ -79,7 +82,7 @@ def options(struct: str, given: dict[str, Any]) -> Any:
         kind = known[name][0]
         if kind == "float":
             value = float(value)
-        elif kind == "int":
+        elif kind in ("int", "bool"):
             if int(value) != value:
                 raise TypeError(f"{name} must be a whole number, not {value!r}")
             value = int(value)
@@ -97,7 +100,7 @@ def spelled_out(made: Any, struct: str) -> dict[str, Any]:
         if kind == "float":
             plain[name] = float(value) if math.isfinite(value) else str(float(value))
         else:
-            plain[name] = int(value) if kind == "int" else getattr(_generated, kind)(int(value)).name.lower()
+            plain[name] = int(value) if kind in ("int", "bool") else getattr(_generated, kind)(int(value)).name.lower()
     return plain
 
 
@@ -107,7 +110,9 @@ def freeze(struct: Any, name: str) -> Any:
     values = {}
     for field, kind in cls.__annotations__.items():
         value = getattr(struct, field)
-        if kind not in ("int", "float"):
+        if kind == "bool":
+            value = bool(value)
+        elif kind not in ("int", "float"):
             try:
                 value = getattr(_generated, kind)(value)
             except ValueError:
@@ -120,9 +125,37 @@ def new_report(name: str) -> Any:
     return getattr(raw, name)()
 
 
-def describe(struct: str) -> str:
-    """Lines for a docstring: each option with its meaning."""
-    return "\n".join(f"    {name}: {text}" for name, (_, text) in OPTIONS[struct].items())
+def spell_out(method: Any, struct: str) -> None:
+    """Puts the options of a struct in place of **options: into the signature that help() and editors show, and into the
+    section Parameters of the docstring."""
+    signature = inspect.signature(method)
+    shown = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    new = {name: entry for name, entry in OPTIONS[struct].items() if name not in signature.parameters}
+    for name, (kind, _) in new.items():
+        hint = kind if kind in ("int", "float", "bool") else "int | str"
+        shown.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=f"{hint} | None"))
+    method.__signature__ = signature.replace(parameters=shown)
+    rows = [
+        "progress : bool or callable, optional",
+        "    True: a line that changes. A callable gets a Progress; a true answer",
+    ]
+    rows[-1] += " stops the call."
+    for name, (kind, text) in new.items():
+        enum = getattr(_generated, kind, None) if kind not in ("int", "float", "bool") else None
+        choices = "{" + ", ".join(repr(e.name.lower()) for e in enum) + "}" if enum else kind
+        rows.append(f"{name} : {choices}, optional")
+        rows += textwrap.wrap(" ".join(text.split()), 100, initial_indent="    ", subsequent_indent="    ")
+    block = textwrap.indent("\n".join(rows), " " * 8)
+    doc = method.__doc__.rstrip()
+    head = "\n\n        Parameters\n        ----------\n"
+    if head in doc:
+        at = doc.find("\n\n", doc.index(head) + len(head))
+        at = len(doc) if at < 0 else at
+        method.__doc__ = doc[:at] + "\n" + block + doc[at:] + "\n        "
+    else:
+        at = doc.find("\n\n        Returns\n")
+        at = len(doc) if at < 0 else at
+        method.__doc__ = doc[:at] + head + block + doc[at:] + "\n        "
 
 
 # Shapes of the arrays that calls fill, by name of function and array: m is *needed or *rows, d the dimension. Others are flat (m,).

@@ -544,11 +544,11 @@ class CrunchReport:
     seconds_factor: of it in factorisations
     seconds_assemble: of it in neighbour lists and assembly
     seconds_solve: of it in triangular solves"""
-    jammed: int
+    jammed: bool
     stop_reason: StopReason
     lp_solver: LpSolver
     method: CrunchMethod
-    stationary: int
+    stationary: bool
     strictly_jammed: Verdict
     packing_fraction: float
     diameter_mean: float
@@ -626,7 +626,7 @@ class RelaxReport:
     evaluations: of the forces
     factorisations: of the Hessian
     seconds: wall time"""
-    converged: int
+    converged: bool
     stop_reason: StopReason
     minimiser: Minimiser
     force_residual: float
@@ -674,7 +674,7 @@ class DecompressReport:
     seconds: wall time
     seconds_crunch: of it in crunch"""
     stop_reason: StopReason
-    isostatic: int
+    isostatic: bool
     same_network: int
     force_residual: float
     energy: float
@@ -820,22 +820,22 @@ OPTIONS = {
         "seed": ("int", 'of every random stream, default 1; recorded'),
         "box": ("float", 'side of the cube, > 0, default 1'),
         "packing_fraction": ("float", 'of a random start, > 0, default 0.2'),
-        "overlap": ("OverlapPolicy", 'jam_overlap_policy for given positions, default REFUSE'),
-        "model": ("Model", 'jam_model, default EUCLID'),
+        "overlap": ("OverlapPolicy", 'OverlapPolicy for given positions, default REFUSE'),
+        "model": ("Model", 'Model, default EUCLID'),
         "mk_zeta": ("float", 'MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium'),
-        "masses": ("Masses", 'jam_masses, default EQUAL'),
+        "masses": ("Masses", 'Masses, default EQUAL'),
         "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
-        "wall_time": ("float", 'seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT'),
-        "memory_limit": ("float", "as jam_set_memory_limit; default 0: half the machine's memory"),
+        "wall_time": ("float", "seconds for a random start or the search for overlaps, > 0, default infinity: then 'limit'"),
+        "memory_limit": ("float", "as set_memory_limit(); default 0: half the machine's memory"),
     },
     "jam_run_options": {
-        "resume": ("int", '1: go on with the run that stopped early; default 0'),
+        "resume": ("bool", '1: go on with the run that stopped early; default 0'),
         "collisions_per_particle": ("float", 'to make since the run began, > 0, default 100'),
         "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
         "time": ("float", 'to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default infinity'),
     },
     "jam_compress_options": {
-        "resume": ("int", '1: go on with the stage that stopped early, of which all but the limits is kept; default 0'),
+        "resume": ("bool", '1: go on with the stage that stopped early, of which all but the limits is kept; default 0'),
         "growth_rate": ("float", 'G > 0, default 1e-2'),
         "pressure": ("float", 'target reduced pressure, > 1, default 500'),
         "packing_fraction": ("float", 'target, > 0, default infinity'),
@@ -843,10 +843,10 @@ OPTIONS = {
         "wall_time": ("float", 'limit in seconds of this call, > 0, default infinity'),
         "time": ("float", 'limit of simulated time since the stage began, > 0, default infinity'),
         "growth_rate_end": ("float", 'quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant'),
-        "growth_law": ("GrowthLaw", 'jam_growth_law, default DIAMETER'),
+        "growth_law": ("GrowthLaw", 'GrowthLaw, default DIAMETER'),
     },
     "jam_observe_options": {
-        "collisions": ("int", '1: collisions of each sphere, and collisions and momentum of each pair; default 0'),
+        "collisions": ("bool", '1: collisions of each sphere, and collisions and momentum of each pair; default 0'),
         "gap_bins": ("int", 'bins of the gap histogram, 0 (default: none) or >= 2'),
         "r_bins": ("int", 'bins of g(r), default 0: none'),
         "sample_every": ("float", 'collisions per particle between samples of the series, gaps and g(r), > 0, default 10'),
@@ -857,8 +857,8 @@ OPTIONS = {
         "snapshot_factor": ("float", 'each interval between snapshots is so many times the one before, >= 1, default 1'),
     },
     "jam_monte_carlo_options": {
-        "resume": ("int", '1: continue the run that stopped early; default 0'),
-        "energy_unit": ("EnergyUnit", 'jam_energy_unit, default LENGTH'),
+        "resume": ("bool", '1: continue the run that stopped early; default 0'),
+        "energy_unit": ("EnergyUnit", 'EnergyUnit, default LENGTH'),
         "alpha": ("float", '0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha'),
         "energy_scale": ("float", '> 0, default 1'),
         "temperature": ("float", 'of soft spheres, k_B T > 0, default 1'),
@@ -872,8 +872,8 @@ OPTIONS = {
     },
     "jam_isoconf_options": {
         "threads": ("int", '1 or 2, default 1; the bits are the same'),
-        "clock": ("Clock", 'jam_clock, default COLLISIONS'),
-        "resume": ("int", '1: continue the runs that this handle holds; default 0'),
+        "clock": ("Clock", 'Clock, default COLLISIONS'),
+        "resume": ("bool", '1: continue the runs that this handle holds; default 0'),
         "first_run": ("int", 'number of the first run, >= 0, default 0'),
         "runs": ("int", 'from that number on, >= 1, default 100'),
         "block": ("int", 'sums are kept of each block of so many run numbers, >= 1, default 20'),
@@ -881,13 +881,13 @@ OPTIONS = {
         "temperature": ("float", 'of the velocities, > 0, default 1'),
         "wave_number": ("float", 'q of F_s, over mean diameters, > 0, default 7'),
         "overlap_length": ("float", 'spheres that moved less count in the overlap, mean diameters, > 0, default 0.3'),
-        "memory_limit": ("float", 'bytes, default 2e9: past it JAM_E_MEMORY with the estimate before any run'),
+        "memory_limit": ("float", 'bytes, default 2e9: past it MemoryError with the estimate before any run'),
         "wall_time": ("float", 'seconds of this call, > 0, default infinity'),
     },
     "jam_crunch_options": {
-        "lp_solver": ("LpSolver", 'jam_lp_solver, default IPM (optimizer)'),
-        "method": ("CrunchMethod", 'jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
-        "polish": ("int", "1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
+        "lp_solver": ("LpSolver", 'LpSolver, default IPM (optimizer)'),
+        "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
+        "polish": ("bool", "1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
         "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)'),
@@ -896,28 +896,28 @@ OPTIONS = {
         "neighbour_radius": ("float", 'largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)'),
         "step_bound": ("float", 'bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
-        "steps": ("int", '1: the callback hears of every step and may call jam_crunch_step_*. 0, the default'),
-        "full_lps": ("int", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
-        "strain": ("FreeStrain", "jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"),
+        "steps": ("bool", '1: the callback hears of every step and may call crunch_step_*. 0, the default'),
+        "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
+        "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"),
     },
     "jam_relax_options": {
-        "minimiser": ("Minimiser", 'jam_minimiser, default NEWTON'),
-        "scale": ("SoftScale", 'jam_soft_scale, default RELATIVE'),
-        "precision": ("SoftPrecision", 'jam_soft_precision, default REFERENCE'),
+        "minimiser": ("Minimiser", 'Minimiser, default NEWTON'),
+        "scale": ("SoftScale", 'SoftScale, default RELATIVE'),
+        "precision": ("SoftPrecision", 'SoftPrecision, default REFERENCE'),
         "alpha": ("float", 'exponent of the energy, > 1, default 2'),
         "force_tolerance": ("float", 'on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12'),
         "max_evaluations": ("int", 'of the forces, >= 1, default 1e6'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
     },
     "jam_decompress_options": {
-        "minimiser": ("Minimiser", 'jam_minimiser, default NEWTON'),
-        "scale": ("SoftScale", 'jam_soft_scale, default RELATIVE'),
-        "precision": ("SoftPrecision", 'jam_soft_precision, default REFERENCE'),
+        "minimiser": ("Minimiser", 'Minimiser, default NEWTON'),
+        "scale": ("SoftScale", 'SoftScale, default RELATIVE'),
+        "precision": ("SoftPrecision", 'SoftPrecision, default REFERENCE'),
         "alpha": ("float", 'exponent of the energy, > 1, default 2'),
-        "force_tolerance": ("float", 'as in jam_relax_options, default 1e-12'),
+        "force_tolerance": ("float", 'as in relax_options, default 1e-12'),
         "energy_factor": ("float", 'U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed'),
-        "pressure": ("float", 'target, as jam_relax_report.pressure, >= 0, default 0: none'),
-        "distance": ("float", 'target, as jam_relax_report.distance, >= 0, default 0: none'),
+        "pressure": ("float", 'target, as relax_report.pressure, >= 0, default 0: none'),
+        "distance": ("float", 'target, as relax_report.distance, >= 0, default 0: none'),
         "isostatic": ("int", '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes'),
         "crunch": ("int", '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing'),
         "max_steps": ("int", '>= 1, default 1000'),
@@ -925,16 +925,16 @@ OPTIONS = {
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
     },
     "jam_hessian_options": {
-        "stiffness": ("Stiffness", 'jam_stiffness, default HARMONIC'),
+        "stiffness": ("Stiffness", 'Stiffness, default HARMONIC'),
         "alpha": ("float", 'POWER: > 1, default 2'),
         "prestress": ("float", 'overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0'),
     },
     "jam_modes_options": {
-        "which": ("ModesWhich", 'jam_modes_which, default LOWEST'),
+        "which": ("ModesWhich", 'ModesWhich, default LOWEST'),
         "count": ("int", 'how many, >= 1, default 10; not used by ALL'),
         "frequency": ("float", 'NEAR: omega >= 0'),
         "tolerance": ("float", 'relative, of Lanczos, in (0, 1), default 1e-10'),
-        "memory_limit": ("float", 'bytes, default 2e9: past it JAM_E_MEMORY with the estimate'),
+        "memory_limit": ("float", 'bytes, default 2e9: past it MemoryError with the estimate'),
     },
     "jam_geometry_options": {
         "tolerance": ("float", 'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps'),

@@ -3,9 +3,8 @@ from __future__ import annotations
 
 from typing import Any, Callable, NamedTuple
 
-import numpy as np
-
 from ._generated import *  # noqa: F403  report classes
+from ._types import Array
 
 Progressing = bool | Callable[[Any], Any] | None
 
@@ -17,494 +16,1163 @@ class Methods:
         raise NotImplementedError
 
     def set_memory_limit(self, bytes: float, *, progress: Progressing = None) -> None:
-        """Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
-        that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
-        memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
-        0.1"""
+        """Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit.
+
+        A call that needs more fails with MemoryError before it takes them. The default is half the machine's memory.
+        Options named memory_limit bound their own calls further.
+
+        Parameters
+        ----------
+        bytes : float
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Raises
+        ------
+        ArgumentError, BusyError
+        """
         return self.call('set_memory_limit', bytes, progress=progress)
 
     def checkpoint_write(self, path: str) -> None:
-        """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-        and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
-        written under another name and then renamed. A run that goes on from it makes the same bits as one that never
-        stopped. Threads: const. Errors:
-        JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"""
+        """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
+        model, and a stage that was stopped early or runs now.
+
+        The contact network and what was observed are not in it. The file is written under another name and then
+        renamed. A run that goes on from it makes the same bits as one that never stopped.
+
+        Parameters
+        ----------
+        path : str
+
+        Raises
+        ------
+        IoError, MemoryError
+        """
         return self.call('checkpoint_write', path)
 
-    def observe(self, *, collisions: int | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
-        """From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
-        dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
-        callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
-        Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+    def observe(self, *, collisions: bool | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
+        """From now on run() and compress() record, over all calls, until observe_stop().
 
-        Options:
-        collisions: 1: collisions of each sphere, and collisions and momentum of each pair; default 0
-        gap_bins: bins of the gap histogram, 0 (default: none) or >= 2
-        r_bins: bins of g(r), default 0: none
-        sample_every: collisions per particle between samples of the series, gaps and g(r), > 0, default 10
-        gap_min: the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
-        gap_max: up to here, in (gap_min, 10], default 1
-        r_max: of g(r), mean diameters, > 0, default 4
-        snapshot_every: collisions per particle before the first snapshot; 0, the default: none
-        snapshot_factor: each interval between snapshots is so many times the one before, >= 1, default 1"""
+        What was recorded before is dropped. Recording does not change the dynamics. At a snapshot the views show the
+        present state, and the progress callback is called with progress.snapshot > 0: every const call works on that
+        state there.
+
+        Parameters
+        ----------
+        collisions : bool, optional
+            1: collisions of each sphere, and collisions and momentum of each pair; default 0
+        gap_bins : int, optional
+            bins of the gap histogram, 0 (default: none) or >= 2
+        r_bins : int, optional
+            bins of g(r), default 0: none
+        sample_every : float, optional
+            collisions per particle between samples of the series, gaps and g(r), > 0, default 10
+        gap_min : float, optional
+            the first bin is [0, gap_min], > 0, default 1e-8; the others have equal ratios
+        gap_max : float, optional
+            up to here, in (gap_min, 10], default 1
+        r_max : float, optional
+            of g(r), mean diameters, > 0, default 4
+        snapshot_every : float, optional
+            collisions per particle before the first snapshot; 0, the default: none
+        snapshot_factor : float, optional
+            each interval between snapshots is so many times the one before, >= 1, default 1
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Raises
+        ------
+        ArgumentError, MemoryError, BusyError
+        """
         return self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
 
     def observe_stop(self, *, progress: Progressing = None) -> None:
-        """Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"""
+        """Stops recording; what was recorded can still be read.
+
+        Parameters
+        ----------
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Raises
+        ------
+        BusyError
+        """
         return self.call('observe_stop', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
-        """Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
-        Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"""
+        """Series of samples: table (samples, 6), columns as SeriesColumn.
+
+        Returns
+        -------
+        time : array
+            simulated time, unit box / sqrt(kT/m)
+        collisions : array
+            collisions per particle
+        fraction : array
+            packing fraction
+        pressure : array
+            reduced pressure since the sample before
+        error : array
+            its standard error, from eight parts
+        msd : array
+            mean-square displacement since observe(), unit box^2
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('observed_series')
 
     def observed_spheres(self) -> ObservedSpheresResult:
-        """Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
-        length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """Of each sphere: collisions (n), displacement (n, d) since observe(), unwrapped.
+
+        Returns
+        -------
+        collisions : array, shape (n,)
+        displacement : array, shape (n, d)
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('observed_spheres')
 
     def observed_pairs(self) -> ObservedPairsResult:
-        """Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
-        units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
-        Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """Pairs that have collided: pair (m, 2), collisions (m), and momentum (m), exchanged in units of sqrt(m kT),
+        without the part of the growth.
+
+        momentum over time, the simulated time, is the mean force.
+
+        Returns
+        -------
+        pair : array, shape (m, 2)
+        collisions : array, shape (m,)
+        momentum : array, shape (m,)
+        time : float
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('observed_pairs')
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
-        (bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
-        g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
-        Errors: as jam_observed_series. @since 0.1"""
+        """Histogram of gaps h: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error (bins) over
+        samples.
+
+        Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma),
+        which is (p - 1) / (4 phi) for equal spheres in d = 3.
+
+        Returns
+        -------
+        edge : array, shape (bins + 1,)
+        density : array, shape (bins,)
+        error : array, shape (bins,)
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('observed_gaps')
 
     def observed_correlation(self) -> ObservedCorrelationResult:
-        """g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
-        Threads: const. Errors: as jam_observed_series. @since 0.1"""
+        """g(r), sampled likewise: middle r of each, mean diameters, and g.
+
+        Returns
+        -------
+        r : array
+        g : array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('observed_correlation')
 
-    def monte_carlo(self, *, resume: int | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:
-        """Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
-        preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
-        report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
-        jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
-        (also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
-        JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    def monte_carlo(self, *, resume: bool | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:
+        """Metropolis Monte Carlo (J. Chem.
 
-        Options:
-        resume: 1: continue the run that stopped early; default 0
-        energy_unit: jam_energy_unit, default LENGTH
-        alpha: 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
-        energy_scale: > 0, default 1
-        temperature: of soft spheres, k_B T > 0, default 1
-        step: half side of the cube of trial displacements, mean diameters; 0, the default: tuned
-        acceptance: that a tuned step aims at, in (0, 1), default 0.45
-        swap_share: share of trials that exchange two diameters, in [0, 1), default 0
-        sweeps: since the run began, >= 1, default 1000
-        run: number of the random stream beside the seed, >= 0, default 0
-        first_sweep: number of the first sweep, by which the stream goes; -1, the default: after those made before
-        wall_time: seconds of this call, > 0, default infinity"""
+        Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a preliminary run and then frozen.
+        Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. observed_spheres() tells
+        the displacements. An early stop can be resumed, also from checkpoint_write(). Status: 'ok', 'cancelled',
+        'limit'.
+
+        Parameters
+        ----------
+        resume : bool, optional
+            1: continue the run that stopped early; default 0
+        energy_unit : {'length', 'relative'}, optional
+            EnergyUnit, default LENGTH
+        alpha : float, optional
+            0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha
+        energy_scale : float, optional
+            > 0, default 1
+        temperature : float, optional
+            of soft spheres, k_B T > 0, default 1
+        step : float, optional
+            half side of the cube of trial displacements, mean diameters; 0, the default: tuned
+        acceptance : float, optional
+            that a tuned step aims at, in (0, 1), default 0.45
+        swap_share : float, optional
+            share of trials that exchange two diameters, in [0, 1), default 0
+        sweeps : int, optional
+            since the run began, >= 1, default 1000
+        run : int, optional
+            number of the random stream beside the seed, >= 0, default 0
+        first_sweep : int, optional
+            number of the first sweep, by which the stream goes; -1, the default: after those made before
+        wall_time : float, optional
+            seconds of this call, > 0, default infinity
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        MonteCarloReport
+
+        Raises
+        ------
+        ArgumentError, StateError, UnsupportedError, MemoryError, BusyError
+        """
         return self.call('monte_carlo', resume=resume, energy_unit=energy_unit, alpha=alpha, energy_scale=energy_scale, temperature=temperature, step=step, acceptance=acceptance, swap_share=swap_share, sweeps=sweeps, run=run, first_sweep=first_sweep, wall_time=wall_time, progress=progress)
 
     def isoconf_report(self) -> IsoconfReport:
-        """The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
-        runs). @since 0.1"""
+        """The report of these runs as they are now.
+
+        Returns
+        -------
+        IsoconfReport
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('isoconf_report_get')
 
     def isoconf_sums(self, block: int) -> IsoconfSumsResult:
-        """Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
-        of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
-        Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-        @since 0.1"""
+        """Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants,
+        n, d) of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; runs in them..
+
+        Parameters
+        ----------
+        block : int
+
+        Returns
+        -------
+        displacement : array, shape (instants, n, d)
+        square : array, shape (instants, n, d)
+        distance2 : array
+        distance4 : array, shape (instants, n)
+        runs : int
+
+        Raises
+        ------
+        ArgumentError, StateError
+        """
         return self.call('isoconf_sums', block)
 
-    def isoconf_series(self, block: int, column: int | str) -> np.ndarray:
-        """One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
-        jam_isoconf_sums. @since 0.1"""
+    def isoconf_series(self, block: int, column: int | str) -> Array:
+        """One IsoconfColumn of that block (or -1: all), a sum over runs at each instant.
+
+        Parameters
+        ----------
+        block : int
+        column : {'time', 'time2', 'msd', 'msd2', 'scattering', 'scattering2', 'overlap', 'overlap2', 'energy',
+        'energy2', 'velocity', 'collisions', 'pressure'}
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        ArgumentError, StateError
+        """
         return self.call('isoconf_series', block, column)
 
-    def isoconf_kept(self, instant: int) -> np.ndarray:
-        """Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
-        @since 0.1"""
+    def isoconf_kept(self, instant: int) -> Array:
+        """Displacements (runs, n, d) at one kept instant, given by its index.
+
+        Parameters
+        ----------
+        instant : int
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        ArgumentError, StateError
+        """
         return self.call('isoconf_kept', instant)
 
-    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: int | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: int | None = None, full_lps: int | None = None, strain: int | str | None = None) -> Estimate:
-        """Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
-        same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-        JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None) -> Estimate:
+        """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
+        the same at 'info'. Takes as long as a few steps.
 
-        Options:
-        lp_solver: jam_lp_solver, default IPM (optimizer)
-        method: jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
-        polish: 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
-        max_lps: >= 1, default 1000 (max_iters)
-        threads: 1 or 2, default 1; bits are reproducible on 1 (threads)
-        gain_tolerance: on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
-        step_tolerance: on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
-        lp_tolerance: relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
-        neighbour_radius: largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
-        step_bound: bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
-        wall_time: limit in seconds, > 0, default infinity
-        steps: 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
-        full_lps: 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
-        strain: jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"""
+        Parameters
+        ----------
+        lp_solver : {'ipm', 'clp'}, optional
+            LpSolver, default IPM (optimizer)
+        method : {'barrier_path', 'sequential_lp'}, optional
+            CrunchMethod, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
+        polish : bool, optional
+            1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends
+            where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium:
+            the extra LP past it)
+        max_lps : int, optional
+            >= 1, default 1000 (max_iters)
+        threads : int, optional
+            1 or 2, default 1; bits are reproducible on 1 (threads)
+        gain_tolerance : float, optional
+            on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
+        step_tolerance : float, optional
+            on max |s_i| of non-rattlers, > 0, default 1e-9 (tol_S_convergence, in box units)
+        lp_tolerance : float, optional
+            relative complementarity and residual of one LP, default 1e-15 (solver_attributes)
+        neighbour_radius : float, optional
+            largest pair distance in an LP; 0, the default: adapts (l0, default 4 R)
+        step_bound : float, optional
+            bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii)
+        wall_time : float, optional
+            limit in seconds, > 0, default infinity
+        steps : bool, optional
+            1: the callback hears of every step and may call crunch_step_*. 0, the default
+        full_lps : bool, optional
+            1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that
+            gains more than 1e-7 ends at a duality gap of 0.02 of its gain
+        strain : {'none', 'edges', 'tilts', 'free'}, optional
+            FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends
+            strictly jammed
+
+        Returns
+        -------
+        Estimate
+
+        Raises
+        ------
+        ArgumentError, OverlapError, TooFewError, MemoryError
+        """
         return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain)
 
-    def crunch_history(self, column: int | str) -> np.ndarray:
-        """One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
-        LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-        @since 0.1"""
+    def crunch_history(self, column: int | str) -> Array:
+        """One column (HistoryColumn) of the last crunch, a value a step.
+
+        Steps of a path that was given up for sequential LPs from the same start are left out.
+
+        Parameters
+        ----------
+        column : {'phase', 'gain', 'phi', 'step_max', 'step_msd', 'total_max', 'total_msd', 'contacts', 'excess',
+        'rattlers', 'seconds', 'iterations', 'factorisations', 'duality_gap', 'pairs', 'held', 'part', 'bound',
+        'step_msd_stable', 'total_msd_stable'}
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        ArgumentError, StateError
+        """
         return self.call('crunch_history', column)
 
-    def crunch_step_displacements(self) -> np.ndarray:
-        """Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
-        steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
-        with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
-        JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+    def crunch_step_displacements(self) -> Array:
+        """Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed.
+
+        Their sum over the steps leads from the start to the end. This call and the next three work only in the
+        progress callback of crunch() with steps = 1, when a step has just ended.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('crunch_step_displacements')
 
-    def crunch_step_contacts(self) -> np.ndarray:
-        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
-        none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"""
+    def crunch_step_contacts(self) -> Array:
+        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included.
+
+        Other steps have none.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('crunch_step_contacts')
 
-    def crunch_step_vectors(self) -> np.ndarray:
-        """r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1"""
+    def crunch_step_vectors(self) -> Array:
+        """r_ij (m, d) of these pairs before the step, unit of box.
+
+        Returns
+        -------
+        array
+        """
         return self.call('crunch_step_vectors')
 
-    def crunch_step_duals(self) -> np.ndarray:
-        """Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-        sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
-        0.1"""
+    def crunch_step_duals(self) -> Array:
+        """Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum
+        lambda_ij sigma_ij^2 = 1 with the diameters before the step.
+
+        Returns
+        -------
+        array
+        """
         return self.call('crunch_step_duals')
 
-    def decompress_history(self, column: int | str) -> np.ndarray:
-        """One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-        JAM_E_BUFFER, JAM_E_STATE. @since 0.1"""
+    def decompress_history(self, column: int | str) -> Array:
+        """One column (SoftColumn) of the last decompression.
+
+        Parameters
+        ----------
+        column : {'phi', 'pressure', 'energy', 'coordination', 'distance', 'excess', 'rattlers', 'residual',
+        'evaluations', 'factorisations', 'seconds'}
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        ArgumentError, StateError
+        """
         return self.call('decompress_history', column)
 
-    def contact_vectors(self) -> np.ndarray:
-        """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
-        0.1"""
+    def contact_vectors(self) -> Array:
+        """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('contact_vectors')
 
-    def contact_gaps(self) -> np.ndarray:
-        """Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
-        a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
-        f. Threads: const. Errors: as jam_contacts. @since 0.1"""
+    def contact_gaps(self) -> Array:
+        """Gaps h of the contacts, length contacts.
+
+        After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the weakest contacts may
+        stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('contact_gaps')
 
-    def hessian_map(self) -> np.ndarray:
-        """The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
-        Errors: as jam_contacts. @since 0.1"""
+    def hessian_map(self) -> Array:
+        """The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('hessian_map')
 
     def contacts_from_geometry(self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None) -> GeometryReport:
-        """Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-        moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
-        are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-        stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
-        network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-        JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
-        leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
-        JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+        """Contact network and forces from positions, diameters and box alone, kept as crunch() keeps its own; no sphere
+        moves.
 
-        Options:
-        tolerance: contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
-        window: jumps are searched in |h| < window, in (0, 1], default 0.1"""
+        Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+        are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-
+        stress. The stored report's `jammed` is the verdict of rigidity(), whatever the tolerance. Status, with the
+        network kept each time: 'ok': one jump stands out, or only this candidate has a single state of self-stress.
+        'ambiguous': another candidate fits too (see second_*), there are several states of self-stress, or gaps above
+        1e-7 leave the verdict open. 'not_jammed': not collectively jammed even with these contacts closed.
+
+        Parameters
+        ----------
+        tolerance : float, optional
+            contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps
+        window : float, optional
+            jumps are searched in |h| < window, in (0, 1], default 0.1
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        GeometryReport
+
+        Raises
+        ------
+        ArgumentError, SolverError, MemoryError, BusyError
+        """
         return self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
 
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
         """Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-        jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
-        as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
-        network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        CandidateColumn, m at most 12. A candidate is a jump of the sorted gaps below window, as in geometry_options,
+        with enough contacts for a rigid network below it.
+
+        The largest jump comes first. No network needed.
+
+        Parameters
+        ----------
+        window : float
+
+        Returns
+        -------
+        limit : array
+            tolerance on |h|
+        jump : array
+            ratio of the gaps above and below it
+        contacts : array
+            contacts within it on spheres that can balance
+        excess : array
+            contacts - (d (N' - 1) + 1)
+
+        Raises
+        ------
+        ArgumentError
+        """
         return self.call('contact_candidates', window)
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
-        """States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
-        space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-        NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
-        JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"""
+        """States of self-stress of the network:; force (n_c), mean 1, from the null space of S^T, not from LP duals;
+        basis (m, n_c) orthonormal; residual: one number, as force_residual.
+
+        Status: 'ok', 'ambiguous' (m > 1: force is the centre of the non-negative ones), 'not_jammed' (m = 0 or no
+        force of one sign).
+
+        Parameters
+        ----------
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        force : array, shape (n_c,)
+        basis : array, shape (m, n_c)
+        residual : float
+
+        Raises
+        ------
+        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        """
         return self.call('stress_states', progress=progress)
 
     def rigidity(self, kind: int | str, *, progress: Progressing = None) -> RigidityReport:
-        """Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
-        pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
-        Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
-        for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
-        Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-        arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
-        be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-        Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
-        0.1"""
+        """Tests whether the packing is jammed.
+
+        Nothing changes but strictly_jammed in the stored crunch report. Contacts are pairs with gaps below 1e-10, and
+        those of the contact network, when there is one, below 1e-7. No network is needed. Let S v be the opening of
+        contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations of
+        B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev, Torquato,
+        Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith, arXiv:1301.0664;
+        Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. kind: a
+        RigidityKind. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided, 'cancelled'.
+
+        Parameters
+        ----------
+        kind : {'collective', 'strict'}
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        RigidityReport
+
+        Raises
+        ------
+        ArgumentError, SolverError, MemoryError, BusyError
+        """
         return self.call('rigidity', kind, progress=progress)
 
     def flex(self, kind: int | str, *, progress: Progressing = None) -> FlexResult:
-        """A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
-        collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
-        contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
-        Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
-        0.1"""
+        """A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for
+        the collective kind.
+
+        The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or
+        opens them. kind: a RigidityKind. Status: 'ok', 'cancelled'.
+
+        Parameters
+        ----------
+        kind : {'collective', 'strict'}
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        out : array, shape (n, d)
+        strain : array, shape (d, d)
+
+        Raises
+        ------
+        ArgumentError, SolverError, MemoryError, BusyError, StateError
+        """
         return self.call('flex', kind, progress=progress)
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
-        """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
-        stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-        JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"""
+        """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2).
+
+        With stable_only = 0 rattlers count too and no network is needed.
+
+        Parameters
+        ----------
+        h_max : float
+        stable_only : int
+
+        Returns
+        -------
+        gap : array
+        pair : array, shape (gaps, 2)
+
+        Raises
+        ------
+        ArgumentError, StateError, MemoryError
+        """
         return self.call('gaps', h_max, stable_only)
 
-    def contact_classes(self) -> np.ndarray:
-        """Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1"""
+    def contact_classes(self) -> Array:
+        """Flags (ContactClass) of every contact, length n_c.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('contact_classes')
 
     def sphere_structure(self, weighted: int) -> SphereStructureResult:
-        """c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-        *rows = n. Threads: const. Errors: as jam_contacts. @since 0.1"""
+        """c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij.
+
+        n_ik, with f n for n when weighted; 0 for rattlers..
+
+        Parameters
+        ----------
+        weighted : int
+
+        Returns
+        -------
+        c : array, shape (n, d)
+        s : array, shape (n,)
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('sphere_structure', weighted)
 
     def contact_dots(self, weighted: int) -> ContactDotsResult:
-        """n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
-        pairs. Threads: const. Errors: as jam_contacts. @since 0.1"""
+        """n_ij.
+
+        n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere;.
+
+        Parameters
+        ----------
+        weighted : int
+
+        Returns
+        -------
+        dot : array
+        sphere : array
+
+        Raises
+        ------
+        StateError
+        """
         return self.call('contact_dots', weighted)
 
-    def class_values(self, quantity: int | str, which: int | str) -> np.ndarray:
-        """Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
-        Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1"""
+    def class_values(self, quantity: int | str, which: int | str) -> Array:
+        """Values of a Quantity in a Class, in the order of contacts, spheres or contact_dots().
+
+        Parameters
+        ----------
+        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot',
+        'coordination'}
+        which : {'all', 'localised', 'extended', 'smallest', 'median'}
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError, ArgumentError
+        """
         return self.call('class_values', quantity, which)
 
-    def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> np.ndarray:
-        """Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
-        values there. Threads: const. Errors: as jam_class_values. @since 0.1"""
+    def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> Array:
+        """Histogram of the values of class_values(): density in `bins` equal bins of [low, high), its integral the share
+        of values there.
+
+        Parameters
+        ----------
+        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot',
+        'coordination'}
+        which : {'all', 'localised', 'extended', 'smallest', 'median'}
+        low : float
+        high : float
+        bins : int
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError, ArgumentError
+        """
         return self.call('histogram', quantity, which, low, high, bins)
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
-        """S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
-        No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
-        Threads: alone. @since 0.1"""
+        """S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter,
+        ascending.
+
+        No network needed. Status: 'ok', 'cancelled'.
+
+        Parameters
+        ----------
+        q_max : float
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        q : array
+        s : array
+
+        Raises
+        ------
+        ArgumentError, BusyError
+        """
         return self.call('structure_factor', q_max, progress=progress)
 
-    def bond_order(self, l: int, cutoff: float) -> np.ndarray:
-        """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
-        3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"""
+    def bond_order(self, l: int, cutoff: float) -> Array:
+        """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff
+        in (0, 3] (1.2 is usual).
+
+        No network needed.
+
+        Parameters
+        ----------
+        l : int
+        cutoff : float
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        ArgumentError, MemoryError
+        """
         return self.call('bond_order', l, cutoff)
 
     def crystal_score(self) -> float:
-        """Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-        about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1"""
+        """Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal
+        spheres, about 10 in a perfect FCC crystal.
+
+        No network needed.
+
+        Returns
+        -------
+        float
+        """
         return self.call('crystal_score')
 
-    def local_fraction(self) -> np.ndarray:
-        """Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
-        JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"""
+    def local_fraction(self) -> Array:
+        """Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        UnsupportedError
+        """
         return self.call('local_fraction')
 
-    def floppy_mode(self, contact: int, *, progress: Progressing = None) -> np.ndarray:
-        """Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
-        all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
-        a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"""
+    def floppy_mode(self, contact: int, *, progress: Progressing = None) -> Array:
+        """Floppy mode: displacement (N', d) over s when a contact opens by s.
+
+        To first order all other contacts stay closed, all diameters change by the factor 1 - s f / sum f sigma, and
+        there is no net translation. contact in 0..n_c-1. Needs a single state of self-stress (StateError says how
+        many there are).
+
+        Parameters
+        ----------
+        contact : int
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        """
         return self.call('floppy_mode', contact, progress=progress)
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
-        JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"""
+        """The floppy mode of every contact, measured: table (n_c, 6), columns as FloppyColumn.
+
+        Status: 'ok', 'cancelled'.
+
+        Parameters
+        ----------
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        median : array
+            b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
+        weight : array
+            W = f / median |dr_i|: f equals W times the displacement far away
+        s_plus : array
+            opening at which, to first order, the next contact forms
+        s_star : array
+            opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+        stability : array
+            s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+        s_return : array
+            opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez
+            Rojas, PhD thesis, Sapienza 2021; his index is twice stability
+
+        Raises
+        ------
+        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        """
         return self.call('floppy_modes', progress=progress)
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
-        """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-        left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
-        -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-        JAM_E_TOO_FEW. Threads: alone. @since 0.1
+        """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed,
+        translations are left out.
 
-        Options:
-        stiffness: jam_stiffness, default HARMONIC
-        alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
-        moments: Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
-        vectors: random vectors, 2..1e5, default 16
-        points: values of omega, default 200
-        seed: of the random vectors, default 1"""
+        table (points, 6), columns as DosColumn. With prestress omega starts below 0: unstable modes stand at
+        -sqrt(-lambda), and resolution is lower near 0. Status: 'ok', 'cancelled', 'not_jammed'.
+
+        Parameters
+        ----------
+        stiffness : {'harmonic', 'power', 'hard', 'soft'}, optional
+            Stiffness, default HARMONIC
+        alpha : float, optional
+            POWER: > 1, default 2
+        prestress : float, optional
+            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
+            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+        moments : int, optional
+            Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments
+        vectors : int, optional
+            random vectors, 2..1e5, default 16
+        points : int, optional
+            values of omega, default 200
+        seed : int, optional
+            of the random vectors, default 1
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        omega : array
+            middle of the bin
+        density : array
+            density of states D there, integral 1
+        error : array
+            its standard error over the random vectors; smoothing is not in it
+        edge : array
+            upper end of the bin
+        cumulative : array
+            share of modes below the edge
+        cumulative_error : array
+            its standard error
+
+        Raises
+        ------
+        StateError, ArgumentError, MemoryError, SolverError, BusyError, TooFewError
+        """
         return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
 
-    def project(self, vector: Any = None, u: Any = None) -> np.ndarray:
-        """Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
-        squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"""
+    def project(self, vector: Any = None, u: Any = None) -> Array:
+        """Projections u.
+
+        v of a displacement u (N', d) on the modes vector (m, N', d) of modes(). Over all d N' modes their squares add
+        up to |u|^2.
+
+        Parameters
+        ----------
+        vector : array_like, shape (m, N', d)
+        u : array_like, shape (N', d)
+
+        Returns
+        -------
+        array
+
+        Raises
+        ------
+        StateError, ArgumentError, NonfiniteError
+        """
         return self.call('project', vector, u)
 
     def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
-        """value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+        """value = u.
 
-        Options:
-        stiffness: jam_stiffness, default HARMONIC
-        alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
+        H. u for a displacement u (N', d).
+
+        Parameters
+        ----------
+        u : array_like, shape (N', d)
+        stiffness : {'harmonic', 'power', 'hard', 'soft'}, optional
+            Stiffness, default HARMONIC
+        alpha : float, optional
+            POWER: > 1, default 2
+        prestress : float, optional
+            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
+            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+
+        Returns
+        -------
+        float
+
+        Raises
+        ------
+        StateError, ArgumentError, NonfiniteError
+        """
         return self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
 
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
-        """Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
-        the network unstable. Threads: alone. @since 0.1
+        """Elastic moduli.
 
-        Options:
-        stiffness: jam_stiffness, default HARMONIC
-        alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
+        Status: 'ok', 'cancelled', 'not_jammed'.
+
+        Parameters
+        ----------
+        stiffness : {'harmonic', 'power', 'hard', 'soft'}, optional
+            Stiffness, default HARMONIC
+        alpha : float, optional
+            POWER: > 1, default 2
+        prestress : float, optional
+            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
+            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        Moduli
+
+        Raises
+        ------
+        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        """
         return self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
 
     def elastic_tensor(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ElasticTensorResult:
-        """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
-        (d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
-        With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
-        Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1
+        """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x.
 
-        Options:
-        stiffness: jam_stiffness, default HARMONIC
-        alpha: POWER: > 1, default 2
-        prestress: overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0"""
+        Tables (d, d, d, d), unit as moduli, needed = d^4. affine: spheres move by E alone; relaxed: then forces
+        balance. With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Status: 'ok',
+        'cancelled', 'not_jammed'.
+
+        Parameters
+        ----------
+        stiffness : {'harmonic', 'power', 'hard', 'soft'}, optional
+            Stiffness, default HARMONIC
+        alpha : float, optional
+            POWER: > 1, default 2
+        prestress : float, optional
+            overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a contact is k
+            n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Returns
+        -------
+        affine : array
+        relaxed : array
+
+        Raises
+        ------
+        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        """
         return self.call('elastic_tensor', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
 
     def compare(self, other: Any) -> CompareResult:
-        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
-        other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
-        Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"""
+        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from
+        sys to other, nearest images, without its mean over spheres stable in both.
+
+        No network needed.
+
+        Parameters
+        ----------
+        other : System
+
+        Returns
+        -------
+        comparison : Comparison
+        out : array, shape (n, d)
+
+        Raises
+        ------
+        ArgumentError
+        """
         return self.call('compare', other)
 
 
 class ObservedSeriesResult(NamedTuple):
     """What observed_series returns, column by column."""
 
-    time: np.ndarray  # simulated time, unit box / sqrt(kT/m)
-    collisions: np.ndarray  # collisions per particle
-    fraction: np.ndarray  # packing fraction
-    pressure: np.ndarray  # reduced pressure since the sample before
-    error: np.ndarray  # its standard error, from eight parts
-    msd: np.ndarray  # mean-square displacement since jam_observe, unit box^2
+    time: Array  # simulated time, unit box / sqrt(kT/m)
+    collisions: Array  # collisions per particle
+    fraction: Array  # packing fraction
+    pressure: Array  # reduced pressure since the sample before
+    error: Array  # its standard error, from eight parts
+    msd: Array  # mean-square displacement since jam_observe, unit box^2
 
 
 class ObservedSpheresResult(NamedTuple):
     """What observed_spheres returns."""
 
-    collisions: np.ndarray
-    displacement: np.ndarray
+    collisions: Array
+    displacement: Array
 
 
 class ObservedPairsResult(NamedTuple):
     """What observed_pairs returns."""
 
-    pair: np.ndarray
-    collisions: np.ndarray
-    momentum: np.ndarray
+    pair: Array
+    collisions: Array
+    momentum: Array
     time: float
 
 
 class ObservedGapsResult(NamedTuple):
     """What observed_gaps returns."""
 
-    edge: np.ndarray
-    density: np.ndarray
-    error: np.ndarray
+    edge: Array
+    density: Array
+    error: Array
 
 
 class ObservedCorrelationResult(NamedTuple):
     """What observed_correlation returns."""
 
-    r: np.ndarray
-    g: np.ndarray
+    r: Array
+    g: Array
 
 
 class IsoconfSumsResult(NamedTuple):
     """What isoconf_sums returns."""
 
-    displacement: np.ndarray
-    square: np.ndarray
-    distance2: np.ndarray
-    distance4: np.ndarray
+    displacement: Array
+    square: Array
+    distance2: Array
+    distance4: Array
     runs: int
 
 
 class ContactCandidatesResult(NamedTuple):
     """What contact_candidates returns, column by column."""
 
-    limit: np.ndarray  # tolerance on |h|
-    jump: np.ndarray  # ratio of the gaps above and below it
-    contacts: np.ndarray  # contacts within it on spheres that can balance
-    excess: np.ndarray  # contacts - (d (N' - 1) + 1)
+    limit: Array  # tolerance on |h|
+    jump: Array  # ratio of the gaps above and below it
+    contacts: Array  # contacts within it on spheres that can balance
+    excess: Array  # contacts - (d (N' - 1) + 1)
 
 
 class StressStatesResult(NamedTuple):
     """What stress_states returns."""
 
-    force: np.ndarray
-    basis: np.ndarray
+    force: Array
+    basis: Array
     residual: float
 
 
 class FlexResult(NamedTuple):
     """What flex returns."""
 
-    out: np.ndarray
-    strain: np.ndarray
+    out: Array
+    strain: Array
 
 
 class GapsResult(NamedTuple):
     """What gaps returns."""
 
-    gap: np.ndarray
-    pair: np.ndarray
+    gap: Array
+    pair: Array
 
 
 class SphereStructureResult(NamedTuple):
     """What sphere_structure returns."""
 
-    c: np.ndarray
-    s: np.ndarray
+    c: Array
+    s: Array
 
 
 class ContactDotsResult(NamedTuple):
     """What contact_dots returns."""
 
-    dot: np.ndarray
-    sphere: np.ndarray
+    dot: Array
+    sphere: Array
 
 
 class StructureFactorResult(NamedTuple):
     """What structure_factor returns."""
 
-    q: np.ndarray
-    s: np.ndarray
+    q: Array
+    s: Array
 
 
 class FloppyModesResult(NamedTuple):
     """What floppy_modes returns, column by column."""
 
-    median: np.ndarray  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
-    weight: np.ndarray  # W = f / median |dr_i|: f equals W times the displacement far away
-    s_plus: np.ndarray  # opening at which, to first order, the next contact forms
-    s_star: np.ndarray  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
-    stability: np.ndarray  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
-    s_return: np.ndarray  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
+    median: Array  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
+    weight: Array  # W = f / median |dr_i|: f equals W times the displacement far away
+    s_plus: Array  # opening at which, to first order, the next contact forms
+    s_star: Array  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
+    stability: Array  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
+    s_return: Array  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
 
 
 class DensityOfStatesResult(NamedTuple):
     """What density_of_states returns, column by column."""
 
-    omega: np.ndarray  # middle of the bin
-    density: np.ndarray  # density of states D there, integral 1
-    error: np.ndarray  # its standard error over the random vectors; smoothing is not in it
-    edge: np.ndarray  # upper end of the bin
-    cumulative: np.ndarray  # share of modes below the edge
-    cumulative_error: np.ndarray  # its standard error
+    omega: Array  # middle of the bin
+    density: Array  # density of states D there, integral 1
+    error: Array  # its standard error over the random vectors; smoothing is not in it
+    edge: Array  # upper end of the bin
+    cumulative: Array  # share of modes below the edge
+    cumulative_error: Array  # its standard error
 
 
 class ElasticTensorResult(NamedTuple):
     """What elastic_tensor returns."""
 
-    affine: np.ndarray
-    relaxed: np.ndarray
+    affine: Array
+    relaxed: Array
 
 
 class CompareResult(NamedTuple):
     """What compare returns."""
 
     comparison: Comparison
-    out: np.ndarray
+    out: Array
 
 
 def _call(name: str, *args: Any, **named: Any) -> Any:
@@ -513,12 +1181,40 @@ def _call(name: str, *args: Any, **named: Any) -> Any:
 
 
 def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:
-    """pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
-    Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"""
+    """pressure of a EosForm at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
+
+    Parameters
+    ----------
+    form : {'carnahan_starling', 'py_virial', 'py_compressibility', 'virial', 'mk', 'free_volume'}
+    dim : int
+    packing_fraction : float
+    jammed_fraction : float
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ArgumentError, DimensionError, UnsupportedError
+    """
     return _call('eos', form, dim, packing_fraction, jammed_fraction)
 
 
 def glass_fit(fraction: Any, pressure: Any) -> Glass:
-    """Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-    JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"""
+    """Least squares on 1/pressure against fraction, at least 3 points.
+
+    Parameters
+    ----------
+    fraction : array_like
+    pressure : array_like
+
+    Returns
+    -------
+    Glass
+
+    Raises
+    ------
+    ArgumentError, TooFewError
+    """
     return _call('glass_fit', fraction, pressure)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ._types import Array
 from . import _calls, raw
 from ._generated import CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
 from ._handle import Base
@@ -25,7 +26,7 @@ class Network(Base):
         return _calls.freeze(made, "jam_crunch_report")
 
     @property
-    def history(self) -> np.ndarray:
+    def history(self) -> Array:
         """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
         if self._carried and self._carried[2] is not None:
             return self._carried[2]
@@ -55,24 +56,24 @@ class Network(Base):
         )
 
     @property
-    def forces(self) -> np.ndarray:
+    def forces(self) -> Array:
         """Contact forces, shape (contacts,), mean 1. Times report.force_scale they are lambda r of the LP."""
         return self._carried[1].forces if self._carried and self._carried[1] is not None else self.call("forces")
 
     @property
-    def coordination(self) -> np.ndarray:
+    def coordination(self) -> Array:
         """Number of contacts of each sphere, shape (n,); 0 for rattlers."""
         if self._carried and self._carried[1] is not None:
             return np.bincount(self._carried[1].pairs.reshape(-1), minlength=self.n).astype(np.int32)
         return self.call("coordination")
 
     @property
-    def rattlers(self) -> np.ndarray:
+    def rattlers(self) -> Array:
         """Which spheres are rattlers: bool, shape (n,)."""
         return self.coordination == 0
 
     @property
-    def bucklers(self) -> np.ndarray:
+    def bucklers(self) -> Array:
         """Which spheres are bucklers, with exactly d + 1 contacts: bool, shape (n,)."""
         return self.coordination == self.dim + 1
 
@@ -120,7 +121,11 @@ class Network(Base):
         which : {'lowest', 'highest', 'near', 'all'}
             'near' takes frequency. 'lowest' and 'near' leave the d translations out.
         stiffness : {'harmonic', 'power', 'hard'}
-            As in `hessian`, with alpha and prestress.
+            As in `hessian`.
+        alpha : float, optional
+            Of stiffness 'power', > 1.
+        prestress : float, optional
+            Overlap (of 'hard' the gap) of a contact of mean force, over the mean diameter.
         **options
             frequency, tolerance, memory_limit.
 
@@ -150,7 +155,7 @@ class Network(Base):
 
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
-    ) -> np.ndarray:
+    ) -> Array:
         """g(r) in equal bins from 0 to r_max. No contact network is needed.
 
         Parameters
@@ -174,7 +179,17 @@ class Network(Base):
         return self.call("pair_correlation", kind, a, b, r_max, bins)
 
     def stress_states(self, *, progress: Any = None) -> StressStatesResult:
-        """States of self-stress from positions alone: force (contacts,), basis (m, contacts), residual."""
+        """States of self-stress, from positions alone.
+
+        Returns
+        -------
+        force : array, shape (contacts,)
+            The balanced forces, mean 1; the centre of the non-negative ones where there are several states.
+        basis : array, shape (m, contacts)
+            An orthonormal basis of the m states.
+        residual : float
+            Largest unbalanced force over the mean force.
+        """
         handle, contacts = self.handle, self.report.contacts
         with self._reporting(progress):
             m = raw.jam_stress_states(handle, None, None)[-1]
@@ -184,11 +199,30 @@ class Network(Base):
         return StressStatesResult(force, basis, residual)
 
     def rigidity(self, kind: int | str = "collective", *, progress: Any = None) -> RigidityReport:
-        """Tests whether the packing is jammed, collectively or (kind="strict") also when its cell changes shape."""
+        """Tests whether the packing is jammed, with a proof of the answer.
+
+        Parameters
+        ----------
+        kind : {'collective', 'strict'}
+            'strict': also when the cell changes its shape.
+
+        Returns
+        -------
+        RigidityReport
+            report.jammed is a Verdict.
+        """
         return self.call("rigidity", kind, progress=progress)
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
-        """A motion that keeps or opens all contacts, for a packing that is not jammed: out (n, d) and strain (d, d)."""
+        """A motion that keeps or opens all contacts, for a packing that is not jammed.
+
+        Returns
+        -------
+        out : array, shape (n, d)
+            Displacements in the unit of the box; the largest is at most one mean diameter.
+        strain : array, shape (d, d)
+            Of the cell; 0 for the collective kind.
+        """
         out, strain = np.empty((self.n, self.dim)), np.empty((self.dim, self.dim))
         with self._reporting(progress):
             raw.jam_flex(self.handle, _calls.as_enum(kind, "RigidityKind"), out.reshape(-1), strain.reshape(-1))

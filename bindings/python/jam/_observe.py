@@ -7,6 +7,7 @@ from typing import Any, Callable, Iterator
 
 import numpy as np
 
+from ._types import Array
 from . import errors
 from ._handle import Base
 from ._methods import ObservedCorrelationResult, ObservedGapsResult, ObservedPairsResult, ObservedSpheresResult
@@ -28,10 +29,10 @@ class Step:
         Multipliers, all positive.
     """
 
-    displacements: np.ndarray
-    pairs: np.ndarray
-    vectors: np.ndarray
-    duals: np.ndarray
+    displacements: Array
+    pairs: Array
+    vectors: Array
+    duals: Array
 
     def __repr__(self) -> str:
         return f"Step({len(self.displacements)} spheres, {len(self.duals)} linear contacts)"
@@ -44,7 +45,7 @@ class Observed:
         self._system = system
 
     @property
-    def series(self) -> np.ndarray:
+    def series(self) -> Array:
         """Structured array with fields time, collisions (per particle), fraction, pressure, error (of the pressure), msd."""
         columns = self._system.call("observed_series")
         rows = np.empty(len(columns.time), [(name, "f8") for name in columns._fields])

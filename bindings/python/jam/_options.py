@@ -79,8 +79,8 @@ OPTIONS = (
         'the packing to look at in a browser, with forces, certificate and distributions; needs no '
         'network'),
     ('contacts', 'output', 'FILE', None, (0, 0), (), True,
-        'the contact network: i, j, unit vector, gap, force (mean 1), as .csv, .dump (LAMMPS dump local) '
-        'or .vtp (ParaView)'),
+        'the contact network: i, j, unit vector, gap, force (mean 1), as .csv (also without an ending), '
+        '.dump (LAMMPS dump local) or .vtp (ParaView)'),
     ('spectrum', 'output', 'FILE.csv', None, (0, 0), (), True,
         'lowest modes of the harmonic Hessian: omega^2, omega, participation'),
     ('modes', 'integer', 'K', None, (0, 2147483647), (), False,

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._types import Array
 from .system import System
 
 
@@ -34,7 +35,7 @@ def take_diameters(text: str) -> tuple[str, Any]:
     return word, float(number)
 
 
-def _read_diameters(path: str) -> np.ndarray:
+def _read_diameters(path: str) -> Array:
     with open(path, encoding="ascii") as file:
         values = np.array([float(x) for x in file.read().split()])
     if not len(values) or not (np.isfinite(values) & (values > 0)).all():
@@ -42,7 +43,7 @@ def _read_diameters(path: str) -> np.ndarray:
     return values
 
 
-def _diameters(o: argparse.Namespace, n: int) -> np.ndarray | None:
+def _diameters(o: argparse.Namespace, n: int) -> Array | None:
     """Ratios of the diameters as --diameters asks; None when all are equal."""
     kind, value = o.diameters or ("bidisperse", o.diameters_ratio)
     if kind == "file":

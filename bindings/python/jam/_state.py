@@ -5,6 +5,7 @@ from typing import Any, Callable
 
 import numpy as np
 
+from ._types import Array
 from . import _calls, raw
 from ._generated import Info
 from ._handle import Base, _View
@@ -36,14 +37,14 @@ class State(Base):
             self._first_info = self.info
         return getattr(self._first_info, name)
 
-    def _show(self, function: Callable, flat: bool = False) -> np.ndarray:
+    def _show(self, function: Callable, flat: bool = False) -> Array:
         handle = self.handle
         _, (address, count) = function(handle)
         n = raw.jam_diameters_view(handle)[1][1]
         return np.asarray(_View(handle, address, (n,) if flat else (n, count // n)))
 
     @property
-    def positions(self) -> np.ndarray:
+    def positions(self) -> Array:
         """Positions in [0, box), or in the brick of another cell, shape (n, d): a read-only view without copy that follows the system.
 
         Assign a new array to move the spheres.
@@ -55,7 +56,7 @@ class State(Base):
         self._set(raw.jam_set_positions, values, "positions")
 
     @property
-    def velocities(self) -> np.ndarray:
+    def velocities(self) -> Array:
         """Velocities with kT/m = 1, shape (n, d): a read-only view; zero until molecular dynamics draws them."""
         return self._show(raw.jam_velocities_view)
 
@@ -72,12 +73,12 @@ class State(Base):
         self._carried = None
 
     @property
-    def diameters(self) -> np.ndarray:
+    def diameters(self) -> Array:
         """Diameters in the unit of the box, shape (n,): a read-only view."""
         return self._show(raw.jam_diameters_view, flat=True)
 
     @property
-    def cell(self) -> np.ndarray:
+    def cell(self) -> Array:
         """Cell vectors, shape (d, d), one a row: short and lower-triangular.
 
         Assign other vectors to change the cell at fixed Cartesian positions. The spheres rotate with the cell where it
@@ -97,7 +98,7 @@ class State(Base):
         raw.jam_strain(self.handle, self._matrix(strain, "strain"))
         self._carried = None
 
-    def _matrix(self, values: Any, name: str) -> np.ndarray:
+    def _matrix(self, values: Any, name: str) -> Array:
         x = _calls.as_array(values, name=name)
         if x.shape != (self.dim, self.dim):
             raise ValueError(f"{name} must have shape ({self.dim}, {self.dim}), not {x.shape}")

@@ -5,6 +5,7 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
+from ._types import Array
 from . import _calls, raw
 from ._generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode
 from ._observe import Observing, Step
@@ -154,11 +155,22 @@ class Verbs(Observing):
         progress: Any = None,
         **options: Any,
     ) -> Any:
-        """Runs from this configuration, each with velocities (or Monte Carlo trials) of its own. Returns near_jamming.Runs.
+        """Runs from this configuration, each with velocities (or Monte Carlo trials) of its own.
 
-        instants: ascending, in collisions per particle, simulated time (clock='time') or sweeps. monte_carlo: None for
-        molecular dynamics, else options of monte_carlo(). keep: indices of instants whose displacements of every run
-        are kept. The packing does not change. status > 0 says that it stopped early, with the runs that were made.
+        The packing does not change. A status > 0 says that it stopped early, with the runs that were made.
+
+        Parameters
+        ----------
+        instants : array_like
+            Ascending, in collisions per particle, simulated time (clock='time') or sweeps.
+        monte_carlo : mapping, optional
+            Options of monte_carlo(); without them the runs are molecular dynamics.
+        keep : sequence of int
+            Indices of the instants whose displacements of every run are kept.
+
+        Returns
+        -------
+        near_jamming.Runs
         """
         from . import near_jamming
 
@@ -185,7 +197,7 @@ class Verbs(Observing):
         )
 
     @property
-    def soft_history(self) -> np.ndarray:
+    def soft_history(self) -> Array:
         """Minima of the last decompression as a structured array: one field for each SoftColumn, in lower case."""
         columns = [self.call("decompress_history", c) for c in SoftColumn]
         rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in SoftColumn])
@@ -212,8 +224,4 @@ for _verb, _struct in (
     ("relax", "relax"),
     ("decompress", "decompress"),
 ):
-    getattr(Verbs, _verb).__doc__ += (
-        "\n\n        progress: True for a bar, or a callable(Progress). If it returns true the call stops.\n        Options:\n    "
-        + _calls.describe(f"jam_{_struct}_options").replace("\n", "\n    ")
-        + "\n        "
-    )
+    _calls.spell_out(getattr(Verbs, _verb), f"jam_{_struct}_options")

@@ -107,14 +107,13 @@ class _Log:
 
     def follow(self, system: System) -> None:
         if self.file is not None:
-            self.callable = self.line  # the C side holds a borrowed reference
-            raw.set_log(system.handle, self.callable, LogLevel.INFO)
+            system.log(self.line)
 
     def close(self, system: System) -> None:
         if self.file is not None:
-            raw.set_log(system.handle, None, 0)
-        if self.file not in (None, sys.stdout):
-            self.file.close()
+            system.log(None)
+            if self.file is not sys.stdout:
+                self.file.close()
 
 
 class _Work:
@@ -237,7 +236,8 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
     if o.output:
         system.write(o.output)
     if o.contacts and crunched:
-        system.write_contacts(*(("/dev/stdout", "csv") if o.contacts == "-" else (o.contacts,)))
+        ending = os.path.splitext(o.contacts.removesuffix(".gz"))[1]
+        system.write_contacts("/dev/stdout" if o.contacts == "-" else o.contacts, "auto" if ending else "csv")
     if o.page:
         system.page(o.page)
     if o.gaps and crunched:

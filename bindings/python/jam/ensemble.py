@@ -22,6 +22,7 @@ from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
+from ._types import Array
 from . import store
 from .ensemble_folder import ROW, Folder, Found
 from .ensemble_pool import LocalPool, WorkerDied
@@ -124,7 +125,7 @@ class Entry:
         "history": "history",
     }
 
-    def __init__(self, row: np.ndarray, path: Path) -> None:
+    def __init__(self, row: Array, path: Path) -> None:
         #: The row of the table
         self.row = row
         #: The file
@@ -259,7 +260,7 @@ class Ensemble:
         jammed = int((rows["jammed"][there] != 0).sum())
         return Status(len(names), int(there.sum()), jammed, sum(n in failed for n in names))
 
-    def _rows(self, done: dict[str, Found] | None = None) -> np.ndarray:
+    def _rows(self, done: dict[str, Found] | None = None) -> Array:
         rows = self.files.rows(done)
         return rows[rows["protocol"] == self.id.encode()]
 

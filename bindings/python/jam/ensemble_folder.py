@@ -21,6 +21,7 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
+from ._types import Array
 from . import store
 from ._generated import REPORTS
 
@@ -44,7 +45,7 @@ class Found(NamedTuple):
     changed: int
 
 
-def row_of(jam: Any, name: str) -> np.ndarray:
+def row_of(jam: Any, name: str) -> Array:
     """The row of a packing from its group `jam`."""
     made = np.zeros((), ROW)
     for key in ("seed", "protocol", "version", "written"):
@@ -120,7 +121,7 @@ class Folder:
                         (done if kind == "h5" else failed)[name] = Found(entry.path, stat.st_size, stat.st_mtime_ns)
         return done, {k: v for k, v in failed.items() if k not in done}
 
-    def rows(self, done: dict[str, Found] | None = None) -> np.ndarray:
+    def rows(self, done: dict[str, Found] | None = None) -> Array:
         """Rows of all packings that are there, by seed: from the index where it fits, else from the files."""
         done = self.scan()[0] if done is None else done
         blobs, unknown, fresh = [], [], []

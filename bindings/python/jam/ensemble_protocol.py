@@ -19,6 +19,7 @@ from typing import Any, Mapping
 
 import numpy as np
 
+from ._types import Array
 from . import _calls, _generated, errors, raw
 from ._generated import OPTIONS, StatusCode
 from ._start import _uniform
@@ -183,7 +184,7 @@ def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _sizes(law: Any, n: int, seed: int) -> np.ndarray | None:
+def _sizes(law: Any, n: int, seed: int) -> Array | None:
     """Ratios of the diameters."""
     if law is None or isinstance(law, list):
         return None if law is None else np.array(law)
@@ -194,7 +195,7 @@ def _sizes(law: Any, n: int, seed: int) -> np.ndarray | None:
     return np.exp(width * np.sqrt(-2.0 * np.log(u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))  # Box and Muller 1958
 
 
-def _fcc(n: int, box: float) -> np.ndarray:
+def _fcc(n: int, box: float) -> Array:
     m = round((n / 4) ** (1 / 3))
     corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
     basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0

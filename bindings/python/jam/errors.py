@@ -42,6 +42,11 @@ for _code in StatusCode:
         globals()[_name] = _BY_STATUS[int(_code)] = _class
 
 
+def __getattr__(name: str) -> type[JamError]:
+    """For programs that check types: the classes are made above, from the header's status codes."""
+    raise AttributeError(f"module 'jam.errors' has no attribute {name!r}")
+
+
 class ClosedError(JamError, ValueError):
     """The system was closed."""
 

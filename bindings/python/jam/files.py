@@ -12,6 +12,7 @@ from typing import Any, Iterator
 import numpy as np
 
 from ._paths import replaceable
+from ._types import Array
 from .errors import StateError, UnsupportedError
 from .other_files import read_ase, read_gsd, write_gsd  # noqa: F401
 from .results import Modes
@@ -36,7 +37,7 @@ def _replacing(path: str | os.PathLike) -> Iterator[Any]:
         raise
 
 
-def half_bonds(system: System) -> tuple[np.ndarray, np.ndarray]:
+def half_bonds(system: System) -> tuple[Array, Array]:
     """Each contact as two half lines, one from each centre, so that none crosses the box.
 
     Returns ends (2 contacts, 2, d) and, for each, the index of its contact.
@@ -48,7 +49,7 @@ def half_bonds(system: System) -> tuple[np.ndarray, np.ndarray]:
     return ends, np.tile(np.arange(len(c)), 2)
 
 
-def _kinds(system: System) -> np.ndarray | None:
+def _kinds(system: System) -> Array | None:
     """0 rattler, 1 buckler, 2 other; None before crunch."""
     try:
         return np.where(system.rattlers, 0, np.where(system.bucklers, 1, 2))

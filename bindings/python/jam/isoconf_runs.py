@@ -10,6 +10,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from ._types import Array
 from . import _calls, raw
 from ._generated import IsoconfColumn, StatusCode
 from ._paths import replaceable
@@ -27,16 +28,16 @@ class Runs:
     origin: what a campaign's runs were made from, '' outside of campaigns.
     """
 
-    instants: np.ndarray
-    counts: np.ndarray
-    displacement: np.ndarray
-    square: np.ndarray
-    distance2: np.ndarray
-    distance4: np.ndarray
-    series: dict[str, np.ndarray]
+    instants: Array
+    counts: Array
+    displacement: Array
+    square: Array
+    distance2: Array
+    distance4: Array
+    series: dict[str, Array]
     first_run: int = 0
     block: int = 1
-    kept: dict[int, np.ndarray] = field(default_factory=dict)
+    kept: dict[int, Array] = field(default_factory=dict)
     status: StatusCode = StatusCode.OK
     step: float = 0.0
     acceptance: float = 0.0
@@ -52,7 +53,7 @@ class Runs:
     def blocks(self) -> int:
         return len(self.counts)
 
-    def total(self, name: str, weights: Any = None) -> np.ndarray:
+    def total(self, name: str, weights: Any = None) -> Array:
         """The sum of a quantity over runs, blocks added in their order; weights (b,): how often each block counts."""
         values = getattr(self, name) if name in _SUMS or name == "counts" else self.series[name]
         if weights is None:
@@ -62,34 +63,34 @@ class Runs:
             return out
         return np.tensordot(np.asarray(weights, float), values, 1)
 
-    def mean(self, name: str, weights: Any = None) -> np.ndarray:
+    def mean(self, name: str, weights: Any = None) -> Array:
         """Mean over runs: of displacement (m, n, d), distance2 (m, n), ... or a column of series (m,)."""
         return self.total(name, weights) / self.total("counts", weights)
 
-    def variance(self, weights: Any = None) -> np.ndarray:
+    def variance(self, weights: Any = None) -> Array:
         """Var[dr_c] over runs (m, n, d)."""
         return self.mean("square", weights) - self.mean("displacement", weights) ** 2
 
     @property
-    def msd(self) -> np.ndarray:
+    def msd(self) -> Array:
         """Mean-square displacement (m,), unit of box^2."""
         return self.mean("msd")
 
     @property
-    def time(self) -> np.ndarray:
+    def time(self) -> Array:
         """Mean simulated time at each instant (m,); Monte Carlo: sweeps."""
         return self.mean("time")
 
-    def deviation(self, name: str) -> np.ndarray:
+    def deviation(self, name: str) -> Array:
         """Standard deviation over runs of time, msd, scattering, overlap or energy at each instant (m,)."""
         square = {"time": "time2"}.get(name, name + "2")
         return np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
 
-    def chi4(self, name: str = "overlap") -> np.ndarray:
+    def chi4(self, name: str = "overlap") -> Array:
         """chi_4(t) = N (<Q^2> - <Q>^2) of 'overlap' or 'scattering' (m,), over runs from this one configuration."""
         return self.distance2.shape[2] * self.deviation(name) ** 2
 
-    def halves(self) -> tuple[np.ndarray, np.ndarray]:
+    def halves(self) -> tuple[Array, Array]:
         """Weights of two halves of the blocks, even and odd."""
         if self.blocks < 2:
             raise ValueError("one block has no halves: ask for smaller blocks")

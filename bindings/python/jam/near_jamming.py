@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
+from ._types import Array
 from . import statistics
 from .isoconf_runs import Runs, campaign, run, take_runs  # noqa: F401  public here
 from .statistics import Estimate
@@ -24,11 +25,11 @@ class Predictors(NamedTuple):
     """Structure of a jammed packing, a value a sphere; rattlers have zeros. c (n, d): sum_j n_ij; s (n,): sum_{j<k} n_ij.n_ik;
     force_sum (n,): sum_j f_ij; force_pairs (n,): sum_{j<k} f_ij.f_ik; rattlers (n,): bool."""
 
-    c: np.ndarray
-    s: np.ndarray
-    force_sum: np.ndarray
-    force_pairs: np.ndarray
-    rattlers: np.ndarray
+    c: Array
+    s: Array
+    force_sum: Array
+    force_pairs: Array
+    rattlers: Array
 
 
 def predictors(system: Any) -> Predictors:
@@ -44,9 +45,7 @@ def predictors(system: Any) -> Predictors:
 # ---- correlations, prediction
 
 
-def correlations(
-    runs: Runs, structure: Predictors, weights: Any = None, rattlers: bool = True
-) -> dict[str, np.ndarray]:
+def correlations(runs: Runs, structure: Predictors, weights: Any = None, rattlers: bool = True) -> dict[str, Array]:
     """Spearman's K at each instant (m,), with or without rattlers.
 
     c, c_pooled: K[C, <dr>], mean of components and pooled; s, force_sum, force_pairs: with <|dr|^2>;
@@ -64,11 +63,11 @@ def correlations(
     return out
 
 
-def correlation_errors(runs: Runs, structure: Predictors, times: int = 100, **options: Any) -> dict[str, np.ndarray]:
+def correlation_errors(runs: Runs, structure: Predictors, times: int = 100, **options: Any) -> dict[str, Array]:
     """Standard errors (m,) of correlations(), by resampling blocks of runs with replacement."""
     made: dict[str, list] = {}
 
-    def keep(weights: np.ndarray) -> float:
+    def keep(weights: Array) -> float:
         for name, values in correlations(runs, structure, weights, **options).items():
             made.setdefault(name, []).append(values)
         return 0.0
@@ -77,7 +76,7 @@ def correlation_errors(runs: Runs, structure: Predictors, times: int = 100, **op
     return {name: np.std(values, axis=0, ddof=1) for name, values in made.items()}
 
 
-def reliability(runs: Runs) -> dict[str, np.ndarray]:
+def reliability(runs: Runs) -> dict[str, Array]:
     """How well means over half of the runs repeat themselves: K between halves (m,), of <dr> and <|dr|^2>.
 
     The noise of runs bounds K with any predictor by about sqrt(2 K / (1 + K)) (Spearman and Brown)."""
@@ -95,12 +94,12 @@ class Prediction(NamedTuple):
     those of S; areas under ROC curves: sign of <dr_c> from C_c, top share of <|dr|^2> from S (0.5: no better than chance).
     """
 
-    c_top: np.ndarray
-    c_bottom: np.ndarray
-    s_top: np.ndarray
-    s_bottom: np.ndarray
-    c_area: np.ndarray
-    s_area: np.ndarray
+    c_top: Array
+    c_bottom: Array
+    s_top: Array
+    s_bottom: Array
+    c_area: Array
+    s_area: Array
 
 
 def prediction(runs: Runs, structure: Predictors, share: float = 0.1) -> Prediction:
@@ -143,16 +142,14 @@ def collapse_exponent(
     """
     blocks = min(r.blocks for r in ensembles)
 
-    def curves(weights: np.ndarray) -> tuple:
+    def curves(weights: Array) -> tuple:
         pairs = [decay_curve(r, structure, kind, _fill(weights, r.blocks)) for r in ensembles]
         return [x for x, _ in pairs], [k for _, k in pairs]
 
     return statistics.collapse_estimate(curves, blocks, control, times, between=between)
 
 
-def decay_curve(
-    runs: Runs, structure: Predictors, kind: str = "c", weights: Any = None
-) -> tuple[np.ndarray, np.ndarray]:
+def decay_curve(runs: Runs, structure: Predictors, kind: str = "c", weights: Any = None) -> tuple[Array, Array]:
     """MSD and K[C, <dr>] (kind 'c') or K[S, <|dr|^2>] ('s') from the maximum of K on: before it K rises as the noise of few
     runs averages out, which is no decorrelation."""
     if kind == "c":
@@ -164,13 +161,13 @@ def decay_curve(
     return runs.mean("msd", weights)[start:], k[start:]
 
 
-def _fill(weights: np.ndarray, blocks: int) -> np.ndarray:
+def _fill(weights: Array, blocks: int) -> Array:
     """Weights of all blocks of an ensemble: those beyond the resampled ones count only where nothing is resampled."""
     rest = 1.0 if (weights == 1).all() else 0.0
     return np.concatenate([weights, np.full(blocks - len(weights), rest)])
 
 
-def is_caged(runs: Runs, system: Any, limit: float = 0.1) -> np.ndarray:
+def is_caged(runs: Runs, system: Any, limit: float = 0.1) -> Array:
     """Whether the root of the MSD is below `limit` mean diameters (m,): beyond it the packing's network says nothing any more."""
     return np.sqrt(runs.msd) < limit * system.diameters.mean()
 
@@ -182,9 +179,9 @@ class ModeWeights(NamedTuple):
     """At each instant: projections (m, modes) of the normalised <dr> on modes; curvature (m,): u.H.u; noise (m,): mean square
     projection on the translations, which no run can move along."""
 
-    projections: np.ndarray
-    curvature: np.ndarray
-    noise: np.ndarray
+    projections: Array
+    curvature: Array
+    noise: Array
 
 
 def mode_weights(
@@ -206,27 +203,27 @@ def mode_weights(
 # ---- glass observables from whole displacement sets or trajectories
 
 
-def self_scattering(displacements: Any, q: float) -> np.ndarray:
+def self_scattering(displacements: Any, q: float) -> Array:
     """F_s(q): mean of cos(q dr_c) over spheres and axes, of sets (..., n, d)."""
     return np.cos(q * np.asarray(displacements)).mean((-2, -1))
 
 
-def overlap(displacements: Any, length: float) -> np.ndarray:
+def overlap(displacements: Any, length: float) -> Array:
     """Q: share of spheres that moved less than `length`, of sets (..., n, d)."""
     return ((np.asarray(displacements) ** 2).sum(-1) < length**2).mean(-1)
 
 
-def propensity(runs: Runs) -> np.ndarray:
+def propensity(runs: Runs) -> Array:
     """Dynamic propensity <|dr_i|^2> of each sphere at each instant (m, n)."""
     return runs.mean("distance2")
 
 
-def clone_overlap(a: Any, b: Any) -> np.ndarray:
+def clone_overlap(a: Any, b: Any) -> Array:
     """Overlap of the displacements of two clones (..., n, d): sum a.b over the root of sum a.a sum b.b."""
     a, b = np.asarray(a), np.asarray(b)
     return (a * b).sum((-2, -1)) / np.sqrt((a * a).sum((-2, -1)) * (b * b).sum((-2, -1)))
 
 
-def clone_distance(a: Any, b: Any) -> np.ndarray:
+def clone_distance(a: Any, b: Any) -> Array:
     """Mean square distance between clones, (1/N) sum |r_i^A - r_i^B|^2, of their displacements (..., n, d)."""
     return ((np.asarray(a) - np.asarray(b)) ** 2).sum(-1).mean(-1)

@@ -6,6 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._paths import replaceable
+
+
+from ._types import Array
+
 if TYPE_CHECKING:
     from .system import System
 
@@ -38,18 +43,19 @@ def write_gsd(system: System, path: str | os.PathLike) -> None:
         "jam/diameter": np.array(system.diameters),
         "jam/cell": np.array(cell),
     }
-    beside = f"{os.fspath(path)}.part-{os.getpid()}"
+    target = replaceable(path)
+    beside = f"{target}.part-{os.getpid()}"
     try:
         with gsd.hoomd.open(beside, "wb") as file:
             file.append(frame)
-        os.replace(beside, path)
+        os.replace(beside, target)
     except BaseException:
         if os.path.exists(beside):
             os.unlink(beside)
         raise
 
 
-def _centred(x: np.ndarray, cell: np.ndarray) -> np.ndarray:
+def _centred(x: Array, cell: Array) -> Array:
     """In the cell around the origin, as HOOMD wants them."""
     s = np.linalg.solve(cell.T, np.asarray(x).T).T - 0.5
     return (s - np.floor(s + 0.5)) @ cell
@@ -77,7 +83,7 @@ def read_gsd(path: str | os.PathLike, frame: int = -1, **options: Any) -> System
     return System.from_arrays(x, np.asarray(one.particles.diameter, float), **_box(cell), **options)
 
 
-def _box(cell: np.ndarray) -> dict[str, Any]:
+def _box(cell: Array) -> dict[str, Any]:
     cube = (cell == cell[0, 0] * np.eye(len(cell))).all()
     return {"box": float(cell[0, 0])} if cube else {"cell": cell}
 

@@ -13,6 +13,7 @@ from typing import Any, Iterable, Sequence
 
 import numpy as np
 
+from ._types import Array
 from .errors import StateError
 from .files import half_bonds
 from .system import Modes, System
@@ -33,7 +34,7 @@ def _axes(ax: Any, square: bool = False) -> Any:
     return Figure(figsize=size, layout="constrained").subplots()
 
 
-def _colours(system: System) -> np.ndarray:
+def _colours(system: System) -> Array:
     from matplotlib.colors import to_rgb
 
     colours = np.tile(to_rgb(COLOURS["sphere"]), (system.n, 1))
@@ -48,7 +49,7 @@ def _colours(system: System) -> np.ndarray:
 _IMAGES = [np.array([i, j]) for i in range(-2, 3) for j in (-1, 0, 1)]  # a_1 may lean half of a_0 either way
 
 
-def _project(x: np.ndarray, edges: np.ndarray, view: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+def _project(x: Array, edges: Array, view: tuple[float, float]) -> tuple[Array, Array]:
     """Parallel projection of (..., 3): plane coordinates and depth in -1 (far) .. 1 (near)."""
     turn, tilt = np.radians(view)
     a = np.array([[math.cos(turn), math.sin(turn), 0], [-math.sin(turn), math.cos(turn), 0], [0, 0, 1]])
@@ -57,7 +58,7 @@ def _project(x: np.ndarray, edges: np.ndarray, view: tuple[float, float]) -> tup
     return y[..., [0, 2]], -y[..., 1] / (0.5 * float(np.linalg.norm(edges)))
 
 
-def _circles(ax: Any, centres: np.ndarray, diameters: Any, colours: Any, **more: Any) -> None:
+def _circles(ax: Any, centres: Array, diameters: Any, colours: Any, **more: Any) -> None:
     from matplotlib.collections import EllipseCollection
 
     if not len(centres):
@@ -77,7 +78,7 @@ def _circles(ax: Any, centres: np.ndarray, diameters: Any, colours: Any, **more:
     )
 
 
-def _brick(ax: Any, edges: np.ndarray, view: tuple[float, float], front: bool) -> None:
+def _brick(ax: Any, edges: Array, view: tuple[float, float], front: bool) -> None:
     corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float) * edges
     flat, depth = _project(corners, edges, view)
     near = np.argmax(depth)
@@ -88,7 +89,7 @@ def _brick(ax: Any, edges: np.ndarray, view: tuple[float, float], front: bool) -
                 ax.plot(*flat[[i, j]].T, color=COLOURS["line"], lw=0.8, zorder=5 if front else 0)
 
 
-def _frame(ax: Any, edges: np.ndarray) -> None:
+def _frame(ax: Any, edges: Array) -> None:
     dim = len(edges)
     ax.set_aspect("equal")
     if dim == 2:
@@ -226,17 +227,31 @@ def network(
     return ax
 
 
+def _samples(system: System | Iterable) -> tuple[Any, Any]:
+    if isinstance(system, System):
+        try:
+            series = system.observed_series()
+        except StateError:
+            series = None
+        if series is not None and len(series.pressure):
+            good = np.isfinite(series.pressure)
+            return series.fraction[good], series.pressure[good]
+        system = system.trace
+    records = [p for p in system if not math.isnan(p.pressure) and p.collisions > 0]
+    return [p.packing_fraction for p in records], [p.pressure for p in records]
+
+
 def trace(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
-    """Reduced pressure against packing fraction, from the progress records of compress and run."""
-    records = [
-        p
-        for p in (system.trace if isinstance(system, System) else system)
-        if not math.isnan(p.pressure) and p.collisions > 0
-    ]
+    """Reduced pressure against packing fraction, while compress or run move the spheres.
+
+    What observing() recorded comes first: its samples stand at fixed numbers of collisions, so the same seed gives the same
+    points. Without it the points are progress records, which come by the clock.
+    """
+    phi, pressure = _samples(system)
     ax = _axes(ax)
     ax.semilogy(
-        [p.packing_fraction for p in records],
-        [p.pressure for p in records],
+        phi,
+        pressure,
         **{"marker": ".", "ms": 4, "lw": 1, **style},
     )
     ax.set(xlabel=r"packing fraction $\varphi$", ylabel=r"reduced pressure $p$")
@@ -290,7 +305,7 @@ def cdf(values: Any, ax: Any = None, *, slopes: Sequence[float] = (), label: str
             lw=1,
             label=f"slope {slope:.4g}",
         )
-    ax.set(xlabel="$x$", ylabel="cdf", ylim=(0.5 / len(x), 1.5))
+    ax.set(xlabel=label or "value", ylabel="share of values up to it", ylim=(0.5 / len(x), 1.5))
     if slopes or label:
         ax.legend(frameon=False)
     return ax

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ._types import Array
 from . import _calls, _methods
 from ._generated import StatusCode
 
@@ -59,10 +60,10 @@ class Contacts:
         Mean 1.
     """
 
-    pairs: np.ndarray
-    vectors: np.ndarray
-    gaps: np.ndarray
-    forces: np.ndarray
+    pairs: Array
+    vectors: Array
+    gaps: Array
+    forces: Array
 
     def __len__(self) -> int:
         return len(self.pairs)
@@ -70,7 +71,7 @@ class Contacts:
     def __repr__(self) -> str:
         return f"Contacts({len(self)} pairs, d = {self.vectors.shape[1]})"
 
-    def table(self) -> np.ndarray:
+    def table(self) -> Array:
         """One structured array with fields i, j, n1 ... nd (unit vector), gap, force; pandas.DataFrame takes it."""
         axes = [f"n{k + 1}" for k in range(self.vectors.shape[1])]
         columns = [("i", "i4"), ("j", "i4")] + [(name, "f8") for name in (*axes, "gap", "force")]
@@ -98,14 +99,14 @@ class Modes:
         The index of each stable sphere.
     """
 
-    values: np.ndarray
-    vectors: np.ndarray
-    participation: np.ndarray
-    spheres: np.ndarray
+    values: Array
+    vectors: Array
+    participation: Array
+    spheres: Array
     status: StatusCode = StatusCode.OK
 
     @property
-    def frequencies(self) -> np.ndarray:
+    def frequencies(self) -> Array:
         """(m,): omega, with round-off below zero taken as zero."""
         return np.sqrt(np.maximum(self.values, 0.0))
 

@@ -13,16 +13,19 @@ from typing import Any, Callable, NamedTuple, Sequence
 
 import numpy as np
 
+
+from ._types import Array
+
 RESAMPLES = 200  # of a bootstrap: its error is then good to 5 %
 
 
 class Cdf(NamedTuple):
     """A cumulative distribution: c at x, with the standard errors of either (nan: not given by this estimator)."""
 
-    x: np.ndarray
-    c: np.ndarray
-    x_error: np.ndarray
-    c_error: np.ndarray
+    x: Array
+    c: Array
+    x_error: Array
+    c_error: Array
 
 
 class Estimate(NamedTuple):
@@ -30,7 +33,7 @@ class Estimate(NamedTuple):
 
     value: Any
     error: Any
-    resampled: np.ndarray
+    resampled: Array
 
 
 class Exponent(NamedTuple):
@@ -44,13 +47,13 @@ class Exponent(NamedTuple):
 class Collapse(NamedTuple):
     """Best parameters of a collapse, their errors over packings, and the quality S (about 1 when good)."""
 
-    value: np.ndarray
-    error: np.ndarray
+    value: Array
+    error: Array
     quality: float
 
 
 # ---- three estimators of the cumulative distribution
-def cdf_pooled(samples: Sequence[np.ndarray]) -> Cdf:
+def cdf_pooled(samples: Sequence[Array]) -> Cdf:
     """Pools the values of all packings and ranks them.
 
     Parameters
@@ -63,7 +66,7 @@ def cdf_pooled(samples: Sequence[np.ndarray]) -> Cdf:
     return Cdf(x, np.arange(1, len(x) + 1) / len(x), none, none)
 
 
-def cdf_ranked(samples: Sequence[np.ndarray]) -> Cdf:
+def cdf_ranked(samples: Sequence[Array]) -> Cdf:
     """Ranks the values in each packing and averages the k-th over packings: the error is one of x.
 
     Packings that hold fewer values than others end the average early; c of the k-th is k over the mean number.
@@ -75,14 +78,14 @@ def cdf_ranked(samples: Sequence[np.ndarray]) -> Cdf:
     return Cdf(rows.mean(axis=0), np.arange(1, least + 1) / mean, error, np.full(least, np.nan))
 
 
-def cdf_grid(samples: Sequence[np.ndarray], grid: np.ndarray) -> Cdf:
+def cdf_grid(samples: Sequence[Array], grid: Array) -> Cdf:
     """Evaluates the step function of each packing on one grid: the error is one of c."""
     rows = np.array([np.searchsorted(np.sort(s), grid, side="right") / len(s) for s in samples])
     error = rows.std(axis=0, ddof=1) / np.sqrt(len(rows)) if len(rows) > 1 else np.full(len(grid), np.nan)
     return Cdf(np.asarray(grid, float), rows.mean(axis=0), np.full(len(grid), np.nan), error)
 
 
-def local_exponent(x: np.ndarray, c: np.ndarray, width: float = 0.5) -> np.ndarray:
+def local_exponent(x: Array, c: Array, width: float = 0.5) -> Array:
     """Slope of ln c against ln x by least squares in a window of `width` decades around each x; nan with under 3 points."""
     use = (np.asarray(c) > 0) & (np.asarray(x) > 0)
     lx, lc = np.log(np.where(use, x, 1.0)), np.log(np.where(use, c, 1.0))
@@ -115,7 +118,7 @@ def bootstrap(
 
 
 # ---- likelihood
-def _solve(mean: np.ndarray, span: float) -> np.ndarray:
+def _solve(mean: Array, span: float) -> Array:
     """b with <ln(x / low)> = mean for the density b x^(b-1) on [low, high], span = ln(high / low); by bisection."""
     low, high = np.full(np.shape(mean), -200.0 / span), np.full(np.shape(mean), 200.0 / span)
     for _ in range(60):
@@ -128,7 +131,7 @@ def _solve(mean: np.ndarray, span: float) -> np.ndarray:
 
 
 def fit_power(
-    samples: Sequence[np.ndarray], high: float, low: float | None = None, resamples: int = RESAMPLES, seed: int = 0
+    samples: Sequence[Array], high: float, low: float | None = None, resamples: int = RESAMPLES, seed: int = 0
 ) -> Exponent:
     """Maximum likelihood of p(x) ~ x^a, error by bootstrap over packings.
 
@@ -200,16 +203,16 @@ def quality(curves: Sequence[tuple[float, Cdf]], u: float, v: float) -> float:
     return total / points if points else np.inf
 
 
-def tail_scaling(parameters: np.ndarray) -> tuple[float, float]:
+def tail_scaling(parameters: Array) -> tuple[float, float]:
     """Powers (u, v) of N for a tail x^a: x N^(1/(1+a)), N c. One parameter: a."""
     return 1.0 / (1.0 + float(parameters[0])), 1.0
 
 
 def collapse(
-    samples: dict[int, Sequence[np.ndarray]],
-    grid: np.ndarray | Callable[[int], np.ndarray],
+    samples: dict[int, Sequence[Array]],
+    grid: Array | Callable[[int], Array],
     start: Sequence[float],
-    scaling: Callable[[np.ndarray], tuple[float, float]] = tail_scaling,
+    scaling: Callable[[Array], tuple[float, float]] = tail_scaling,
     resamples: int = 40,
     seed: int = 0,
 ) -> Collapse:
@@ -234,7 +237,7 @@ def collapse(
     rows = {n: np.array([np.searchsorted(np.sort(s), grids[n], "right") / len(s) for s in samples[n]]) for n in samples}
     errors = {n: r.std(axis=0, ddof=1) / np.sqrt(len(r)) for n, r in rows.items()}
 
-    def best(picked: dict[int, np.ndarray], first: Sequence[float]) -> tuple[np.ndarray, float]:
+    def best(picked: dict[int, Array], first: Sequence[float]) -> tuple[Array, float]:
         nan = {n: np.full(len(g), np.nan) for n, g in grids.items()}
         curves = [(n, Cdf(grids[n], picked[n].mean(axis=0), nan[n], errors[n])) for n in picked]
         found = minimize(lambda p: quality(curves, *scaling(p)), first, method="Nelder-Mead", options={"xatol": 1e-4})
@@ -254,15 +257,15 @@ def collapse(
 
 
 # ---- the form between plateau and power law
-def crossover(x: np.ndarray, a: float, b: float, q: float, exponent: float) -> np.ndarray:
+def crossover(x: Array, a: float, b: float, q: float, exponent: float) -> Array:
     """F(x) = [(a x)^q + (b x^(1+exponent))^q]^(1/q): linear for small x, a power law for large (thesis, section 4.4)."""
     x = np.asarray(x, float)
     return np.exp(np.logaddexp(q * np.log(a * x), q * (np.log(b) + (1.0 + exponent) * np.log(x))) / q)
 
 
 def fit_crossover(
-    x: np.ndarray, c: np.ndarray, error: np.ndarray, exponent: float, start: Sequence[float] = (0.2, 0.2, -1.2)
-) -> tuple[np.ndarray, float]:
+    x: Array, c: Array, error: Array, exponent: float, start: Sequence[float] = (0.2, 0.2, -1.2)
+) -> tuple[Array, float]:
     """Least squares of ln c = ln F: (a, b, q), and the mean square residual in units of the errors.
 
     ln a and ln b are kept within 8 of 0, q in -10 ... -0.1: data without a bend do not determine them.
@@ -272,7 +275,7 @@ def fit_crossover(
     use = (c > 0) & (error > 0)
     lc, weight = np.log(c[use]), c[use] / error[use]
 
-    def residual(p: np.ndarray) -> np.ndarray:
+    def residual(p: Array) -> Array:
         return weight * (np.log(crossover(x[use], np.exp(p[0]), np.exp(p[1]), p[2], exponent)) - lc)
 
     found = least_squares(
@@ -281,7 +284,7 @@ def fit_crossover(
     return np.array([np.exp(found.x[0]), np.exp(found.x[1]), found.x[2]]), float(np.mean(found.fun**2))
 
 
-def draw_left_power(rng: np.random.Generator, count: int, exponent: float, plateau: float) -> np.ndarray:
+def draw_left_power(rng: np.random.Generator, count: int, exponent: float, plateau: float) -> Array:
     """Synthetic values in (0, 1): density x^exponent, constant below `plateau`; for tests of the methods above."""
     b = 1.0 + exponent
     below = plateau**b  # mass below the plateau's end, then of the power law, both over the same constant

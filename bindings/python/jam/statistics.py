@@ -6,6 +6,9 @@ from typing import Any, Callable, Iterable, NamedTuple, Sequence
 import numpy as np
 
 
+from ._types import Array
+
+
 class Estimate(NamedTuple):
     """A value and its standard error."""
 
@@ -54,7 +57,7 @@ def deciles(predictor: Any, observed: Any, share: float = 0.1) -> tuple[float, f
     return float(observed[order[-count:]].mean()), float(observed[order[:count]].mean())
 
 
-def bootstrap(f: Callable[[np.ndarray], Any], blocks: int, times: int = 200, seed: int = 1) -> np.ndarray:
+def bootstrap(f: Callable[[Array], Any], blocks: int, times: int = 200, seed: int = 1) -> Array:
     """f(weights) for `times` resamples of `blocks` blocks with replacement; weights (blocks,) count how often each is drawn."""
     if blocks < 2:
         raise ValueError(f"{blocks} blocks cannot be resampled: make the blocks smaller or the runs more")
@@ -92,7 +95,7 @@ def collapse(
 
 
 def collapse_estimate(
-    curves: Callable[[np.ndarray], tuple], blocks: int, control: Any, times: int = 40, **options: Any
+    curves: Callable[[Array], tuple], blocks: int, control: Any, times: int = 40, **options: Any
 ) -> Estimate:
     """collapse() of curves(weights) -> (x, y), with the standard error from resampled blocks of runs."""
     value = collapse(*curves(np.ones(blocks)), control, **options)
@@ -100,7 +103,7 @@ def collapse_estimate(
     return Estimate(value, float(np.std(made, ddof=1)))
 
 
-def velocity_spectrum(time: Any, correlation: Any, omega: Iterable[float]) -> np.ndarray:
+def velocity_spectrum(time: Any, correlation: Any, omega: Iterable[float]) -> Array:
     """Density of states from a velocity autocorrelation on a uniform grid of times: (2/pi) int C(t) cos(omega t) dt.
 
     A Hann window falls to zero at the last time; features narrower than about pi / time[-1] are smoothed.

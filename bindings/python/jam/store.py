@@ -32,6 +32,7 @@ from typing import Any, Mapping
 
 import numpy as np
 
+from ._types import Array
 from . import _generated, raw
 from ._paths import replaceable
 from .results import Contacts
@@ -52,11 +53,11 @@ class StoreError(OSError):
 
 # ---- compound values
 def _dtype(cls: type) -> np.dtype:
-    kinds = {"int": "i8", "float": "f8"}
+    kinds = {"int": "i8", "bool": "i8", "float": "f8"}
     return np.dtype([(f.name, kinds.get(f.type, "i4")) for f in fields(cls)])
 
 
-def pack(report: Any) -> np.ndarray:
+def pack(report: Any) -> Array:
     """A report as one compound value; enums as their numbers."""
     made = np.zeros((), _dtype(type(report)))
     for f in fields(report):
@@ -64,16 +65,16 @@ def pack(report: Any) -> np.ndarray:
     return made
 
 
-def unpack(value: np.ndarray, cls: type) -> Any:
+def unpack(value: Array, cls: type) -> Any:
     """A report of a class from a compound value; what an older file does not hold is nan or 0."""
     given: dict[str, Any] = {}
     for f in fields(cls):
         known = f.name in value.dtype.names
         number = value[f.name].item() if known else float("nan") if f.type == "float" else 0
-        enum = getattr(_generated, f.type, None) if f.type not in ("int", "float") else None
+        enum = getattr(_generated, f.type, None) if f.type not in ("int", "bool", "float") else None
         if isinstance(enum, type) and issubclass(enum, IntEnum) and number in set(enum):
             number = enum(number)
-        given[f.name] = number
+        given[f.name] = bool(number) if f.type == "bool" else number
     return cls(**given)
 
 

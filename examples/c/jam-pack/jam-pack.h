@@ -53,6 +53,8 @@ int end_progress(terminal *t, const options *o);
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
 int parse_options(int argc, char **argv, options *o);
 /* Calls f for every file that will be written, until it returns something else than 0. */
+/* What stands behind the last dot of a name, without .gz; at most 7 letters of it. */
+void ending_of(const char *path, char ending[8]);
 int each_output(const options *o, int (*f)(const char *path));
 
 /* start.c: each returns 0 or -1, start after a message on stderr. */

@@ -148,15 +148,20 @@ static int told(jam_status status) {
   return status < 0;
 }
 
+/* By the ending of the name; a table where there is none. */
+static int write_contacts(const jam_system *sys, const char *path) {
+  char ending[8];
+  ending_of(path, ending);
+  if (!strcmp(path, "-")) path = "/dev/stdout";
+  return told(jam_write_contacts(sys, path, *ending ? JAM_CONTACTS_AUTO : JAM_CONTACTS_CSV));
+}
+
 static int write_all(jam_system *sys, const options *o, outcome *result) {
   int bad = 0;
   result->info.struct_size = sizeof result->info;
   jam_info_get(sys, &result->info);
   if (o->output) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
-  if (o->contacts && result->has_crunch) {
-    const int table = !strcmp(o->contacts, "-");
-    bad |= told(jam_write_contacts(sys, table ? "/dev/stdout" : o->contacts, table ? JAM_CONTACTS_CSV : 0));
-  }
+  if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts);
   if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
   running = sys; /* a large spectrum takes long */
   if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;

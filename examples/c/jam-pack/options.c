@@ -151,8 +151,7 @@ static int settle_files(const options *o) {
   return 0;
 }
 
-/* What stands behind the last dot of a name, without .gz. */
-static void ending_of(const char *path, char ending[8]) {
+void ending_of(const char *path, char ending[8]) {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot;
   char bare[256];
   size_t length = strlen(name);
@@ -170,7 +169,7 @@ static int is_one_of(const char *word, const char *const *list) {
 /* Whether the library knows the formats of these names: said before the work, not after it. */
 static int settle_formats(const options *o) {
   static const char *const packings[] = {"xyz", "extxyz", "data", "lmp", "vtp", "dat", "txt", "", NULL};
-  static const char *const networks[] = {"csv", "dump", "vtp", NULL};
+  static const char *const networks[] = {"csv", "dump", "vtp", "", NULL};
   char ending[8];
   if (o->output) {
     ending_of(o->output, ending);

@@ -42,7 +42,19 @@ typedef struct options {
 } options;
 
 #ifdef JAM_PACK_OPTIONS_TABLE
-enum { TAKE_INTEGER, TAKE_POSITIVE, TAKE_DIAMETERS, TAKE_DELTA, TAKE_CHOICE, TAKE_NOT_NEGATIVE, TAKE_INPUT, TAKE_SWITCH, TAKE_STAGE, TAKE_PRESSURE, TAKE_OUTPUT };
+enum {
+  TAKE_INTEGER,
+  TAKE_POSITIVE,
+  TAKE_DIAMETERS,
+  TAKE_DELTA,
+  TAKE_CHOICE,
+  TAKE_NOT_NEGATIVE,
+  TAKE_INPUT,
+  TAKE_SWITCH,
+  TAKE_STAGE,
+  TAKE_PRESSURE,
+  TAKE_OUTPUT
+};
 enum { AFTER_CRUNCH = 1, TAKES_STDOUT = 2 };
 
 typedef struct option_row {
@@ -167,7 +179,8 @@ static const char *const help[] = {
     "  --page FILE.html       the packing to look at in a browser, with forces, certificate and",
     "                         distributions; needs no network",
     "  --contacts FILE        the contact network: i, j, unit vector, gap, force (mean 1), as",
-    "                         .csv, .dump (LAMMPS dump local) or .vtp (ParaView)",
+    "                         .csv (also without an ending), .dump (LAMMPS dump local) or .vtp",
+    "                         (ParaView)",
     "  --spectrum FILE.csv    lowest modes of the harmonic Hessian: omega^2, omega, participation",
     "  --modes K              how many --spectrum writes (100); 0: all, which needs 24 (d N)^2",
     "                         bytes, at most 2e9",

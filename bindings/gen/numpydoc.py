@@ -1,0 +1,102 @@
+"""Comments of the header as docstrings that Python users expect: numpydoc sections, shapes, Python's names."""
+import re
+import textwrap
+
+from emit_python import camel
+from model import item_names
+
+NEVER = ("NULL", "STRUCT_SIZE", "BUFFER")  # errors that the Python layer cannot make
+DROPPED = (
+    r"Threads: [^.]*\.(?: on both\.)?",
+    r"@since \S+",
+    r"(?:Arrays|Each(?: output)?|report) may be NULL(?: with length 0)?\.",
+    r"(?:, )?\*(?:rows|needed) = (?:their number )?\w+(?: \w+)?(?=[:;.,])",
+)
+
+
+def split_errors(doc):
+    """The text without its list of errors, and that list."""
+    found = re.search(r"Errors: (.*?)(?:\.(?= |$)(?! [a-z])|$)", doc, re.S)
+    return (doc[: found.start()] + doc[found.end() :], found.group(1)) if found else (doc, "")
+
+
+def errors(f, api, depth=0):
+    """Names of Python's exceptions that a call can raise; `as jam_x` means those of x too."""
+    words, names = split_errors(" ".join(f.doc.split()))[1], []
+    for word in re.findall(r"as (?:before|jam_\w+)|JAM_E_\w+", words):
+        if word.startswith("as jam_") and depth < 4:
+            names += [e for g in api.functions if g.name == word[3:] for e in errors(g, api, depth + 1)]
+        elif word.startswith("JAM_E_") and word[6:] not in NEVER:
+            names.append(camel(word[6:].lower()) + "Error")
+    return list(dict.fromkeys(names))
+
+
+def spoken(text, api):
+    """Names of C as Python has them."""
+    enums = {e.name: camel(e.name) for e in api.enums}
+    items = {f"JAM_{c.removeprefix('JAM_')}": n for e in api.enums for n, (c, _, _) in zip(item_names(e), e.items)}
+    text = re.sub(r"\bJAM_E_(\w+)", lambda m: camel(m.group(1).lower()) + "Error", text)
+    statuses = {f"JAM_{c.removeprefix('JAM_')}" for e in api.enums if e.name == "jam_status" for c, _, _ in e.items}
+    text = re.sub(r"\bJAM_[A-Z_]+\b", lambda m: "StatusCode." + m.group()[4:] if m.group() in statuses else m.group(), text)
+    text = re.sub(r"\bJAM_[A-Z_]+\b", lambda m: repr(items[m.group()].lower()) if m.group() in items else m.group(), text)
+    functions = {f.name for f in api.functions}
+
+    def named(m):
+        word = m.group()
+        if word in enums:
+            return enums[word]
+        return word.removeprefix("jam_") + ("()" if word in functions else "")
+
+    text = re.sub(r"\bjam_\w+", named, text)
+    return re.sub(r"\*(?=[a-z])", "", text).replace("NULL", "None")
+
+
+def cleaned(doc, api):
+    text = split_errors(" ".join(doc.split()))[0]
+    for pattern in DROPPED:
+        text = re.sub(pattern, "", text)
+    return re.sub(r"\s+([.,;:])", r"\1", " ".join(spoken(text, api).split()))
+
+
+def shape(name, doc):
+    """What the comment says in brackets behind the name of an array."""
+    found = re.search(rf"\b{re.escape(name)} \(([\w' +]+(?:, [\w' ]+)*)\)", doc)
+    if not found:
+        return ""
+    inner = found.group(1)
+    return f", shape ({inner}{'' if ',' in inner else ','})"
+
+
+def choices(enum, api):
+    for e in api.enums:
+        if camel(e.name) == enum:
+            return "{" + ", ".join(repr(n.lower()) for n in item_names(e)) + "}"
+    return "int"
+
+
+def wrapped(text, indent, width=118):
+    return textwrap.wrap(text, width, initial_indent=indent, subsequent_indent=indent, break_long_words=False)
+
+
+def section(name, rows, indent):
+    """rows: (head, text)."""
+    if not rows:
+        return []
+    lines = ["", indent + name, indent + "-" * len(name)]
+    for head, text in rows:
+        lines += wrapped(head, indent)
+        lines += wrapped(text, indent + "    ") if text else []
+    return lines
+
+
+def docstring(doc, api, indent, parameters=(), returns=(), raises=()):
+    text = cleaned(doc, api)
+    first = re.match(r".*?[a-z)\]]\.(?= |$)(?<!e\.g\.)(?<! J\.)(?<! al\.)", text)
+    head = first.group() if first else text
+    rest = text[len(head) :].strip()
+    lines = wrapped(head, indent)
+    lines += [""] + wrapped(rest, indent) if rest else []
+    lines += section("Parameters", parameters, indent) + section("Returns", returns, indent)
+    lines += section("Raises", [(", ".join(raises), "")] if raises else [], indent)
+    body = "\n".join(line.rstrip() for line in lines).strip().replace("\\", "\\\\").replace('"""', "'''")
+    return f'{indent}"""{body}' + ("\n" + indent if "\n" in body else "") + '"""'

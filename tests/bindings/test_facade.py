@@ -1,0 +1,144 @@
+"""What a Python user sees: documented signatures, types, names, tables and pictures that do not depend on the clock."""
+import inspect
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import jam
+
+USER = '''
+import jam
+
+packing = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+grown: jam.MdReport = packing.compress(growth_rate=1e-2)
+report = packing.crunch(step_tolerance=1e-9)
+phi: float = report.packing_fraction
+jammed: bool = report.jammed
+why: jam.StopReason = report.stop_reason
+packing.page("x.html", values={"height": packing.positions[:, 1]})
+edges = packing.density_of_states(points=20).edge.max()
+try:
+    print(packing.rigidity("strict").jammed is jam.Verdict.YES, packing.contacts.table())
+except jam.errors.StateError as error:
+    print(error)
+'''
+
+
+def disks(seed=1):
+    return jam.System.random(n=64, dim=2, seed=seed, diameters=[1.0] * 32 + [1.4] * 32)
+
+
+def methods():
+    return [(n, f) for n, f in inspect.getmembers(jam.System, inspect.isfunction) if not n.startswith("_")]
+
+
+class Facade(unittest.TestCase):
+    def test_docstrings_speak_python(self):
+        for name, method in methods():
+            doc = inspect.getdoc(method) or ""
+            self.assertTrue(doc, f"{name} has no docstring")
+            for word in (r"\bjam_[a-z]", r"JAM_E_", r"@since", r"Threads:", r"\bNULL\b", r"\*rows"):
+                self.assertIsNone(re.search(word, doc), f"{name} speaks C: {word}")
+
+    def test_every_parameter_is_named_and_typed(self):
+        for name, method in methods():
+            doc = inspect.getdoc(method)
+            if "Parameters\n----------" not in doc:
+                continue
+            section = doc.split("Parameters\n----------\n")[1].split("\n\n")[0]
+            said = {w for line in re.findall(r"^(\w[\w, ]*) : ", section, re.M) for w in re.split(", ", line)}
+            there = {
+                p.name
+                for p in inspect.signature(method).parameters.values()
+                if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)
+            }
+            self.assertLessEqual(said, there, name)
+            if "struct" not in name and not name.startswith("_"):
+                self.assertLessEqual(there - {"self", "progress"}, said, name)
+
+    def test_signatures_show_the_options(self):
+        names = list(inspect.signature(jam.System.crunch).parameters)
+        for option in ("method", "strain", "step_tolerance", "wall_time", "threads"):
+            self.assertIn(option, names)
+        self.assertIn("growth_rate", inspect.signature(jam.System.compress).parameters)
+        self.assertIn("{'barrier_path', 'sequential_lp'}", jam.System.crunch.__doc__)
+
+    def test_yes_and_no_are_bools(self):
+        report = disks().crunch()
+        self.assertIs(report.jammed, True)
+        self.assertIs(report.stationary, True)
+        s = disks()
+        self.assertIs(s.crunch(max_lps=1).jammed, False)
+
+    def test_names_of_the_package(self):
+        for name in dir(jam):
+            self.assertNotIn(name, ("Any", "annotations", "dataclass", "IntEnum", "Array", "NamedTuple", "Callable"))
+        self.assertIn("System", dir(jam))
+        self.assertIn("load", dir(jam))
+
+    def test_pandas_takes_the_contacts(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("pandas is not installed")
+        s = disks()
+        s.crunch()
+        table = pandas.DataFrame(s.contacts.table())
+        self.assertEqual(list(table), ["i", "j", "n1", "n2", "gap", "force"])
+        self.assertEqual(len(table), len(s.forces))
+
+    def test_short_text(self):
+        s = disks()
+        s.crunch()
+        for value in (s.density_of_states(points=30), s.gaps(1.0, True), s.contacts, s.modes(5), s):
+            self.assertLess(len(repr(value)), 250)
+            self.assertNotIn("[", repr(value))
+
+    def test_the_trace_does_not_depend_on_the_clock(self):
+        curves = []
+        for _ in range(2):
+            s = disks()
+            with s.observing(sample_every=2):
+                s.compress(growth_rate=1e-2, pressure=200)
+            line = jam.plot.trace(s).lines[0]
+            curves.append((line.get_xdata(), line.get_ydata()))
+        self.assertGreater(len(curves[0][0]), 10)
+        np.testing.assert_array_equal(curves[0], curves[1])
+
+    def test_axes_have_names(self):
+        s = disks()
+        s.crunch()
+        self.assertEqual(jam.plot.cdf(s.forces, label="force").get_xlabel(), "force")
+        self.assertNotIn("x", jam.plot.cdf(s.forces).get_xlabel())
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+    def test_mypy_strict_takes_a_program(self):
+        package = Path(jam.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            site = Path(folder, "site")
+            shutil.copytree(package, site / "jam", ignore=shutil.ignore_patterns("__pycache__", "*.so", "raw.py"))
+            config = "[mypy]\nstrict = True\n[mypy-jam.*]\nfollow_imports = silent\n"
+            Path(folder, "mypy.ini").write_text(config)
+
+            def check(text):
+                Path(folder, "user.py").write_text(text)
+                return subprocess.run(
+                    ["mypy", "--config-file", "mypy.ini", "user.py"],
+                    cwd=folder,
+                    env={"MYPYPATH": str(site), "PATH": "/usr/bin:/bin"},
+                    capture_output=True,
+                    text=True,
+                )
+
+            self.assertIn("Success", (said := check(USER)).stdout, said)
+            self.assertIn('"int"', check(USER + "wrong: int = report.stop_reason.name\n").stdout)
+            self.assertIn("has no attribute", check(USER + "packing.crush()\n").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

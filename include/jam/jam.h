@@ -921,8 +921,8 @@ typedef enum jam_soft_scale {
 
 /* How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1 */
 typedef enum jam_minimiser {
-  JAM_MINIMISER_NEWTON = 0, /* FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the
-                             * middle of their cages */
+  JAM_MINIMISER_NEWTON = 0, /* FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress;
+                             * rattlers are put in the middle of their cages */
   JAM_MINIMISER_FIRE = 1,   /* FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020)) */
   JAM_MINIMISER_LBFGS = 2   /* limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980)) */
 } jam_minimiser;

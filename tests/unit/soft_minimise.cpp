@@ -55,6 +55,19 @@ void one_minimum(void **) {
     }
 }
 
+// Below alpha = 2 a contact that opens is ever stiffer. Near alpha = 1 nothing converges, and the status says so.
+void contacts_that_stiffen(void **) {
+  for (int dim = 2; dim <= 3; ++dim) {
+    const Packing start = random_packing(dim, 200, dim == 2 ? 0.92 : 0.7, 1);
+    const SoftResult end = relaxed(start, JAM_MINIMISER_NEWTON, 1.5);
+    assert_int_equal(end.status, JAM_OK);
+    assert_true(end.report.force_residual < 1e-12 && end.report.evaluations < 20000);
+    const SoftResult hard = relaxed(random_packing(dim, 40, 0.95, 1), JAM_MINIMISER_NEWTON, 1.05);
+    assert_true(hard.status == JAM_LIMIT || hard.status == JAM_NOT_CONVERGED);
+    assert_int_equal(hard.report.converged, 0);
+  }
+}
+
 // Forces balance to 1e-12 where overlaps are 1e-9 of a diameter; in plain doubles they cannot.
 void balance_at_tiny_overlaps(void **) {
   Monitor monitor;
@@ -164,6 +177,7 @@ void limits_are_told(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(one_minimum),
+                              cmocka_unit_test(contacts_that_stiffen),
                               cmocka_unit_test(balance_at_tiny_overlaps),
                               cmocka_unit_test(network_has_the_hessian),
                               cmocka_unit_test(unjammed),

@@ -230,7 +230,7 @@ class SoftScale(IntEnum):
 
 class Minimiser(IntEnum):
     """How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1"""
-    NEWTON = 0  # FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
+    NEWTON = 0  # FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
     FIRE = 1  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
     LBFGS = 2  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 

@@ -188,7 +188,7 @@ const JAM_SOFT_ABSOLUTE = Int32(1)  # c = 1 / alpha, l = 1 in the unit of the bo
 const JAM_SOFT_BARE = Int32(2)  # c = 1, l = 1
 
 # jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1
-const JAM_MINIMISER_NEWTON = Int32(0)  # FIRE until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
+const JAM_MINIMISER_NEWTON = Int32(0)  # FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
 const JAM_MINIMISER_FIRE = Int32(1)  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
 const JAM_MINIMISER_LBFGS = Int32(2)  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 

@@ -146,6 +146,76 @@ void crunch_of_many_pairs(void **) {
   jam_destroy(sys);
 }
 
+int32_t stop_at_once(const jam_progress *, void *) { return 1; }
+
+// Lists of all pairs of 20000 spheres take seconds. The callback, and the limit of time, end them before the first
+// event; the packing is as before.
+void lists_of_verbs_are_left(void **) {
+  jam_create_options o = options(20000, 0.1);
+  o.dim = 8, o.overlap = JAM_OVERLAP_ALLOW;  // in so few diameters a side, every search takes all pairs
+  jam_system *sys = nullptr;
+  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  const double *view = nullptr;
+  size_t len = 0;
+  jam_positions_view(sys, &view, &len);
+  const std::vector<double> before(view, view + len);
+  for (const bool by_callback : {true, false}) {
+    jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
+    jam_relax_options soft;
+    jam_relax_options_init(&soft, sizeof soft);
+    if (!by_callback) soft.wall_time = 0.05;
+    jam_relax_report r;
+    r.struct_size = sizeof r;
+    const double begin = now();
+    assert_int_equal(jam_relax(sys, &soft, &r), by_callback ? JAM_CANCELLED : JAM_LIMIT);
+    assert_true(now() - begin < 10.0);
+    assert_int_equal(r.stop_reason, by_callback ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
+    assert_int_equal(r.evaluations, 0);
+    assert_memory_equal(view, before.data(), len * sizeof *view);
+  }
+  jam_destroy(sys);
+
+  // Outer lists of the Mari-Kurchan model.
+  jam_create_options quenched = options(15000, 0.01);
+  quenched.model = JAM_MODEL_MK;
+  assert_int_equal(jam_create(&quenched, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  for (const bool by_callback : {true, false}) {
+    jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
+    jam_run_options run;
+    jam_run_options_init(&run, sizeof run);
+    if (!by_callback) run.wall_time = 0.05;
+    jam_md_report r;
+    r.struct_size = sizeof r;
+    assert_int_equal(jam_run(sys, &run, &r), by_callback ? JAM_CANCELLED : JAM_LIMIT);
+    assert_int_equal(r.stop_reason, by_callback ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
+    assert_true(r.events == 0 && r.seconds == 0.0);  // it never began
+  }
+  jam_destroy(sys);
+}
+
+void lists_of_verbs_keep_to_the_memory(void **) {
+  jam_system *sys = make(3000, 0.3);
+  const double *view = nullptr;
+  size_t len = 0;
+  jam_positions_view(sys, &view, &len);
+  const std::vector<double> before(view, view + len);
+  assert_int_equal(jam_set_memory_limit(sys, 1e4), JAM_OK);
+  jam_run_options run;
+  jam_run_options_init(&run, sizeof run);
+  jam_monte_carlo_options sweeps;
+  jam_monte_carlo_options_init(&sweeps, sizeof sweeps);
+  sweeps.step = 0.01;
+  for (const bool monte_carlo : {true, false}) {
+    assert_int_equal(monte_carlo ? jam_monte_carlo(sys, &sweeps, nullptr) : jam_run(sys, &run, nullptr), JAM_E_MEMORY);
+    assert_non_null(strstr(jam_last_error(), "neighbour lists"));
+    assert_memory_equal(view, before.data(), len * sizeof *view);
+  }
+  assert_int_equal(jam_set_memory_limit(sys, 1e9), JAM_OK);
+  run.collisions_per_particle = 1.0;
+  assert_int_equal(jam_run(sys, &run, nullptr), JAM_OK);
+  jam_destroy(sys);
+}
+
 }  // namespace
 
 int main() {
@@ -154,6 +224,8 @@ int main() {
                               cmocka_unit_test(planting_stops_in_time),
                               cmocka_unit_test(fractions_out_of_reach),
                               cmocka_unit_test(memory_limit_of_a_call),
-                              cmocka_unit_test(crunch_of_many_pairs)};
+                              cmocka_unit_test(crunch_of_many_pairs),
+                              cmocka_unit_test(lists_of_verbs_are_left),
+                              cmocka_unit_test(lists_of_verbs_keep_to_the_memory)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -165,6 +165,25 @@ static void shear_and_back(void **state) {
   jam_destroy(sys);
 }
 
+/* r -> (1 + strain) r by numbers: a point and the cell vectors, in a strain that needs no reduction. */
+static void strain_is_affine(void **state) {
+  (void)state;
+  jam_create_options o = options(2, 1);
+  jam_system *sys = NULL;
+  const double x[2] = {0.2, 0.4}, sigma = 0.1, strain[4] = {0.5, 0.25, 0.0, 0.25};
+  const double *at = NULL;
+  double cell[4];
+  size_t len;
+  assert_int_equal(jam_create(&o, x, 2, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(jam_strain(sys, strain, 4), JAM_OK);
+  assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK);
+  assert_true(fabs(cell[0] - 1.5) < 1e-15 && cell[1] == 0.0);
+  assert_true(fabs(cell[2] - 0.25) < 1e-15 && fabs(cell[3] - 1.25) < 1e-15);
+  assert_int_equal(jam_positions_view(sys, &at, &len), JAM_OK);
+  assert_true(fabs(at[0] - 0.4) < 1e-15 && fabs(at[1] - 0.5) < 1e-15);
+  jam_destroy(sys);
+}
+
 static void files(void **state) {
   (void)state;
   const char *const path = "cell_test.xyz", *const plain = "cell_test.dat", *const check = "cell_test.check";
@@ -234,6 +253,7 @@ int main(void) {
       cmocka_unit_test(triangular_lattices),
       cmocka_unit_test(crunch_does_not_depend_on_the_basis),
       cmocka_unit_test(shear_and_back),
+      cmocka_unit_test(strain_is_affine),
       cmocka_unit_test(files),
       cmocka_unit_test(refused),
   };

@@ -36,7 +36,15 @@ class CallScope {
   static void look() {
     ask([](Monitor &monitor) { return monitor.look(); });
   }
-  // The same with a record of its own.
+  // The same where the work cannot be left: the callback is told, and a cancellation waits for the next look().
+  static void tell() {
+    const CallScope *const scope = current();
+    if (!scope || !scope->monitor_) return;
+    std::unique_lock<std::mutex> lock;
+    if (scope->quiet_) lock = std::unique_lock<std::mutex>(*scope->quiet_);
+    scope->monitor_->look();
+  }
+  // look() with a record of its own.
   static void report(const jam_progress &p) {
     ask([&](Monitor &monitor) { return monitor.report(p) || monitor.interrupted(); });
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/dense_front.hpp"
 #include "linalg/two_threads.hpp"
@@ -117,7 +118,10 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
 void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack,
                              int threads, int &replaced) {
   stack.top[0] = stack.top[1] = 0;
-  for (const int32_t s : list) eliminate(s, diag, off, stack, threads, replaced);
+  for (const int32_t s : list) {
+    eliminate(s, diag, off, stack, threads, replaced);
+    CallScope::tell();
+  }
 }
 
 int BlockCholesky::factorise(const double *diag, const double *off) {

@@ -134,7 +134,8 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
   value_count_ = values;
   if (!dry_) {
     reserve_scratch(values_, values);
-    values_.assign(values, 0.0);
+    values_.clear();
+    grow(values_, values);
   }
   places_.clear();
   places_.reserve(rows_.size());

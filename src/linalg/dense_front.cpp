@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/two_threads.hpp"
 
@@ -93,6 +94,7 @@ int factor_panel(double *panel, int ld, int rows, int columns, const double *ori
   if (columns <= narrow) {
     const int replaced = factor_small(panel, ld, columns, original, rule);
     divide_by_top(panel, ld, rows - columns, columns, panel + columns, threads);
+    CallScope::tell();
     return replaced;
   }
   const int left = (columns / 2 + narrow - 1) / narrow * narrow;

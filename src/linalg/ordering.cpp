@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/call_scope.hpp"
 #include "linalg/minimum_degree.hpp"
 #include "linalg/vertex_separator.hpp"
 
@@ -67,6 +68,7 @@ std::vector<int32_t> Dissection::run() {
   std::iota(all.begin(), all.end(), 0);
   parts_.push_back({std::move(all), g_.size()});
   while (!parts_.empty()) {
+    CallScope::tell();
     const Part part = std::move(parts_.back());
     parts_.pop_back();
     const auto size = static_cast<int32_t>(part.nodes.size());

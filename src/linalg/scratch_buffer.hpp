@@ -1,7 +1,10 @@
 // Room for numbers whose old values are not needed.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "core/call_scope.hpp"
 
 namespace jam {
 
@@ -16,7 +19,12 @@ inline void reserve_scratch(std::vector<double> &v, size_t size) {
 inline void grow(std::vector<double> &v, size_t size) {
   if (v.size() >= size) return;
   reserve_scratch(v, size);
-  v.resize(size);
+  constexpr size_t at_once =
+      size_t{1} << 21;  // doubles: clearing gigabytes takes seconds, in which callers hear nothing
+  while (v.size() < size) {
+    v.resize(std::min(size, v.size() + at_once));
+    CallScope::tell();
+  }
 }
 
 }  // namespace jam

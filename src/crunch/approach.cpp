@@ -127,10 +127,12 @@ void build_lp(CrunchState &s, double reach) {
   s.lp.bound = s.bound;
 }
 
-// The free spacing of a dilute start, down to a tenth of a diameter near jamming.
+// The free spacing of a dilute start, down to a tenth of a diameter near jamming and less where gaps are closed.
 double first_bound(const CrunchState &s) {
   if (s.o.step_bound > 0.0) return s.o.step_bound;
-  return s.tuning.first_bound + s.tuning.bound_per_spacing * free_spacing(s.out.packing);
+  const double spacing = s.tuning.first_bound + s.tuning.bound_per_spacing * free_spacing(s.out.packing);
+  const double closed = s.tuning.bound_per_root_gap * std::sqrt(contact_gap(s.out.packing));
+  return std::min(spacing, std::max(s.tuning.min_bound, closed));
 }
 
 LpStep make_step(CrunchState &s, double reach) {

@@ -7,8 +7,9 @@ namespace jam {
 
 struct Tuning {
   // ---- approach: sequential LPs
-  // Bound of the first LP: part of a diameter plus a share of the free spacing.
-  double first_bound = 0.1, bound_per_spacing = 0.6;
+  // Bound of the first LP: part of a diameter plus a share of the free spacing, at most so many square roots of the
+  // median contact gap. Floppy motion goes some tens of these square roots.
+  double first_bound = 0.1, bound_per_spacing = 0.6, bound_per_root_gap = 100.0;
   // Every LP sees motions up to min_bound, so that one without gain proves that no motion gains.
   double min_bound = 1e-2, max_bound = 0.5;
   double bound_per_step = 5.0;   // next bound over the longest step of the last LP

@@ -95,6 +95,7 @@ const Mechanism mechanisms[] = {
     {"correctors", [](Tuning &t, jam_crunch_options &) { t.max_correctors = 0; }},
     {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.increase = 1.0; }},
     {"nearly centred", [](Tuning &t, jam_crunch_options &) { t.nearly_centred = 0.0; }},
+    {"narrower first bound", [](Tuning &t, jam_crunch_options &) { t.bound_per_root_gap = never; }},
     {"neighbours of uncovered spheres", [](Tuning &t, jam_crunch_options &) { t.farthest_reach = 0.0; }},
     {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},
     {"kicks along flexes", [](Tuning &t, jam_crunch_options &) { t.max_kicks = 0; }},

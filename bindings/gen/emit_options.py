@@ -1,5 +1,6 @@
 """What is made from the table of options: jam-pack's parser and help, python3 -m jam's, completion of bash and zsh, and the
 page of the guide."""
+import re
 import textwrap
 
 from options import ABOUT, EXAMPLE, NOTES, PACK, PYTHON, options, usage
@@ -183,6 +184,11 @@ def emit_zsh(_api):
     return f"#compdef jam-pack\n# Completion of jam-pack for zsh: {MADE}.\n_arguments \\\n" + " \\\n".join(lines) + "\n"
 
 
+def _marked(text):
+    """Options as code, since Markdown makes one dash of two."""
+    return re.sub(r"(?<![`\w-])--[a-z][\w-]*", r"`\g<0>`", text).replace("|", "\\|")
+
+
 def emit_page(_api):
     out = [
         f"<!-- {MADE} -->",
@@ -203,10 +209,10 @@ def emit_page(_api):
         out += [f"## {section}", "", "| option | meaning |", "|---|---|"]
         for o in rows:
             mark = " (Python)" if o.name in python_only else ""
-            out.append(f"| `{usage(o).replace('|', chr(92) + '|')}`{mark} | {o.help.replace('|', chr(92) + '|')} |")
+            out.append(f"| `{usage(o).replace('|', chr(92) + '|')}`{mark} | {_marked(o.help)} |")
         out.append("")
     out += ["## How it ends", ""]
     for note in NOTES:
-        out += [*textwrap.wrap(note, 120), ""]
+        out += [*textwrap.wrap(_marked(note), 120), ""]
     out += ["Completion for bash and zsh is installed with the program, and `man jam-pack` shows these lines.", ""]
     return "\n".join(out)

@@ -84,7 +84,7 @@ def section(name, rows, indent):
         return []
     lines = ["", indent + name, indent + "-" * len(name)]
     for head, text in rows:
-        lines += wrapped(head, indent)
+        lines.append(indent + head)  # numpydoc wants it on one line
         lines += wrapped(text, indent + "    ") if text else []
     return lines
 

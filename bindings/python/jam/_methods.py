@@ -278,8 +278,7 @@ class Methods:
         Parameters
         ----------
         block : int
-        column : {'time', 'time2', 'msd', 'msd2', 'scattering', 'scattering2', 'overlap', 'overlap2', 'energy',
-        'energy2', 'velocity', 'collisions', 'pressure'}
+        column : {'time', 'time2', 'msd', 'msd2', 'scattering', 'scattering2', 'overlap', 'overlap2', 'energy', 'energy2', 'velocity', 'collisions', 'pressure'}
 
         Returns
         -------
@@ -364,9 +363,7 @@ class Methods:
 
         Parameters
         ----------
-        column : {'phase', 'gain', 'phi', 'step_max', 'step_msd', 'total_max', 'total_msd', 'contacts', 'excess',
-        'rattlers', 'seconds', 'iterations', 'factorisations', 'duality_gap', 'pairs', 'held', 'part', 'bound',
-        'step_msd_stable', 'total_msd_stable'}
+        column : {'phase', 'gain', 'phi', 'step_max', 'step_msd', 'total_max', 'total_msd', 'contacts', 'excess', 'rattlers', 'seconds', 'iterations', 'factorisations', 'duality_gap', 'pairs', 'held', 'part', 'bound', 'step_msd_stable', 'total_msd_stable'}
 
         Returns
         -------
@@ -433,8 +430,7 @@ class Methods:
 
         Parameters
         ----------
-        column : {'phi', 'pressure', 'energy', 'coordination', 'distance', 'excess', 'rattlers', 'residual',
-        'evaluations', 'factorisations', 'seconds'}
+        column : {'phi', 'pressure', 'energy', 'coordination', 'distance', 'excess', 'rattlers', 'residual', 'evaluations', 'factorisations', 'seconds'}
 
         Returns
         -------
@@ -700,8 +696,7 @@ class Methods:
 
         Parameters
         ----------
-        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot',
-        'coordination'}
+        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot', 'coordination'}
         which : {'all', 'localised', 'extended', 'smallest', 'median'}
 
         Returns
@@ -720,8 +715,7 @@ class Methods:
 
         Parameters
         ----------
-        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot',
-        'coordination'}
+        quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot', 'coordination'}
         which : {'all', 'localised', 'extended', 'smallest', 'median'}
         low : float
         high : float

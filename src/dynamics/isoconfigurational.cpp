@@ -170,11 +170,13 @@ void Isoconfigurational::archive(Archive &a) {
     Archive::check(!plan_.instants.empty() && plan_.instants[0] > 0.0 &&
                    std::is_sorted(plan_.instants.begin(), plan_.instants.end()));
     for (const int32_t m : kept_instants_) Archive::check(m >= 0 && static_cast<size_t>(m) < plan_.instants.size());
-    blocks_.resize(blocks);
     kept_.resize(sets);
     take_diameters();
   }
-  for (RunSums &block : blocks_) block.archive(a);
+  for (uint64_t k = 0; k < blocks; ++k) {
+    if (a.reading()) blocks_.emplace_back();  // one by one: the file ends where it promises too many
+    blocks_[k].archive(a);
+  }
   for (std::vector<double> &set : kept_) a(set);
   if (!a.reading()) return;
   const size_t spheres = plan_.instants.size() * n();

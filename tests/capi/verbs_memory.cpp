@@ -241,7 +241,7 @@ void every_allocation(void **) {
   const Case cases[] = {{"run", fluid, run},
                         {"run, Mari-Kurchan", shifted, run},
                         {"compress", fluid, compress},
-                        {"monte_carlo", fluid, monte_carlo},
+                        {"monte_carlo", soft, monte_carlo},
                         {"isoconfigurational", fluid, isoconfigurational},
                         {"checkpoint", fluid, checkpoint},
                         {"relax", soft, relax},

@@ -16,6 +16,7 @@ import jam  # noqa: E402
 
 ALPHAS = (1.2, 1.5, 1.8, 2.0, 2.5, 3.0)
 DISTANCES = [10.0**-k for k in range(2, 13)]
+STEP = 20000  # evaluations of a step; one that needs more is taken back and its square root tried
 START = {2: 0.95, 3: 0.72, 4: 0.55}  # packing fraction, well above jamming
 
 
@@ -25,7 +26,9 @@ def ladder(n, dim, alpha, seconds):
     packing = jam.System.random(n=n, dim=dim, seed=1, packing_fraction=START[dim], diameters=sizes, overlap="allow")
     rows = []
     for target in DISTANCES:
-        r = packing.decompress(alpha=alpha, distance=target, isostatic=0, crunch=0, wall_time=seconds)
+        r = packing.decompress(
+            alpha=alpha, distance=target, isostatic=0, crunch=0, wall_time=seconds, max_evaluations=STEP
+        )
         rows.append((target, r.status, r.force_residual))
         if r.status != jam.StatusCode.OK:
             break

@@ -1,6 +1,7 @@
 #include "network/rattlers.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -132,6 +133,19 @@ std::vector<Release> release_unbalanced(int d, size_t n, const std::vector<int32
 void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
                      const std::vector<double> &normal, std::vector<char> &on) {
   release_unbalanced(dim, n, i, j, normal, on);
+}
+
+void drop_loose(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
+                std::vector<char> &on) {
+  std::vector<int32_t> z;
+  for (bool again = true; again;) {
+    again = false;
+    z.assign(n, 0);
+    for (size_t k = 0; k < on.size(); ++k)
+      if (on[k]) ++z[i[k]], ++z[j[k]];
+    for (size_t k = 0; k < on.size(); ++k)
+      if (on[k] && std::min(z[i[k]], z[j[k]]) <= dim) on[k] = 0, again = true;
+  }
 }
 
 }  // namespace jam

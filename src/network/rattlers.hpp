@@ -1,4 +1,4 @@
-// The one rule for rattlers: a sphere is a rattler when no contact on it can carry force in a balance of non-negative
+// The rule for rattlers: a sphere is a rattler when no contact on it can carry force in a balance of non-negative
 // forces. The number of its contacts does not matter: two opposite contacts can squeeze a sphere, and d + 1 contacts on
 // one side cannot. Here each sphere is looked at by itself, which finds most of them at once; rigidity_test.hpp decides
 // on the whole network.
@@ -15,7 +15,11 @@ namespace jam {
 void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
                      const std::vector<double> &normal, std::vector<char> &on);
 
-// The same, and how each sphere can leave its contacts: in the order in which spheres were taken out.
+// For soft spheres whose forces do not balance yet: turns off contacts of spheres with d contacts or fewer, again and
+// again. The rule above would take out spheres that are on their way into balance.
+void drop_loose(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j, std::vector<char> &on);
+
+// As drop_unbalanced, and how each sphere can leave its contacts: in the order in which spheres were taken out.
 struct Release {
   int32_t sphere;
   std::vector<size_t> contacts;   // that were still on

@@ -7,6 +7,7 @@
 #include "core/cancellation.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/double_double.hpp"
+#include "network/rattlers.hpp"
 
 namespace jam {
 namespace {
@@ -201,24 +202,6 @@ SoftContacts SoftState::contacts() const {
   return out;
 }
 
-namespace {
-
-// Turns off contacts of spheres that fewer than d + 1 hold, again and again. The rule of network/rattlers asks for
-// forces that balance; here they need not yet, and it would take out spheres that are on their way.
-void drop_loose(const PairList &pairs, std::vector<char> &on, size_t n, int dim) {
-  std::vector<int32_t> z;
-  for (bool again = true; again;) {
-    again = false;
-    z.assign(n, 0);
-    for (size_t k = 0; k < on.size(); ++k)
-      if (on[k]) ++z[pairs.i[k]], ++z[pairs.j[k]];
-    for (size_t k = 0; k < on.size(); ++k)
-      if (on[k] && std::min(z[pairs.i[k]], z[pairs.j[k]]) <= dim) on[k] = 0, again = true;
-  }
-}
-
-}  // namespace
-
 std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &contacts) {
   PairList list;
   std::vector<char> on;
@@ -226,7 +209,7 @@ std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &co
     list.i.push_back(state.pairs().i[k]), list.j.push_back(state.pairs().j[k]);
     on.push_back(list.i.back() != list.j.back());  // an image of the same sphere holds nothing
   }
-  drop_loose(list, on, state.n(), state.dim());
+  drop_loose(state.dim(), state.n(), list.i, list.j, on);
   return on;
 }
 

@@ -1655,11 +1655,11 @@ module jam
     end function jam_monte_carlo_options_init
 
     ! Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
-    ! preliminary run and then frozen. Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped.
-    ! report may be NULL. jam_observed_spheres tells the displacements. An early stop can be resumed, also from
-    ! jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT
-    ! (also when no step is accepted), JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters),
-    ! JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
+    ! numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
+    ! tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
+    ! JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
+    ! JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_monte_carlo(sys, o, report) &
         bind(c, name="jam_monte_carlo") result(status)
       import

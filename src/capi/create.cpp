@@ -31,6 +31,7 @@ void jam_system::show(const Packing &result) noexcept {
   packing.cell = result.cell;
   packing.pressure = result.pressure;
   packing.has_velocity = result.has_velocity;
+  packing.overlap_allowed = result.overlap_allowed;
   note_diameters();
 }
 

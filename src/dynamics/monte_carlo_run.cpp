@@ -58,6 +58,7 @@ MonteCarloStage::MonteCarloStage(const Packing &p, const jam_monte_carlo_options
   check_monte_carlo(p_, options_);
   // Velocities of before belong to another state.
   p_.has_velocity = false;
+  if (options_.alpha > 0.0) p_.overlap_allowed = true;  // soft spheres leave overlaps: calls for hard ones must look
   std::fill(p_.velocity.begin(), p_.velocity.end(), 0.0);
   engine_ = make_monte_carlo(p_, options_, options_.run);
 }

@@ -294,6 +294,22 @@ static void bad_input_is_named(void **state) {
   jam_destroy(tight);
 }
 
+/* Soft spheres leave overlaps. Calls for hard spheres say so, those for soft ones go on. */
+static void soft_spheres_leave_overlaps(void **state) {
+  jam_create_options c;
+  jam_monte_carlo_options o = options(2.0, 0.1, 50);
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&c, sizeof c);
+  c.n = 60, c.packing_fraction = 0.3;
+  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_OK);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_E_OVERLAP);
+  assert_non_null(strstr(jam_last_error(), "jam_decompress"));
+  assert_true(jam_relax(sys, NULL, NULL) >= 0);
+  jam_destroy(sys);
+}
+
 static void hard_spheres_in_contact_cannot_move(void **state) {
   jam_create_options c;
   jam_compress_options grow;
@@ -322,6 +338,7 @@ int main(void) {
       cmocka_unit_test(dilute_spheres_stay_apart_and_resume),
       cmocka_unit_test(runs_from_one_state_have_streams_of_their_own),
       cmocka_unit_test(bad_input_is_named),
+      cmocka_unit_test(soft_spheres_leave_overlaps),
       cmocka_unit_test(hard_spheres_in_contact_cannot_move),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -194,9 +194,9 @@ class Methods:
         """Metropolis Monte Carlo (J. Chem.
 
         Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a preliminary run and then frozen.
-        Random numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. observed_spheres() tells
-        the displacements. An early stop can be resumed, also from checkpoint_write(). Status: 'ok', 'cancelled',
-        'limit'.
+        After soft spheres the system allows overlaps, as by 'allow'. Random numbers depend on seed, run, sweep and
+        sphere alone. Velocities are dropped. observed_spheres() tells the displacements. An early stop can be
+        resumed, also from checkpoint_write(). Status: 'ok', 'cancelled', 'limit'.
 
         Parameters
         ----------

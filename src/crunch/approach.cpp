@@ -42,7 +42,7 @@ bool ask(CrunchState &s, jam_lp_solver solver, const IpmControl &control, bool &
     s.out.report.gamma_residual = check.gamma;
     s.out.report.duality_gap = std::fabs(check.gap);
     ++s.out.report.lp_solves;
-    s.early = control.early_fraction > 0.0 && std::fabs(check.gap) > 0.1 * s.o.gain_tolerance;
+    s.early = control.early_fraction > 0.0 && std::fabs(check.gap) > 0.1 * s.gain_tolerance;
     return solved = true;
   }
   if (s.monitor.interrupted()) return true;
@@ -99,7 +99,7 @@ void add_history_row(CrunchState &s, double alpha, double unit) {
 
 // What follows an LP with this gain and longest step, of which the part alpha was made.
 Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
-  const bool gained = gain > s.o.gain_tolerance || s.early;
+  const bool gained = gain > s.gain_tolerance || s.early;
   // Contacts that close and forces that balance end a crunch; the bare LP must also move nothing.
   if (!gained && (s.o.polish || step <= s.o.step_tolerance)) return Phase::identify;
   if (!gained) ++s.stalled;

@@ -21,6 +21,7 @@ CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options
                          History &history_in, const CrunchHooks &hooks_in)
     : o(options), tuning(hooks_in.tuning), monitor(monitor_in), history(history_in), hooks(hooks_in) {
   out.packing = start;
+  gain_tolerance = o.gain_tolerance;
   out.contacts.coordination.assign(start.n(), 0);
   out.report.struct_size = sizeof out.report;
   history.begin(start, o.steps != 0);

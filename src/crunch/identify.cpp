@@ -123,6 +123,9 @@ Phase end_jammed(CrunchState &s, const PackingVerdict &verdict) {
 
 }  // namespace
 
+// Narrow LPs and moves along flexes belong to the optimum of the wide LPs. A looser tolerance may end before it.
+static bool converged(const CrunchState &s) { return s.out.report.gain <= default_crunch_options().gain_tolerance; }
+
 // Collectively jammed or not, from positions alone. LPs go on from a saddle, narrow ones where contacts are in doubt.
 Phase judge(CrunchState &s) {
   for (;;) {
@@ -133,7 +136,7 @@ Phase judge(CrunchState &s) {
       if (verdict.result.carrying[k]) open = std::max(open, std::fabs(verdict.contacts.gap[k]));
     // A contact that stays open is none: only closed ones make a packing jammed.
     if (verdict.result.jammed == Verdict::yes && open < contact_gap_limit) return end_jammed(s, verdict);
-    const Kick kick = leave_saddle(s, verdict);
+    const Kick kick = converged(s) ? leave_saddle(s, verdict) : Kick::none;
     if (kick == Kick::free) return Phase::approach;
     if (kick == Kick::blocked && s.o.polish) {
       s.out.contacts = closed_pairs(s.out.packing);
@@ -165,6 +168,10 @@ Phase identify(CrunchState &s) {
   s.out.contacts = make_contacts(s.out.packing, s.pairs, s.answer, s.active);
   if (s.out.report.stop_reason != JAM_STOP_NONE) return Phase::done;
   if (s.o.polish && !last_digits(s)) return Phase::done;
+  if (s.o.polish && !s.polished && !converged(s)) {
+    s.gain_tolerance = default_crunch_options().gain_tolerance;
+    return Phase::approach;
+  }
   if (s.o.polish && !s.polished && !s.exact) return Phase::exact_vertex;
   return judge(s);
 }

@@ -57,6 +57,7 @@ struct CrunchState {
   int64_t at_bound = 0;     // displacements that its bound ended
   Multipliers multipliers;  // of the last LP or path
   double bound = 0.0;       // of the next LP
+  double gain_tolerance;    // of the options; the default one once contacts did not close at a looser one
   StrainBasis strain;       // of the LPs, once the cell is free
   double moved = 1.0;       // longest step since `multipliers`; 0 after a path that reached its end
   int stalled = 0, kicks = 0;

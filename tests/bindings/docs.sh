@@ -7,7 +7,7 @@ html=$2/docs/html
 has() { grep -q "$2" "$html/$1" || { echo "$1 does not show: $2"; exit 1; }; }
 has index.html 'makes and analyses jammed packings'                      # start page
 has index.html 'search.html'
-has bindings/docs/certificates.html 'Collectively jammed'                # user's guide
+has bindings/docs/jammed.html 'Collectively jammed'                      # user's guide
 has bindings/docs/coming_from.html 'CALiPPSO'
 has tests/bench/README.html '_images/crunch_size.png'                    # figures with their pictures
 has api/cpp.html 'class.*System'

@@ -222,6 +222,20 @@ void rattlers_by_force_alone(void **) {
   const RigidityResult r = confirmed(rows_of(row), Jamming::collective);
   assert_int_equal(r.bridges, 4);
   assert_int_equal(r.flexes, 3);
+  // A square sheet across the box: its eight rows slide, and all spheres can leave the plane, less three translations.
+  Case sheet;
+  sheet.packing.set_cube(3, 4.0);
+  for (int i = 0; i < 16; ++i)
+    sheet.packing.position.insert(sheet.packing.position.end(), {i % 4 + 0.0, i / 4 + 0.0, 2.0});
+  sheet.packing.diameter.assign(16, 1.0);
+  for (int i = 0; i < 16; ++i) {
+    const int x = i % 4, y = i / 4;
+    add_contact(sheet, i, y * 4 + (x + 1) % 4, {x == 3 ? -4.0 : 0.0, 0.0, 0.0});
+    add_contact(sheet, i, (y + 1) % 4 * 4 + x, {0.0, y == 3 ? -4.0 : 0.0, 0.0});
+  }
+  const RigidityResult flat = confirmed(rows_of(sheet), Jamming::collective);
+  assert_true(flat.jammed == Verdict::no);
+  assert_int_equal(flat.flexes, 8 + 16 - 3);
 }
 
 }  // namespace

@@ -235,5 +235,24 @@ class CommandLine(unittest.TestCase):
         self.assertIn("packing_fraction", done.stdout)
 
 
+class TiltedDump(unittest.TestCase):
+    def test_bounds_hold_the_cell(self):
+        """LAMMPS names the smallest brick around a tilted cell, and behind its bounds xy, xz and yz."""
+        cell = np.array([[1.0, 0, 0], [-0.2, 0.9, 0], [-0.3, 0.1, 1.1]])
+        s = jam.System.random(40, 3, 1, packing_fraction=0.2, cell=cell)
+        s.crunch()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "f.dump"
+            s.write_contacts(path)
+            lines = path.read_text().splitlines()
+        self.assertEqual(lines[4], "ITEM: BOX BOUNDS xy xz yz pp pp pp")
+        rows = np.array([[float(x) for x in line.split()] for line in lines[5:8]])
+        a, b, c = s.cell
+        corners = np.array([i * a + j * b + k * c for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+        np.testing.assert_allclose(rows[:, 0], corners.min(axis=0), atol=1e-15)
+        np.testing.assert_allclose(rows[:, 1], corners.max(axis=0), atol=1e-15)
+        np.testing.assert_array_equal(rows[:, 2], [b[0], c[0], c[1]])
+
+
 if __name__ == "__main__":
     unittest.main()

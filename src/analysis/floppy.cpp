@@ -11,7 +11,7 @@
 namespace jam {
 
 void FloppyModes::resize(size_t m) {
-  for (auto *x : {&median, &weight, &s_plus, &s_star, &stability}) x->resize(m);
+  for (auto *x : {&median, &weight, &s_plus, &s_star, &stability, &s_return}) x->resize(m);
 }
 
 FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
@@ -94,6 +94,7 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   out.s_plus[l] = s_plus;
   out.s_star[l] = bend > 0.0 ? force_[l] / bend : std::numeric_limits<double>::infinity();
   out.stability[l] = out.s_star[l] / s_plus;
+  out.s_return[l] = 2.0 * out.s_star[l];  // d(s) = f s - B s^2 / 2 is a parabola
 }
 
 FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,

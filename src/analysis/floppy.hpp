@@ -11,6 +11,7 @@ struct FloppyModes {
   std::vector<double> s_plus;     // opening at which, to first order, the next contact forms
   std::vector<double> s_star;     // opening of least diameter: f / sum_k f_k |dr_perp,k|^2 / r_k
   std::vector<double> stability;  // s_star / s_plus
+  std::vector<double> s_return;   // opening at which the diameters are back: 2 s_star
   void resize(size_t m);
 };
 

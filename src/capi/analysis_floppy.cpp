@@ -35,7 +35,7 @@ jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, si
     put_column(f.s_plus, JAM_FLOPPY_S_PLUS, columns, table);
     put_column(f.s_star, JAM_FLOPPY_S_STAR, columns, table);
     put_column(f.stability, JAM_FLOPPY_STABILITY, columns, table);
-    for (size_t l = 0; l < g.contacts(); ++l) table[l * columns + JAM_FLOPPY_S_RETURN] = 2.0 * f.s_star[l];
+    put_column(f.s_return, JAM_FLOPPY_S_RETURN, columns, table);
     return JAM_OK;
   });
 }

@@ -39,8 +39,8 @@ class Barrier {
   struct Best {
     double alpha, merit;
   };
-  // The best step along x: a few passes over the rows, where a factorisation costs
-  // hundreds. `merit` is by how much it makes the negative of the barrier function larger (below zero: better).
+  // The best step along x: a few passes over the rows, where a factorisation costs hundreds. `merit` is by how much it
+  // makes the negative of the barrier function larger (below zero: better).
   Best search(const BarrierStep &x);
 
  private:

@@ -63,9 +63,9 @@ void Barrier::bend(const BarrierStep &x) {
   }
 }
 
-// Longest alpha at which every true gap is still positive.
+// Longest alpha at which every true gap and Gamma itself are still positive.
 double Barrier::wall(const BarrierStep &x) const {
-  double alpha = longest_alpha;
+  double alpha = x.g < 0.0 ? std::min(longest_alpha, -1.0 / x.g) : longest_alpha;
   for (size_t k = 0; k < y.size(); ++k) {
     const double c = lp.c[k], b = x.w[k], disc = b * b - 4.0 * bend_[k] * c;
     if (b < 0.0 && disc > 0.0) alpha = std::min(alpha, 2.0 * c / (-b + std::sqrt(disc)));

@@ -185,7 +185,6 @@ class BarrierPath {
     const double length = b_.longest_move(main_) * b_.unit,
                  growth = std::max(0.0, 0.5 * main_.g) * contact_distance_max(p_);
     alpha_p_ = std::min(alpha, 0.9 * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
-    if (main_.g < 0.0) alpha_p_ = std::min(alpha_p_, -0.75 / main_.g);  // at least half of each diameter stays
     alpha_d_ = b_.longest_dual(main_);
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] += alpha_d_ * main_.y[k];
     for (size_t k = 0; k < main_.s.size(); ++k) p_.position[k] += alpha_p_ * b_.unit * main_.s[k];

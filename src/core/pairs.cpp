@@ -30,6 +30,15 @@ void check_list_size(double pairs, int dim) {
          1e-9 * bytes, 1e-9 * list_bytes_max());
 }
 
+// One sphere may have most of the pairs: the limits hold while its own gather too.
+void keep(std::vector<Candidate> &found, const Candidate &candidate, int dim) {
+  if (found.size() == found.capacity()) {
+    CallScope::look();
+    check_list_size(2.0 * static_cast<double>(found.size()), dim);
+  }
+  found.push_back(candidate);
+}
+
 void append_sorted(PairList &list, int32_t i, int dim, std::vector<Candidate> &found) {
   std::sort(found.begin(), found.end(), [dim](const Candidate &a, const Candidate &b) {
     if (a.j != b.j) return a.j < b.j;
@@ -63,7 +72,7 @@ class ImageScan {
       Candidate now{j, {}};
       for (int c = 0; c < d; ++c) now.offset[c] = shift[c] + image[c];
       const double *first = std::find_if(image, image + d, [](double x) { return x != 0.0; });
-      if (i != j || (first != image + d && *first > 0.0)) found.push_back(now);
+      if (i != j || (first != image + d && *first > 0.0)) keep(found, now, d);
     });
   }
 
@@ -200,7 +209,7 @@ PairList by_cells(const Cutoff &cutoff) {
       const double rc = cutoff.of(i, j);
       if (r2 >= rc * rc) return;
       now.j = j;
-      found.push_back(now);
+      keep(found, now, d);
     });
     append_sorted(list, i, d, found);
   }

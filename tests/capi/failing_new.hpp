@@ -10,7 +10,8 @@ namespace {
 std::atomic<long> until_failure{
     -1};  // allocations that still succeed; -1: all, -2: the one that `once` asks for is past
 std::atomic<long> alive{0};
-bool once = false;  // a single allocation fails, else all from there on
+std::atomic<std::size_t> largest{0};  // bytes asked for at once
+bool once = false;                    // a single allocation fails, else all from there on
 
 bool fails() {
   if (until_failure < 0) return false;
@@ -26,6 +27,7 @@ bool has_failed() { return until_failure == 0 || until_failure == -2; }
 }  // namespace
 
 [[gnu::noinline]] void *operator new(std::size_t size) {
+  if (size > largest) largest = size;
   void *p = fails() ? nullptr : std::malloc(size ? size : 1);
   if (!p) throw std::bad_alloc();
   ++alive;

@@ -2270,7 +2270,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_pair_correlation
 
-    ! S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
+    ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
+    ! ascending. Lengths that differ by less than 5e-13 of |q| are one.
     ! No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
     ! Threads: alone. @since 0.1
     function jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows) &

@@ -23,8 +23,7 @@
  *   positive diagonal. A cell given in another form is reduced, and rotated where it must
  *   be. The spheres rotate with it.
  * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
- * - Molecular dynamics, Monte Carlo and jam_structure_factor need a cube. All else works in
- *   any cell.
+ * - Molecular dynamics and Monte Carlo need a cube. All else works in any cell.
  *
  * Arrays
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
@@ -1321,7 +1320,8 @@ JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a,
                                         int32_t b, double r_max, int64_t bins, double *out, size_t out_len,
                                         size_t *needed);
-/* S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter, ascending.
+/* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
+ * ascending. Lengths that differ by less than 5e-13 of |q| are one.
  * No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
  * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,

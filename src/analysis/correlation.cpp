@@ -1,11 +1,9 @@
-// g(r), S(q), bond order, local packing fraction.
+// g(r), bond order, local packing fraction.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
-#include "core/limits.hpp"
 #ifdef JAM_HAVE_VORO
 #include <voro++/voro++.hh>
 #endif
@@ -44,67 +42,6 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
     g[k] = expected > 0.0 ? g[k] / expected : 0.0;
   }
   return g;
-}
-
-StructureFactor structure_factor(const Packing &p, double q_max, const CancellationPoint &cancel_point,
-                                 bool lengths_only) {
-  check_cube(p, "the structure factor");
-  const int d = p.dim;
-  const double unit = diameter_mean(p), step = 2.0 * M_PI / p.cell.side();
-  if (!(q_max > 0.0 && std::isfinite(q_max)))
-    fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
-  const double reach = q_max / unit / step;
-  const double vectors = 0.5 * unit_sphere_volume(d) * std::pow(2.0 * reach, d);
-  if (vectors * static_cast<double>(p.n()) > 2e10)
-    fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
-  const int m = static_cast<int>(std::floor(reach));
-  const size_t n = lengths_only ? 0 : p.n(), width = 2 * static_cast<size_t>(m) + 1;
-  // cos and sin of n x for every sphere, component and n: one row a (component, n), so that inner loops run over
-  // spheres
-  std::vector<double> co(width * d * n), si(width * d * n);
-  for (int c = 0; c < d; ++c)
-    for (int q = -m; q <= m; ++q)
-      for (size_t i = 0; i < n; ++i) {
-        const double phase = step * q * p.position[i * d + c];
-        co[(static_cast<size_t>(c) * width + (q + m)) * n + i] = std::cos(phase);
-        si[(static_cast<size_t>(c) * width + (q + m)) * n + i] = std::sin(phase);
-      }
-  std::map<int64_t, std::pair<double, int64_t>> shell;
-  std::vector<std::vector<double>> re(d + 1, std::vector<double>(n, 1.0)), im(d + 1, std::vector<double>(n, 0.0));
-  int64_t done = 0;
-  // One of each pair +-q: the first component that is not zero is positive.
-  auto descend = [&](auto &&self, int c, int64_t n2, bool positive) -> void {
-    if (c == d) {
-      if (!positive) return;
-      cancel_point(done, static_cast<double>(done) / vectors);
-      ++done;
-      double x = 0.0, y = 0.0;
-      for (size_t i = 0; i < n; ++i) x += re[d][i], y += im[d][i];
-      auto &s = shell[n2];
-      s.first += (x * x + y * y) / static_cast<double>(p.n());
-      ++s.second;
-      return;
-    }
-    for (int q = positive ? -m : 0; q <= m; ++q) {
-      const int64_t next = n2 + static_cast<int64_t>(q) * q;
-      if (static_cast<double>(next) > reach * reach) continue;
-      const size_t at =
-          (static_cast<size_t>(c) * width + (q + m)) * n;  // n = 0 without stable spheres: no element to refer to
-      const double *a = co.data() + at, *b = si.data() + at;
-      for (size_t i = 0; i < n; ++i) {
-        re[c + 1][i] = re[c][i] * a[i] - im[c][i] * b[i];
-        im[c + 1][i] = re[c][i] * b[i] + im[c][i] * a[i];
-      }
-      self(self, c + 1, next, positive || q > 0);
-    }
-  };
-  descend(descend, 0, 0, false);
-  StructureFactor out;
-  for (const auto &[n2, s] : shell) {
-    out.q.push_back(step * std::sqrt(static_cast<double>(n2)) * unit);
-    out.s.push_back(s.first / static_cast<double>(s.second));
-  }
-  return out;
 }
 
 namespace {

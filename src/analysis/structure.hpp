@@ -45,7 +45,7 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
                                      double r_max, size_t bins);
 
 struct StructureFactor {
-  std::vector<double> q, s;  // one value for each length of an allowed wave vector 2 pi n / L, ascending
+  std::vector<double> q, s;  // one value for each length of a wave vector of the cell, ascending
 };
 // lengths_only: q is right, s is not.
 StructureFactor structure_factor(const Packing &p, double q_max,

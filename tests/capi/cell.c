@@ -235,7 +235,7 @@ static void refused(void **state) {
   assert_int_equal(jam_run(sys, NULL, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_monte_carlo(sys, NULL, NULL), JAM_E_UNSUPPORTED);
-  assert_int_equal(jam_structure_factor(sys, 10.0, NULL, 0, NULL, 0, &rows), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_structure_factor(sys, 10.0, NULL, 0, NULL, 0, &rows), JAM_OK);
   const double squeeze[4] = {0.0, 0.0, 0.0, -0.5};
   assert_int_equal(jam_strain(sys, squeeze, 4), JAM_E_OVERLAP);
   assert_int_equal(jam_strain(sys, squeeze, 3), JAM_E_ARGUMENT);

@@ -732,10 +732,10 @@ class Methods:
         return self.call('histogram', quantity, which, low, high, bins)
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
-        """S(q) on the allowed wave vectors 2 pi n / box, averaged over each |q| <= q_max; q per mean diameter,
-        ascending.
+        """S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean
+        diameter, ascending.
 
-        No network needed. Status: 'ok', 'cancelled'.
+        Lengths that differ by less than 5e-13 of |q| are one. No network needed. Status: 'ok', 'cancelled'.
 
         Parameters
         ----------

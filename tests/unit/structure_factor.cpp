@@ -1,0 +1,149 @@
+// S(q) in tilted cells: against plain sums, in two bases of one lattice, on a crystal, and in the cube to the bit.
+#include <algorithm>
+#include <complex>
+
+#include "analysis/structure.hpp"
+#include "core/cell_reduction.hpp"
+#include "core/rng.hpp"
+// Last: cmocka defines a macro `fail`.
+extern "C" {
+#include "test.h"
+}
+
+using namespace jam;
+
+namespace {
+
+Packing points(int dim, size_t n, const std::vector<double> &rows) {
+  Packing p;
+  p.dim = dim, p.cell = Cell::from_triangle(dim, rows.data());
+  Rng rng(7, Stream::analysis_start);
+  p.diameter.assign(n, 0.1);
+  for (size_t k = 0; k < n * static_cast<size_t>(dim); ++k) p.position.push_back(3.0 * rng.uniform());
+  wrap_positions(p);
+  return p;
+}
+
+const std::vector<double> tilted = {1.3, 0.0, 0.0, 0.4, 0.9, 0.0, -0.3, 0.35, 1.1};
+
+void assert_same(const StructureFactor &a, const StructureFactor &b) {
+  assert_int_equal(a.q.size(), b.q.size());
+  for (size_t k = 0; k < a.q.size(); ++k) {
+    assert_true(std::fabs(a.q[k] - b.q[k]) < 1e-11 * a.q[k]);
+    assert_true(std::fabs(a.s[k] - b.s[k]) < 1e-9);
+  }
+}
+
+// Every vector q = 2 pi (m_1 b_1 + ...) with b_k . a_c = (k == c), b from cross products.
+void plain_sum(void **) {
+  const Packing p = points(3, 20, tilted);
+  const double q_max = 2.5 * 2.0 * M_PI * 0.1;
+  const double *a[3] = {p.cell.row(0), p.cell.row(1), p.cell.row(2)};
+  std::vector<std::pair<double, double>> expect;
+  for (int x = -9; x <= 9; ++x)
+    for (int y = -9; y <= 9; ++y)
+      for (int z = -9; z <= 9; ++z) {
+        double q[3], q2 = 0.0;
+        for (int c = 0; c < 3; ++c) {
+          const auto cross = [&](int k) {  // of the other two vectors
+            const double *u = a[(k + 1) % 3], *v = a[(k + 2) % 3];
+            return (u[(c + 1) % 3] * v[(c + 2) % 3] - u[(c + 2) % 3] * v[(c + 1) % 3]) / p.cell.volume();
+          };
+          q[c] = 2.0 * M_PI * (x * cross(0) + y * cross(1) + z * cross(2));
+          q2 += q[c] * q[c];
+        }
+        if (q2 == 0.0 || std::sqrt(q2) * 0.1 > q_max) continue;
+        std::complex<double> rho = 0.0;
+        for (size_t i = 0; i < p.n(); ++i)
+          rho +=
+              std::polar(1.0, q[0] * p.position[3 * i] + q[1] * p.position[3 * i + 1] + q[2] * p.position[3 * i + 2]);
+        expect.push_back({std::sqrt(q2) * 0.1, std::norm(rho) / 20.0});
+      }
+  std::sort(expect.begin(), expect.end());
+  const StructureFactor f = structure_factor(p, q_max);
+  assert_int_equal(expect.size(), 2 * f.q.size());  // in this cell each length belongs to one pair +-q
+  assert_true(f.q.size() > 20);
+  for (size_t k = 0; k < f.q.size(); ++k) {
+    assert_true(std::fabs(f.q[k] - expect[2 * k].first) < 1e-12);
+    assert_true(std::fabs(f.s[k] - expect[2 * k].second) < 1e-10);
+  }
+  assert_int_equal(structure_factor(p, q_max, CancellationPoint(), true).q.size(), f.q.size());
+}
+
+void the_basis_does_not_matter(void **) {
+  for (const int dim : {2, 3}) {
+    std::vector<double> rows;
+    for (int r = 0; r < dim; ++r)
+      for (int c = 0; c < dim; ++c) rows.push_back(tilted[3 * r + c]);
+    const Packing p = points(dim, 40, rows);
+    Packing q = p, turned = p;
+    for (int c = 0; c < dim; ++c) rows[(dim - 1) * dim + c] += 5.0 * tilted[c];  // as given, tilt 5 and all
+    q.cell = Cell::from_triangle(dim, rows.data());
+    wrap_positions(q);
+    assert_same(structure_factor(p, 2.0), structure_factor(q, 2.0));
+    // A left-over rotation: the first vector is replaced by a longer one, so the reduced cell is another frame.
+    std::vector<double> other(rows);
+    for (int c = 0; c < dim; ++c) other[c] = tilted[c] + tilted[3 * (dim - 1) + c];
+    for (int c = 0; c < dim; ++c) other[(dim - 1) * dim + c] = tilted[3 * (dim - 1) + c];
+    turned.velocity.assign(turned.position.size(), 0.0);
+    enter_cell(turned, reduce_cell(dim, other.data()));
+    assert_same(structure_factor(p, 2.0), structure_factor(turned, 2.0));
+  }
+}
+
+// The face-centred cubic crystal in its primitive cell and in the cubic one: the same Bragg peaks, S = N.
+void bragg_peaks(void **) {
+  const double h = std::sqrt(0.75);
+  Packing one = points(3, 1, {1, 0, 0, 0.5, h, 0, 0.5, h / 3.0, std::sqrt(2.0 / 3.0)}), four;
+  four.set_cube(3, std::sqrt(2.0));
+  const double half = 0.5 * std::sqrt(2.0);
+  four.position = {0, 0, 0, half, half, 0, half, 0, half, 0, half, half};
+  one.diameter.assign(1, 1.0), four.diameter.assign(4, 1.0);
+  const StructureFactor primitive = structure_factor(one, 20.0), cubic = structure_factor(four, 20.0);
+  size_t peaks = 0;
+  for (size_t k = 0; k < cubic.q.size(); ++k) {
+    if (cubic.s[k] < 1e-20) continue;  // extinct: indices of mixed parity
+    assert_true(peaks < primitive.q.size());
+    assert_true(std::fabs(primitive.q[peaks] - cubic.q[k]) < 1e-12 * cubic.q[k]);
+    assert_true(std::fabs(primitive.s[peaks++] - 1.0) < 1e-12);
+  }
+  assert_int_equal(peaks, primitive.q.size());
+  assert_true(std::fabs(primitive.q[0] - 2.0 * M_PI * std::sqrt(1.5)) < 1e-12);  // (111) of a lattice constant sqrt 2
+}
+
+// In the cube the sums have one order: by the first component, then the second; recurrences as in a product of phases.
+void bits_in_the_cube(void **) {
+  const double side = 1.7;
+  const Packing p = points(2, 30, {side, 0.0, 0.0, side});
+  const double step = 2.0 * M_PI / side;
+  const int most = 4;
+  std::vector<double> sum(2 * most * most + 1, 0.0);
+  std::vector<int> count(sum.size(), 0);
+  for (int x = 0; x <= most; ++x)
+    for (int y = x > 0 ? -most : 1; y <= most; ++y) {
+      double re = 0.0, im = 0.0;
+      for (size_t i = 0; i < p.n(); ++i) {
+        const double a = step * x * p.position[2 * i], b = step * y * p.position[2 * i + 1];
+        re += std::cos(a) * std::cos(b) - std::sin(a) * std::sin(b);
+        im += std::cos(a) * std::sin(b) + std::sin(a) * std::cos(b);
+      }
+      sum[x * x + y * y] += (re * re + im * im) / 30.0;
+      ++count[x * x + y * y];
+    }
+  const StructureFactor f = structure_factor(p, 4.01 * step * 0.1);
+  size_t k = 0;
+  for (int n2 = 1; n2 <= most * most; ++n2) {
+    if (count[n2] == 0) continue;
+    assert_true(f.q[k] == step * std::sqrt(static_cast<double>(n2)) * diameter_mean(p));
+    assert_true(f.s[k++] == sum[n2] / count[n2]);
+  }
+  assert_int_equal(k, f.q.size());
+}
+
+}  // namespace
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(plain_sum), cmocka_unit_test(the_basis_does_not_matter),
+                                     cmocka_unit_test(bragg_peaks), cmocka_unit_test(bits_in_the_cube)};
+  return cmocka_run_group_tests_name("structure_factor", tests, nullptr, nullptr);
+}

@@ -112,7 +112,7 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
     const double most = alpha < 1.0 ? 0.7 * s.bound : s.tuning.max_bound;
     s.bound = std::min(std::max({s.tuning.bound_per_step * step, gain, s.tuning.min_bound}), most);
   }
-  return s.strain.count() == 0 && path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;
+  return path_is_shorter(s, gain, step) ? Phase::barrier_path : Phase::approach;
 }
 
 }  // namespace

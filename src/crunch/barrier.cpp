@@ -13,9 +13,15 @@ constexpr double longest_alpha = 4.0, to_wall = 0.995;
 }  // namespace
 
 bool Barrier::measure(const Packing &p) {
-  lp = make_lp(p, pairs, unit);
+  lp = make_lp(p, pairs, unit, strain);
   sigma2_.resize(lp.rows());
+  vector_.resize(lp.strains > 0 ? lp.rows() * static_cast<size_t>(p.dim) : 0);
   for (size_t k = 0; k < lp.rows(); ++k) {
+    if (lp.strains > 0) {
+      double *r = &vector_[k * p.dim];
+      pair_vector(p, pairs, k, r);
+      for (int c = 0; c < p.dim; ++c) r[c] /= unit;
+    }
     const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]) / unit;
     sigma2_[k] = sigma * sigma;
     if (!(lp.c[k] > 0.0)) return false;
@@ -37,12 +43,23 @@ double Barrier::decrement(const BarrierStep &x) const {
 
 double Barrier::longest_move(const BarrierStep &x) const {
   double largest = 1e-300;
-  for (size_t k = 0; k < x.s.size(); k += lp.dim) {
+  for (size_t k = 0; k < lp.spheres(); k += lp.dim) {
     double s2 = 0.0;
     for (int c = 0; c < lp.dim; ++c) s2 += x.s[k + c] * x.s[k + c];
     if (!(s2 <= largest)) largest = s2;  // lets a NaN through
   }
   return std::sqrt(largest);
+}
+
+std::vector<double> Barrier::strain_of(const BarrierStep &x, double alpha) const {
+  if (lp.strains == 0) return {};
+  return strain_matrix(strain, {x.s.end() - lp.strains, x.s.end()}, alpha);
+}
+
+double Barrier::strain_norm(const BarrierStep &x) const {
+  double e2 = 0.0;
+  for (const double e : strain_of(x, 1.0)) e2 += e * e;
+  return std::sqrt(e2);
 }
 
 double Barrier::longest_dual(const BarrierStep &x) const {
@@ -55,10 +72,15 @@ double Barrier::longest_dual(const BarrierStep &x) const {
 void Barrier::bend(const BarrierStep &x) {
   const int d = lp.dim;
   bend_.resize(y.size());
+  const std::vector<double> e = strain_of(x, 1.0);
   for (size_t k = 0; k < y.size(); ++k) {
     const size_t i = static_cast<size_t>(pairs.i[k]) * d, j = static_cast<size_t>(pairs.j[k]) * d;
     double s2 = 0.0;
-    for (int c = 0; c < d; ++c) s2 += (x.s[i + c] - x.s[j + c]) * (x.s[i + c] - x.s[j + c]);
+    for (int c = 0; c < d; ++c) {
+      double change = x.s[i + c] - x.s[j + c];
+      for (int b = c; b < d && !e.empty(); ++b) change += e[c * d + b] * vector_[k * d + b];
+      s2 += change * change;
+    }
     bend_[k] = s2 / sigma2_[k];
   }
 }

@@ -9,7 +9,8 @@
 
 namespace jam {
 
-// Change of positions s (mean diameters), of Gamma g, and with it of the linearised rows w and the multipliers y.
+// Change of positions and strain amplitudes s (mean diameters), of Gamma g, and with it of the linearised rows w and
+// the multipliers y.
 struct BarrierStep {
   std::vector<double> s, w, y;
   double g = 0.0;
@@ -21,16 +22,20 @@ class Barrier {
   PackingLp lp;           // rows at the present positions
   std::vector<double> y;  // multipliers of the rows
   double unit = 1.0, mu = 0.0;
+  StrainBasis strain;  // empty: a fixed cell
 
   // Rows at the true distances of p. False when a gap is no longer positive.
   bool measure(const Packing &p);
   double duality_gap() const;
   // Minus the slope of the barrier function along x over mu: the squared Newton decrement.
   double decrement(const BarrierStep &x) const;
-  // Largest displacement of a sphere.
+  // Largest displacement of a sphere, and norm of the strain.
   double longest_move(const BarrierStep &x) const;
+  double strain_norm(const BarrierStep &x) const;
+  // (dim, dim) times alpha; empty in a fixed cell.
+  std::vector<double> strain_of(const BarrierStep &x, double alpha) const;
   double longest_dual(const BarrierStep &x) const;
-  // Row k after alpha x, with the bending that the linear row leaves out: c + alpha w + alpha^2 |s_i - s_j|^2 /
+  // Row k after alpha x, with the bending that the linear row leaves out: c + alpha w + alpha^2 |s_i - s_j + E r|^2 /
   // sigma^2.
   double gap_after(const BarrierStep &x, size_t k, double alpha) const {
     return lp.c[k] + alpha * (x.w[k] + alpha * bend_[k]);
@@ -48,7 +53,7 @@ class Barrier {
   double wall(const BarrierStep &x) const;
   double merit(const BarrierStep &x, double alpha) const;
 
-  std::vector<double> bend_, sigma2_;
+  std::vector<double> bend_, sigma2_, vector_;  // vector_: r_ij in units, of a free cell
 };
 
 }  // namespace jam

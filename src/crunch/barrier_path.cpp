@@ -24,7 +24,9 @@ class BarrierPath {
         monitor_(monitor),
         t_(control.tuning),
         schedule_(control.tuning),
-        matrix_(system, control.threads) {}
+        matrix_(system, control.threads) {
+    b_.strain = control.strain;
+  }
 
   BarrierPathResult run() {
     BarrierPathResult out;
@@ -85,7 +87,7 @@ class BarrierPath {
   void list_pairs() {
     b_.pairs = select_neighbours(p_, reach_, 1.0, t_);
     b_.measure(p_);
-    const size_t rows = b_.pairs.size(), unknowns = p_.position.size();
+    const size_t rows = b_.pairs.size(), unknowns = b_.lp.unknowns();
     travelled_ = grown_ = 0.0;
     matrix_.reset(rows, unknowns);
     for (auto *v : {&target_, &row_}) v->resize(rows);
@@ -108,8 +110,10 @@ class BarrierPath {
     gap_ = b_.duality_gap();
     rest_ = 1.0 - sum;
     transpose_times(b_.lp, b_.y.data(), unbalanced_.data());
-    for (double v : unbalanced_) worst = std::max(worst, std::fabs(v));
-    balance_ = worst * static_cast<double>(unbalanced_.size()) / scale;
+    const size_t spheres = b_.lp.spheres();
+    for (size_t k = 0; k < spheres; ++k) worst = std::max(worst, std::fabs(unbalanced_[k]));
+    balance_ = worst * static_cast<double>(spheres) / scale;
+    for (size_t k = spheres; k < unbalanced_.size(); ++k) balance_ = std::max(balance_, std::fabs(unbalanced_[k]));
     return std::isfinite(gap_) && std::isfinite(balance_);
   }
 
@@ -180,14 +184,16 @@ class BarrierPath {
   }
 
   // Unlisted pairs are farther apart than sigma_ij + reach when the list is made; while twice the distance travelled
-  // plus the growth of the largest diameter stays below reach, none of them can overlap.
+  // plus the growth of the largest diameter, and what strains take off the distance, stays below reach, none of them
+  // can overlap.
   void move(double alpha) {
-    const double length = b_.longest_move(main_) * b_.unit,
-                 growth = std::max(0.0, 0.5 * main_.g) * contact_distance_max(p_);
+    const double length = b_.longest_move(main_) * b_.unit, widest = contact_distance_max(p_),
+                 growth = std::max(0.0, 0.5 * main_.g) * widest + b_.strain_norm(main_) * (reach_ + widest);
     alpha_p_ = std::min(alpha, 0.9 * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
     alpha_d_ = b_.longest_dual(main_);
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] += alpha_d_ * main_.y[k];
-    for (size_t k = 0; k < main_.s.size(); ++k) p_.position[k] += alpha_p_ * b_.unit * main_.s[k];
+    if (b_.lp.strains > 0) strain_at_fixed_volume(p_, b_.pairs, b_.strain_of(main_, alpha_p_));
+    for (size_t k = 0; k < p_.position.size(); ++k) p_.position[k] += alpha_p_ * b_.unit * main_.s[k];
     const double factor = std::sqrt(1.0 + alpha_p_ * main_.g);
     for (double &s : p_.diameter) s *= factor;
     wrap_positions(p_, b_.pairs);

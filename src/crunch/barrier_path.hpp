@@ -15,6 +15,7 @@ namespace jam {
 
 struct BarrierPathControl {
   Tuning tuning;
+  StrainBasis strain;    // that the path chooses; empty: a fixed cell
   double opening = 0.0;  // the closest pair is opened to this relative gap at least
   int threads = 1;
   std::function<void(double gap, size_t pairs)> on_step;  // after every move; may be empty

@@ -1,6 +1,6 @@
-// A free cell: LPs with strain amplitudes go on from the packing that fits the fixed one. They end in a strictly jammed
-// packing, with d (N' - 1) + d (d + 1) / 2 contacts when it is disordered (Torquato and Jiao, Phys. Rev. E 82, 061302
-// (2010)). The barrier path has no strain: near its optimum a few LPs do.
+// A free cell: path and LPs with strain amplitudes go on from the packing that fits the fixed one. They end in a
+// strictly jammed packing, with d (N' - 1) + d (d + 1) / 2 contacts when it is disordered (Torquato and Jiao, Phys.
+// Rev. E 82, 061302 (2010)).
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ Phase free_cell(CrunchState &s) {
   s.bound = s.tuning.first_bound;
   s.moved = 1.0;
   s.stalled = 0;
-  s.exact = false;
+  s.exact = s.path_taken = false;
   return Phase::approach;
 }
 

@@ -30,12 +30,14 @@ void PathMatrix::choose_near(const Packing &p, const Barrier &b) {
     near_pairs_.i.push_back(b.pairs.i[k]), near_pairs_.j.push_back(b.pairs.j[k]);
   }
   near_a_.resize(near_.size() * p.dim), near_weight_.resize(near_.size());
+  near_strain_.resize(near_.size() * static_cast<size_t>(b.lp.strains));
   system_.set_graph(p.dim, static_cast<int32_t>(p.n()), near_pairs_, threads_);
 }
 
 void PathMatrix::weigh(const Packing &p, const Barrier &b, double proximal) {
   choose_near(p, b);
   const int d = p.dim;
+  const size_t strains = static_cast<size_t>(b.lp.strains), spheres = b.lp.spheres();
   std::fill(diagonal_.begin(), diagonal_.end(), proximal);
   size_t q = 0;
   for (size_t k = 0; k < b.y.size(); ++k) {
@@ -43,6 +45,7 @@ void PathMatrix::weigh(const Packing &p, const Barrier &b, double proximal) {
     weight_[k] = b.y[k] / b.lp.c[k];
     if (q < near_.size() && near_[q] == k) {
       near_weight_[q] = weight_[k];
+      std::copy_n(b.lp.strain.begin() + k * strains, strains, near_strain_.begin() + q * strains);
       std::copy(a, a + d, &near_a_[q++ * d]);
       continue;
     }
@@ -51,7 +54,12 @@ void PathMatrix::weigh(const Packing &p, const Barrier &b, double proximal) {
     for (int c = 0; c < d; ++c)  // at least a a^T by Gershgorin's circles
       for (const int32_t v : {b.pairs.i[k], b.pairs.j[k]})
         diagonal_[static_cast<size_t>(v) * d + c] += weight_[k] * std::fabs(a[c]) * a1;
+    double b1 = 0.0;
+    for (size_t e = 0; e < strains; ++e) b1 += std::fabs(b.lp.strain[k * strains + e]);
+    for (size_t e = 0; e < strains; ++e)
+      diagonal_[spheres + e] += weight_[k] * std::fabs(b.lp.strain[k * strains + e]) * b1;
   }
+  if (strains > 0) system_.set_strain(near_strain_.data(), b.lp.strains);
 }
 
 }  // namespace jam

@@ -31,7 +31,7 @@ class PathMatrix {
   const int threads_;
   std::vector<size_t> near_;  // rows in the matrix, ascending
   PairList near_pairs_;
-  std::vector<double> near_a_, near_weight_, weight_, diagonal_;
+  std::vector<double> near_a_, near_strain_, near_weight_, weight_, diagonal_;
 };
 
 }  // namespace jam

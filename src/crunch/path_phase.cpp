@@ -34,6 +34,9 @@ Phase follow_path(CrunchState &s) {
   // Opens the gaps that the LP's own gain and the curvature of its step would close.
   control.opening =
       std::max({0.5 * s.out.report.gain, 0.1 * s.out.report.max_step * s.out.report.max_step, s.tuning.min_opening});
+  control.strain = s.strain;
+  if (frees_cell(s)) control.tuning.target_gap = s.tuning.free_gap;
+  if (s.strain.count() > 0) control.opening = s.tuning.free_opening;
   control.threads = s.o.threads;
   control.on_step = [&s](double gap, size_t pairs) { add_history_row(s, gap, pairs); };
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
@@ -42,6 +45,7 @@ Phase follow_path(CrunchState &s) {
   s.monitor.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, %d saddles, phi %.12f",
                 path.reached ? "reached" : "stopped at", path.gap, path.factorisations, path.increases,
                 packing_fraction(s.out.packing));
+  if (path.reached && frees_cell(s)) return free_cell(s), Phase::barrier_path;
   s.bound = path.reached && s.o.step_bound == 0.0 ? s.tuning.min_bound : first_bound(s);
   s.multipliers = std::move(path.multipliers);
   s.at_bound = 0;

@@ -22,8 +22,10 @@ struct Tuning {
   double long_step = 1e-2;        // longer steps belong to the path
   double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
   double min_opening = 1e-10;     // the path opens contacts to this gap at least: rounding blurs smaller ones
-  double crystal_rows = 1.05;     // rows that carry force over d n; above it sequential LPs are cheaper
-  double crystal_gap = 1e-5;      // on the path counted from this gain or duality gap on: a large mu blurs the forces
+  // Free cell: the path at fixed cell ends at this duality gap, and the one with strain begins at this opening.
+  double free_gap = 1e-6, free_opening = 1e-4;
+  double crystal_rows = 1.05;  // rows that carry force over d n; above it sequential LPs are cheaper
+  double crystal_gap = 1e-5;   // on the path counted from this gain or duality gap on: a large mu blurs the forces
 
   // ---- barrier path
   double target_gap = 1e-12;  // the path ends at this duality gap

@@ -34,4 +34,17 @@ inline void transpose_times(int dim, int32_t n, const std::vector<int32_t> &i, c
   }
 }
 
+// Columns b (rows, count) of further unknowns e: out[k] += b_k . e
+inline void add_columns_times(const double *b, size_t count, size_t rows, const double *e, double *out) {
+  for (size_t k = 0; count > 0 && k < rows; ++k)
+    for (size_t c = 0; c < count; ++c) out[k] += b[k * count + c] * e[c];
+}
+
+// out = sum_k y_k b_k; out (count)
+inline void columns_transpose_times(const double *b, size_t count, size_t rows, const double *y, double *out) {
+  std::fill(out, out + count, 0.0);
+  for (size_t k = 0; count > 0 && k < rows; ++k)
+    for (size_t c = 0; c < count; ++c) out[c] += b[k * count + c] * y[k];
+}
+
 }  // namespace jam

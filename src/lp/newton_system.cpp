@@ -208,19 +208,13 @@ void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, in
 
 void NewtonSystem::rows_times(const double *a, const double *s, double *out) const {
   jam::rows_times(dim_, pair_i_, pair_j_, a, s, out);
-  const size_t q = static_cast<size_t>(strains_);
-  const double *e = s + static_cast<size_t>(n_) * dim_;
-  for (size_t k = 0; q > 0 && k < pair_i_.size(); ++k)
-    for (size_t c = 0; c < q; ++c) out[k] += strain_[k * q + c] * e[c];
+  add_columns_times(strain_, static_cast<size_t>(strains_), pair_i_.size(), s + static_cast<size_t>(n_) * dim_, out);
 }
 
 void NewtonSystem::transpose_times(const double *a, const double *y, double *out) const {
   jam::transpose_times(dim_, n_, pair_i_, pair_j_, a, y, out);
-  const size_t q = static_cast<size_t>(strains_);
-  double *e = out + static_cast<size_t>(n_) * dim_;
-  std::fill(e, e + q, 0.0);
-  for (size_t k = 0; q > 0 && k < pair_i_.size(); ++k)
-    for (size_t c = 0; c < q; ++c) e[c] += strain_[k * q + c] * y[k];
+  columns_transpose_times(strain_, static_cast<size_t>(strains_), pair_i_.size(), y,
+                          out + static_cast<size_t>(n_) * dim_);
 }
 
 }  // namespace jam

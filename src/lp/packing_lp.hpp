@@ -39,7 +39,8 @@ struct PackingLp {
     for (size_t q = 0; q < m; ++q) sum += strain[k * m + q] * e[q];
     return sum;
   }
-  size_t unknowns() const { return static_cast<size_t>(n) * static_cast<size_t>(dim) + static_cast<size_t>(strains); }
+  size_t spheres() const { return static_cast<size_t>(n) * static_cast<size_t>(dim); }  // displacements among unknowns
+  size_t unknowns() const { return spheres() + static_cast<size_t>(strains); }
 };
 
 struct LpSolution {
@@ -75,11 +76,14 @@ struct LpCheck {
 PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, const StrainBasis &basis = {});
 LpCheck check_lp(const PackingLp &lp, const LpSolution &answer);
 
+// Unknowns hold strain amplitudes behind the displacements.
 inline void rows_times(const PackingLp &lp, const double *s, double *out) {
   rows_times(lp.dim, lp.pairs->i, lp.pairs->j, lp.a.data(), s, out);
+  add_columns_times(lp.strain.data(), static_cast<size_t>(lp.strains), lp.rows(), s + lp.spheres(), out);
 }
 inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
   transpose_times(lp.dim, lp.n, lp.pairs->i, lp.pairs->j, lp.a.data(), y, out);
+  columns_transpose_times(lp.strain.data(), static_cast<size_t>(lp.strains), lp.rows(), y, out + lp.spheres());
 }
 
 // Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,

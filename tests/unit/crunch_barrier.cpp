@@ -9,6 +9,7 @@
 #include "crunch/barrier.hpp"
 #include "crunch/barrier_path.hpp"
 #include "crunch/crunch.hpp"
+#include "lp/interior_point.hpp"
 #include "unit/crunch_scenes.hpp"
 
 using namespace jam;
@@ -29,16 +30,17 @@ struct Scene {
   BarrierStep x;
 };
 
-// A packing, its pairs, and a random direction no longer than `length` mean diameters a component.
-void make_scene(Scene &w, int dim, double ratio, double length, int64_t seed) {
+// A packing, its pairs, and a random direction no longer than `length` mean diameters a component; free: strains too.
+void make_scene(Scene &w, int dim, double ratio, double length, int64_t seed, bool free = false) {
   w.p = start(40, dim, dim == 2 ? 0.5 : dim == 3 ? 0.3 : 0.1, ratio, seed);
   w.b.unit = diameter_mean(w.p), w.b.mu = 1e-3;
+  if (free) w.b.strain = strain_basis(dim, true, true);
   w.b.pairs = find_pairs(w.p, 0.5 * w.b.unit, 1.0);
   assert_true(w.b.measure(w.p));
   std::mt19937_64 random(static_cast<uint64_t>(seed));
   std::uniform_real_distribution<double> one(-1.0, 1.0);
   const size_t rows = w.b.pairs.size();
-  w.x.s.resize(w.p.position.size()), w.x.w.resize(rows), w.x.y.assign(rows, 0.0);
+  w.x.s.resize(w.b.lp.unknowns()), w.x.w.resize(rows), w.x.y.assign(rows, 0.0);
   for (double &s : w.x.s) s = length * one(random);
   w.x.g = length * one(random);
   rows_times(w.b.lp, w.x.s.data(), w.x.w.data());
@@ -46,9 +48,12 @@ void make_scene(Scene &w, int dim, double ratio, double length, int64_t seed) {
   w.b.y.assign(rows, 1.0 / static_cast<double>(rows));
 }
 
-// -log Gamma - mu sum log c from true distances of the packing moved by alpha x, less its value before.
+// -log Gamma - mu sum log c from true distances of the packing moved by alpha x, less its value before. A strain is
+// taken before it is brought back to the old volume, which opens gaps further.
 double brute(const Scene &w, double alpha) {
   Packing q = w.p;
+  const std::vector<double> strain = w.b.strain_of(w.x, alpha);
+  const size_t d = static_cast<size_t>(w.p.dim);
   for (size_t k = 0; k < q.position.size(); ++k) q.position[k] += alpha * w.b.unit * w.x.s[k];
   const double gamma = 1.0 + alpha * w.x.g;
   for (double &s : q.diameter) s *= std::sqrt(gamma);
@@ -56,7 +61,16 @@ double brute(const Scene &w, double alpha) {
   for (size_t k = 0; k < w.b.pairs.size(); ++k) {
     const auto c = [&](const Packing &p) {
       const double sigma = 0.5 * (p.diameter[w.b.pairs.i[k]] + p.diameter[w.b.pairs.j[k]]);
-      return pair_vector(p, w.b.pairs, k, r) / (sigma * sigma) - 1.0;
+      double r2 = pair_vector(p, w.b.pairs, k, r), r0[JAM_MAX_DIM];
+      if (&p == &q && !strain.empty()) {
+        pair_vector(w.p, w.b.pairs, k, r0);
+        r2 = 0.0;
+        for (size_t a = 0; a < d; ++a) {
+          for (size_t b = 0; b < d; ++b) r[a] += strain[a * d + b] * r0[b];
+          r2 += r[a] * r[a];
+        }
+      }
+      return r2 / (sigma * sigma) - 1.0;
     };
     sum += std::log(c(q) / c(w.p));
   }
@@ -66,10 +80,12 @@ double brute(const Scene &w, double alpha) {
 // The bent rows are exact, so the merit is; the best step is the best of a fine scan, and its slope is minus the
 // decrement.
 void merit_is_true(void **) {
+  const double lengths[] = {1e-4, 1e-3, 0.05};
   for (const int dim : {2, 3, 5})
-    for (const double length : {1e-4, 1e-3, 0.05}) {
+    for (int k = 0; k < 6; ++k) {
+      const double length = lengths[k % 3];
       Scene w;
-      make_scene(w, dim, dim == 3 ? 1.0 : 1.4, length, 3 + dim);
+      make_scene(w, dim, dim == 3 ? 1.0 : 1.4, length, 3 + dim, k >= 3);
       if (w.b.decrement(w.x) < 0.0) {  // downhill
         for (double &s : w.x.s) s = -s;
         for (double &v : w.x.w) v = -v;
@@ -193,6 +209,28 @@ void arrives(void **) {
   assert_true(saddles > 0);
 }
 
+// The same in a free cell, whose volume stays: an LP with strains has nothing to gain. The path of the fixed cell ends
+// less dense.
+void arrives_in_free_cell(void **) {
+  for (const int dim : {2, 3}) {
+    Packing p = near_start(64, dim, 1), fixed = p;
+    assert_true(follow(fixed, patient()).end.reached);
+    BarrierPathControl control = patient();
+    control.strain = strain_basis(dim, true, true);
+    const PathRun run = follow(p, control);
+    assert_true(run.end.reached && run.end.gap <= Tuning().target_gap && closest_pair(p).gap > 0.0);
+    assert_true(std::fabs(p.cell.volume() - 1.0) < 1e-12 && !p.cell.cube());
+    assert_true(packing_fraction(p) > packing_fraction(fixed));
+    const double unit = diameter_mean(p);
+    const PairList pairs = find_pairs(p, 0.1 * unit, 1.0);
+    PackingLp lp = make_lp(p, pairs, unit, control.strain);
+    lp.bound = 0.01;
+    NewtonSystem system;
+    const LpSolution answer = InteriorPoint(system).solve(lp, IpmControl(), nullptr);
+    assert_true(answer.solved && check_lp(lp, answer).infeasibility < 1e-9 && answer.g < 2.0 * run.end.gap);
+  }
+}
+
 // Equal disks order: every verdict is settled or named, and no state overlaps.
 void ordering_disks(void **) {
   int jammed = 0;
@@ -211,8 +249,8 @@ void ordering_disks(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true), cmocka_unit_test(walls_stop),
-                              cmocka_unit_test(saddle_is_left), cmocka_unit_test(arrives),
-                              cmocka_unit_test(ordering_disks)};
+  const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true),        cmocka_unit_test(walls_stop),
+                              cmocka_unit_test(saddle_is_left),       cmocka_unit_test(arrives),
+                              cmocka_unit_test(arrives_in_free_cell), cmocka_unit_test(ordering_disks)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

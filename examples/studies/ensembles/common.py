@@ -3,7 +3,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
+import sys
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 
@@ -33,6 +36,35 @@ def ensemble(o: argparse.Namespace, protocol: dict, seeds: int) -> jam.ensemble.
     return made
 
 
+def kept(o: argparse.Namespace, study: str, key: str, make: Callable[[], dict]) -> dict | None:
+    """Arrays by name, from FOLDER/studies/STUDY/KEY.npz where it is there; else make() is called and its result kept.
+
+    For runs that are no packings: a study that was killed goes on. None with --only-read where nothing is there.
+    """
+    path = Path(o.folder) / "studies" / study / f"{key}.npz"
+    if not path.exists():
+        if o.only_read:
+            return None
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_name(f"{key}.{os.getpid()}.part.npz")
+        np.savez(part, **make())
+        os.replace(part, path)
+        print(f"{study}: {key}", flush=True)
+    with np.load(path) as there:
+        return dict(there)
+
+
+def command(words: list[str]) -> str:
+    """What makes the same numbers: the command line without folders, --workers and --only-read."""
+    made, skip = [Path(words[0]).name], False
+    for word in words[1:]:
+        name = word.split("=")[0]
+        if not skip and name not in ("--only-read", "--folder", "--out", "--workers"):
+            made.append(word)
+        skip = not skip and word in ("--folder", "--out", "--workers")
+    return " ".join(made)
+
+
 class Results:
     """Rows (figure, quantity, published, ours, error, sigma between) of one study, and what made them."""
 
@@ -44,6 +76,10 @@ class Results:
         self.sets.append(
             {"protocol": jam.ensemble.minimal(e.protocol), "packings": packings, "version": jam.__version__}
         )
+
+    def made(self, protocol: str, packings: int) -> None:
+        """What was used where the runs are no ensemble."""
+        self.sets.append({"protocol": protocol, "packings": packings, "version": jam.__version__})
 
     def add(self, figure: str, quantity: str, published: float | str, ours: float, error: float = np.nan) -> None:
         known = isinstance(published, (int, float)) and np.isfinite(error) and error > 0
@@ -64,7 +100,7 @@ class Results:
         """results/<name>.json and pictures/<name>.png."""
         (self.out / "results").mkdir(parents=True, exist_ok=True)
         (self.out / "pictures").mkdir(parents=True, exist_ok=True)
-        made = {"source": SOURCE, "sets": self.sets, "rows": self.rows}
+        made = {"source": SOURCE, "command": command(sys.argv), "sets": self.sets, "rows": self.rows}
         (self.out / "results" / f"{self.name}.json").write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
         if figure is not None:
             figure.tight_layout()

@@ -32,18 +32,23 @@ def protocol(model, n):
     return dict(n=n, dim=3, analysis=FLOPPY) if n <= 1024 else dict(n=n, dim=3)
 
 
+def kept_entries(e, model):
+    """Packings with a single state of self-stress and, of spheres, without order."""
+    return [
+        entry
+        for entry in e
+        if entry.row["jammed"]
+        and not entry.row["excess_contacts"]
+        and (model == "mk" or entry.row["crystal_score"] <= MAX_ORDER)
+    ]
+
+
 class Size:
     """What is looked at of all packings of one size: one array a packing."""
 
     def __init__(self, e, model):
         self.extended, self.localised, self.forces, self.gaps, self.z, rows = [], [], [], [], [], []
-        for entry in e:
-            if (
-                not entry.row["jammed"]
-                or entry.row["excess_contacts"]
-                or (model == "euclid" and entry.row["crystal_score"] > MAX_ORDER)
-            ):
-                continue
+        for entry in kept_entries(e, model):
             f, pairs, z, gaps = entry.read("forces", "pairs", "coordination", "gaps")
             local = (z[pairs] == 4).any(axis=1)
             self.extended.append(np.sort(f[~local]))

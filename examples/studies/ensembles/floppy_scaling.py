@@ -4,8 +4,8 @@
 usage: floppy_scaling.py [--large] [--folder DIR] [--only-read]
 
 Opening a contact by s gives one mode dr: b is its median displacement over |dr|, m the median displacement over s,
-W = f / m, s_plus the opening at which the next contact forms (s_dagger of the thesis), stability s_star / s_plus.
-The thesis defines s* as the opening where p dV returns to zero, twice ours: its Sigma is twice our stability.
+W = f / m, s_plus the opening at which the next contact forms (s_dagger of the thesis). s_return is s* of the thesis, where p dV
+returns to zero (twice s_star): a contact is stable if Sigma = s_return / s_plus > 1.
 Expected: b of extended modes ~ N^(-1/2), f_min ~ N^(-1/(1+theta)), s_plus ~ N^(-1/(1-gamma)) / m, pdf(W) ~ W^theta_e.
 """
 import sys
@@ -34,12 +34,13 @@ def slope(sizes, values):
 
 def main():
     p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--sizes", type=int, nargs="+", help="N (small: 200 400; large: 256 512 1024)")
     p.add_argument("--particles", type=float, default=5e4, help="with --large: particles a size (5e4)")
     o = p.parse_args()
     r = Results(o, "floppy_scaling")
     found, weights = {}, {}
     figure, axes = plt.subplots(1, 3, figsize=(13, 4))
-    for n in (256, 512, 1024) if o.large else (200, 400):
+    for n in o.sizes or ((256, 512, 1024) if o.large else (200, 400)):
         e = ensemble(o, protocol("euclid", n), round(o.particles / n) if o.large else 3200 // n)
         rows, w, all_b = [], [], []
         for entry in e:
@@ -47,7 +48,7 @@ def main():
                 continue
             modes, f, pairs, z = entry.read("floppy_modes", "forces", "pairs", "coordination")
             local = (z[pairs] == 4).any(axis=1)
-            b, s, stability = modes["median"], modes["s_plus"], modes["stability"]
+            b, s, index = modes["median"], modes["s_plus"], modes["s_return"] / modes["s_plus"]
             m = f / modes["weight"]  # median displacement over the opening
             use = ~local & (s > 0) & np.isfinite(s)
             rows.append(
@@ -56,7 +57,8 @@ def main():
                     np.median(m[use]),
                     np.median((s * m)[use]),
                     f[~local].min(),
-                    np.mean(2 * stability > 1),
+                    np.mean(index > 1),
+                    np.median(index[use]),
                 )
             )
             scaled = modes["weight"][~local]
@@ -86,8 +88,10 @@ def main():
         n, y = np.array(sorted(values)), np.array([values[m][0] for m in sorted(values)])
         axes[2].loglog(n, y / y[0], "o-", label=f"{name}: {power:.2f}({error:.2f}), law {published:.2f}")
     largest = max(found)
+    for n, a in sorted(found.items()):
+        r.add("9", f"median stability index Sigma, N = {n}", "> 1", *mean_error(a[:, 5]))
     share, error = mean_error(found[largest][:, 4])
-    r.add("9", f"share of contacts with Sigma = 2 stability > 1, N = {largest}", "stable: all", share, error)
+    r.add("9", f"share of contacts with Sigma = s_return / s_plus > 1, N = {largest}", "stable: all", share, error)
     try:
         law = fit(weights[largest], largest, POWERS, FLOOR)
         r.add("9", f"exponent of W of extended modes, N = {largest}", THETA_E, law["exponent"], law["error"])

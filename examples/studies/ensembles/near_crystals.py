@@ -1,22 +1,29 @@
 #!/usr/bin/env python3
-"""Near-crystals: FCC with a small spread of diameters, section 10 of the studies.
+"""Near-crystals: FCC spheres and hexagonal disks with a small spread of diameters, section 10 of the studies.
 
 usage: near_crystals.py [--large] [--folder DIR] [--only-read]
 
-Log-normal diameters on FCC sites at packing fraction 0.7, growth at G = 1e-3 to p = 1e7, crunch. The thesis gives no
-parameters. Known (G. Tsekenis, arXiv 2006.07373): phi_J falls linearly with the spread; the force exponent is universal, those
-of gaps and localised forces are not. Small: N = 108, 6 packings a spread. Large: N = 108 and 256, 60.
+Log-normal diameters on the sites of the crystal. Spheres: packing fraction 0.7, growth at G = 1e-3 to p = 1e7, crunch. Disks lie in
+the rectangle that fits their lattice, where there is no molecular dynamics: random displacements and a crunch. The thesis gives no parameters. Known (G. Tsekenis, arXiv
+2006.07373): phi_J falls linearly with the spread; the force exponent is universal, those of gaps and localised forces are
+not. Packings that end without a verdict are counted. Small: 108 spheres, 120 disks, 6 packings a spread. Large: 256 spheres, 480
+disks, 60.
 """
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from common import GAMMA, Results, arguments, ensemble, mean_error
+from common import THETA_E, Results, arguments, ensemble, kept, mean_error
 
+import jam
 from jam import scaling
 
-FCC = np.pi / np.sqrt(18.0)
+FULL = {3: np.pi / 18**0.5, 2: np.pi / 12**0.5}
+SPREADS = (1e-3, 3e-3, 1e-2, 3e-2)
+PACKED = 0.945  # disks: start at this part of the crystal's density
+KICK = 0.01  # disks: random displacements at the start, each component, in lattice spacings
+ORDER = {3: ("Q_6", 1.2), 2: ("psi_6", 1.2)}
 
 
 def protocol(n, deviation):
@@ -31,60 +38,135 @@ def protocol(n, deviation):
     )
 
 
+def disks(n, seed, deviation):
+    """Disks on a hexagonal lattice; n is 2 m k, with m columns and 2 k rows of nearly the same length."""
+    columns = round((n * 3**0.5 / 2) ** 0.5)
+    while n % (2 * columns):
+        columns -= 1
+    rows = n // columns
+    x, y = np.meshgrid(np.arange(columns), np.arange(rows), indexing="xy")
+    sites = np.stack([x + 0.5 * (y % 2) + 0.25, (y + 0.5) * 3**0.5 / 2], axis=-1).reshape(-1, 2) / columns
+    cell = np.diag([1.0, rows * 3**0.5 / 2 / columns])
+    rng = np.random.default_rng(seed)
+    sizes = np.exp(np.sqrt(np.log1p(deviation**2)) * rng.normal(size=n))
+    sizes *= np.sqrt(PACKED * FULL[2] * np.linalg.det(cell) / (np.pi / 4 * np.sum(sizes**2)))
+    sites += rng.uniform(-KICK, KICK, sites.shape) / columns
+    with jam.System.from_arrays(sites, sizes, cell=cell, seed=seed, overlap="shrink") as packing:
+        report = packing.crunch()
+        made = {
+            "jammed": report.jammed,
+            "status": report.stop_reason.name,
+            "phi": report.packing_fraction,
+            "excess": report.excess_contacts,
+            "rattlers": report.rattlers,
+            "order": np.mean(packing.bond_order(6, 1.2)),
+        }
+        if report.jammed:
+            made["forces"], made["gaps"] = packing.forces, packing.call("gaps", 1.0, 1).gap
+            made["local"] = local(packing.contacts.pairs, packing.coordination, 2)
+        return made
+
+
+def local(pairs, z, dim):
+    """Contacts of spheres that have d + 1 of them: their forces are localised."""
+    return (z[pairs] == dim + 1).any(axis=1)
+
+
+def spheres(o, r, n, deviation, count):
+    e = ensemble(o, protocol(n, deviation), count)
+    made = []
+    for entry in e:
+        one = {
+            "jammed": entry.row["jammed"],
+            "status": str(entry.row["stop_reason"]),
+            "rattlers": entry.row["rattlers"],
+        }
+        one.update(phi=entry.row["packing_fraction"], excess=entry.row["excess_contacts"])
+        if one["jammed"]:
+            f, gaps, order, pairs, z = entry.read("forces", "gaps", "bond_order", "pairs", "coordination")
+            one.update(forces=f, gaps=gaps, order=np.mean(order), local=local(pairs, z, 3))
+        made.append(one)
+    if made:
+        r.used(e, len(made))
+    return made
+
+
+def disks_of(o, r, n, deviation, count):
+    make = [
+        kept(o, f"hexagonal_n{n}", f"deviation{deviation:g}_seed{s}", lambda: disks(n, s, deviation))
+        for s in range(1, count + 1)
+    ]
+    made = [m for m in make if m is not None]
+    r.made(
+        f"{n} disks, hexagonal, log-normal deviation {deviation:g}, random displacements of {KICK:g}, crunch", len(made)
+    )
+    return made
+
+
+def law(r, text, values, low, high, published):
+    try:
+        found = scaling.fit_power(values, high, low)
+        r.add("10", f"exponent of {text} on {low:.1e} ... {high:.1e}", published, found.value, found.error)
+    except ValueError as problem:
+        print(text, problem)
+
+
+def one_kind(o, r, axes, dim, n, count):
+    loss, order, mark = [], [], "o-" if dim == 3 else "s--"
+    name = f"{'FCC' if dim == 3 else 'hexagonal'}, N = {n}"
+    for k, deviation in enumerate(SPREADS):
+        made = (spheres if dim == 3 else disks_of)(o, r, n, deviation, count)
+        good = [m for m in made if m["jammed"]]
+        label = f"{name}, spread {deviation:g}"
+        if made:
+            r.add("10", f"share without a verdict, {label}", "none", 1 - len(good) / len(made))
+        if len(good) < 2:
+            continue
+        phi, q = mean_error([m["phi"] for m in good]), mean_error([m["order"] for m in good])
+        loss.append((deviation, FULL[dim] - phi[0], phi[1])), order.append((deviation, *q))
+        r.add("10", f"phi_J, {label}", "none", *phi)
+        r.add("10", f"{ORDER[dim][0]}, {label}", "none", *q)
+        r.add("10", f"excess contacts, largest, {label}", "0: isostatic", max(m["excess"] for m in good))
+        r.add("10", f"share of rattlers, {label}", "none", *mean_error([m["rattlers"] / n for m in good]))
+        gaps, forces = [m["gaps"] for m in good], [m["forces"] for m in good]
+        for axis, values in ((axes[2], gaps), (axes[3], forces)):
+            pool = np.sort(np.concatenate(values))
+            axis.loglog(
+                pool[pool > 0],
+                (np.arange(1, len(pool) + 1) / len(pool))[pool > 0],
+                mark[1:],
+                color=f"C{k}",
+                lw=1,
+                label=label,
+            )
+        small = 0.03 * deviation, deviation  # forces below the spread are the small ones
+        law(r, f"extended forces, {label}", [m["forces"][~m["local"].astype(bool)] for m in good], *small, THETA_E)
+        few = [m["forces"][m["local"].astype(bool)] for m in good]
+        if sum(map(len, few)) > 200:
+            law(r, f"localised forces, {label}", few, *small, "not 0.175")
+        law(r, f"gaps, {label}", gaps, 1e-3 * deviation, 0.3 * deviation, "not -0.41269")
+    if len(loss) < 3:
+        return
+    loss, order = np.array(loss), np.array(order)
+    axes[0].loglog(loss[:, 0], loss[:, 1], mark, label=name)
+    axes[1].semilogx(order[:, 0], order[:, 1], mark, label=f"{ORDER[dim][0]}, {name}")
+    x, y, e = np.log(loss[:, 0]), np.log(loss[:, 1]), np.maximum(loss[:, 2] / loss[:, 1], 1e-3)
+    (power, _), cov = np.polyfit(x, y, 1, w=1 / e, cov="unscaled")
+    r.add("10", f"power of the spread in phi_crystal - phi_J, {name}", 1.0, power, cov[0, 0] ** 0.5)
+
+
 def main():
-    p = arguments(__doc__.splitlines()[0])
-    o = p.parse_args()
+    o = arguments(__doc__.splitlines()[0]).parse_args()
     r = Results(o, "near_crystals")
-    figure, axes = plt.subplots(1, 4, figsize=(16, 4))
-    for n in (108, 256) if o.large else (108,):
-        loss, order = [], []
-        spreads = (1e-3, 3e-3, 1e-2, 3e-2)
-        for deviation in spreads:
-            e = ensemble(o, protocol(n, deviation), 60 if o.large else 6)
-            rows = e.table()
-            rows = rows[rows["jammed"] != 0]
-            if len(rows) < 2:
-                continue
-            r.used(e, len(rows))
-            phi = mean_error(rows["packing_fraction"])
-            q6 = mean_error([np.mean(q) for q in e.each("bond_order")])
-            loss.append((deviation, FCC - phi[0], phi[1]))
-            order.append((deviation, *q6))
-            label = f"N = {n}, spread {deviation:g}"
-            r.add("10", f"phi_J, {label}", "none", *phi)
-            r.add("10", f"Q_6, {label}", "none", *q6)
-            r.add("10", f"excess contacts, {label}", "0: isostatic", rows["excess_contacts"].mean())
-            gaps, forces = list(e.each("gaps")), list(e.each("forces"))
-            for axis, values in ((axes[2], gaps), (axes[3], forces)):
-                pool = np.sort(np.concatenate(values))
-                axis.loglog(pool, np.arange(1, len(pool) + 1) / len(pool), label=label)
-            cut = scaling.fit_power(forces, 0.3, 0.01)
-            r.add("10", f"exponent of all forces on 0.01 ... 0.3, {label}", "none", cut.value, cut.error)
-            low, high = 30 * n ** (-1 / (1 - GAMMA)) * deviation, 0.3 * deviation
-            try:
-                cut = scaling.fit_power(gaps, high, low)
-                r.add(
-                    "10",
-                    f"exponent of gaps on {low:.1e} ... {high:.1e}, {label}",
-                    "differs from -0.41",
-                    cut.value,
-                    cut.error,
-                )
-            except ValueError as problem:
-                print(label, problem)
-        loss, order = np.array(loss), np.array(order)
-        axes[0].loglog(loss[:, 0], loss[:, 1], "o-", label=f"N = {n}")
-        axes[1].semilogx(order[:, 0], order[:, 1], "o-")
-        few = loss[loss[:, 0] <= 1e-2]
-        power = np.polyfit(np.log(few[:, 0]), np.log(few[:, 1]), 1, w=few[:, 1] / np.maximum(few[:, 2], 1e-12))[0]
-        r.add("10", f"power of the spread in phi_FCC - phi_J, spread <= 0.01, N = {n}", 1.0, power)
+    figure, axes = plt.subplots(1, 4, figsize=(17, 4.5))
+    one_kind(o, r, axes, 3, 256 if o.large else 108, 60 if o.large else 6)
+    one_kind(o, r, axes, 2, 480 if o.large else 120, 60 if o.large else 6)
     axes[0].plot([1e-3, 3e-2], [2e-3, 6e-2], "k--", lw=1, label="slope 1")
-    for axis, x, y in zip(
-        axes, ("spread", "spread", "h", "f"), ("phi_FCC - phi_J", "Q_6", "cdf of gaps", "cdf of forces")
-    ):
+    names = (("spread", "phi_crystal - phi_J"), ("spread", "bond order"), ("h", "cdf of gaps"), ("f", "cdf of forces"))
+    for axis, (x, y) in zip(axes, names):
         axis.set(xlabel=x, ylabel=y)
-    axes[0].legend(fontsize=8)
-    axes[2].legend(fontsize=7)
+    for k in (0, 1, 2):
+        axes[k].legend(fontsize=6)
     r.write(figure)
 
 

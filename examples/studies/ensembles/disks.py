@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Polydisperse disks: forces and gaps at jamming against N, section 10 of the studies.
+
+usage: disks.py [--large] [--sizes N ...] [--folder DIR] [--only-read]
+
+Log-normal diameters of deviation 0.2, d = 2, growth from 0.4 at G = 1e-2 to p = 500, then at 3e-3 to 1e7, crunch. The thesis gives no
+parameters. It states that d = 2 has no size effect in the forces and a clear one in the gaps, as d = 3, up to logarithms.
+All forces together: 0.19 (d = 2). Small: N = 64, 128 and 256 with 6400 disks a size. Large: to N = 4096 with 1e6.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import GAMMA, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
+from finite_size import collapse_tail
+
+from jam import scaling
+
+
+def protocol(n):
+    return dict(
+        n=n,
+        dim=2,
+        packing_fraction=0.4,
+        diameters={"law": "lognormal", "deviation": 0.2},
+        analysis={"gaps": {"h_max": 1.0, "stable_only": 1}, "bond_order": {"l": 6, "cutoff": 1.4}},
+    )
+
+
+class Disks:
+    """Forces by class, gaps and coordination of the isostatic packings of one size: one array a packing."""
+
+    def __init__(self, e):
+        self.extended, self.localised, self.forces, self.gaps, self.z, self.order, rows = [], [], [], [], [], [], []
+        self.table = e.table()
+        for entry in e:
+            if not entry.row["jammed"] or entry.row["excess_contacts"]:
+                continue
+            f, pairs, z, gaps, order = entry.read("forces", "pairs", "coordination", "gaps", "bond_order")
+            local = (z[pairs] == 3).any(axis=1)
+            self.extended.append(np.sort(f[~local])), self.localised.append(np.sort(f[local]))
+            self.forces.append(np.sort(f)), self.gaps.append(np.sort(gaps[gaps > 0]))
+            self.z.append(z[z > 0]), self.order.append(np.mean(order)), rows.append(entry.row)
+        self.rows = np.array(rows)
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--sizes", type=int, nargs="+", help="N (small 64 128 256, large 256 ... 4096)")
+    p.add_argument("--particles", type=float, help="disks a size (small 6400, large 1e6)")
+    o = p.parse_args()
+    sizes, r = {}, Results(o, "disks")
+    particles = o.particles or (1e6 if o.large else 6400)
+    for n in o.sizes or ((256, 512, 1024, 2048, 4096) if o.large else (64, 128, 256)):
+        e = ensemble(o, protocol(n), round(particles / n))
+        size = Disks(e)
+        if len(size.rows) >= 4:
+            sizes[n] = size
+            r.used(e, len(size.rows))
+    figure, axes = plt.subplots(2, 2, figsize=(11, 8))
+    for n, s in sizes.items():
+        for row, name, a, x in (
+            (0, "extended", THETA_E, np.geomspace(1e-4, 10, 80)),
+            (1, "gaps", -GAMMA, np.geomspace(1e-7, 1, 80)),
+        ):
+            c = scaling.cdf_grid(getattr(s, name), x).c
+            axes[row, 0].loglog(x[c > 0], c[c > 0], label=f"N = {n}")
+            axes[row, 1].loglog((x * n ** (1 / (1 + a)))[c > 0], n * c[c > 0])
+    for row, text, scaled, slope in (
+        (0, "f, extended", "f N^(1/(1+theta_e))", 1 + THETA_E),
+        (1, "h", "h N^(1/(1-gamma))", 1 - GAMMA),
+    ):
+        axes[row, 1].loglog(
+            [0.1, 100], [0.5 * 0.1**slope, 0.5 * 100**slope], "k--", lw=1, label=f"slope {slope:.4f}"
+        )
+        axes[row, 0].set(xlabel=text, ylabel="cdf"), axes[row, 1].set(xlabel=scaled, ylabel="N cdf")
+        axes[row, 0].legend(fontsize=8), axes[row, 1].legend(fontsize=8)
+    n, s = max(sizes.items())
+    r.add("10", f"disks without a verdict, N = {n}, of {len(s.table)}", "none", np.sum(s.table["jammed"] == 0))
+    r.add(
+        "10",
+        f"disks with excess contacts, N = {n}",
+        "0",
+        np.sum((s.table["jammed"] != 0) & (s.table["excess_contacts"] != 0)),
+    )
+    r.add("10", f"disks: phi_J, N = {n}", "none", *mean_error(s.rows["packing_fraction"]))
+    r.add("10", f"disks: share of rattlers, N = {n}", "none", *mean_error(s.rows["rattlers"] / n))
+    ideal = np.mean(4.0 - 2.0 / s.rows["stable"])
+    r.add("10", f"disks: mean z, N = {n}: 2d + 2(1-d)/N'", round(float(ideal), 6), np.concatenate(s.z).mean())
+    r.add("10", f"disks: psi_6, N = {n}", "none", *mean_error(s.order))
+    cut = 3 * n ** (-1 / (1 + THETA_E))
+    for name, low, high, known in (
+        ("extended", cut, 0.5, THETA_E),
+        ("localised", 0.01, 0.3, THETA_L),
+        ("forces", cut, 0.5, 0.19),
+        ("gaps", 3 * n ** (-1 / (1 - GAMMA)), 0.05, -GAMMA),
+    ):
+        found = scaling.fit_power(getattr(s, name), high, low)
+        text = "all forces" if name == "forces" else name if name == "gaps" else name + " forces"
+        r.add("10", f"disks: exponent of {text} on {low:.1e} ... {high:g}, N = {n}", known, found.value, found.error)
+    if len(sizes) > 1:
+        for name, a, low, high in (("extended", THETA_E, 0.3, 10), ("gaps", -GAMMA, 0.1, 100)):
+            found, at = collapse_tail(sizes, name, a, low, high)
+            r.add(
+                "10",
+                f"disks: exponent of {name} by collapse (S = {found.quality:.2f})",
+                a,
+                found.value[0],
+                found.error[0],
+            )
+            r.add("10", f"disks: S of the collapse of {name} with the exponent of d = 3", "about 1", at[0])
+            u, v = scaling.tail_scaling([a])
+            grid = np.geomspace(1e-3, 0.1, 25) if name == "extended" else np.geomspace(1e-5, 1e-3, 25)
+            raw = [(m, scaling.cdf_grid(getattr(t, name), grid)) for m, t in sizes.items()]
+            published = "about 1: no size effect" if name == "extended" else ">> 1: size effect"
+            r.add("10", f"disks: S of {name} without scaling", published, scaling.quality(raw, 0.0, 0.0))
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

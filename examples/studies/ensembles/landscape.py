@@ -1,0 +1,249 @@
+#!/usr/bin/env python3
+"""Jammed states around one glass: which one a crunch finds, and how far it lies. Section 7 of the studies, its open questions.
+
+usage: landscape.py [--large] [--folder DIR] [--only-read]
+
+1. Growth (G = 1.732e-2 to p = 500, 1e-3 beyond) stops at p_target; molecular dynamics goes on without growth. Each snapshot is
+   crunched: distance of its jammed state from the first one, beside the mean-square displacement between the snapshots.
+2. Cage: the mean-square displacement from its middle against p. Marginal glasses have p^-1.4157, normal ones p^-1.
+3. Clones: one configuration, other velocities, crunched after a long time: are three distances those of an ultrametric tree?
+4. Memory: diameters of a jammed packing shrink to phi = (1 - x) phi_J, dynamics, crunch: which contacts come back?
+
+Distances are mean squares over spheres that are stable in both packings, the mean displacement taken out, in unit of the mean
+diameter squared. Small: N = 128, two packings. Large: N = 1024, ten. Each run is kept when done.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import Results, arguments, kept, mean_error
+
+import jam
+
+KAPPA_MF = 1.4157
+INSTANTS = 12  # snapshots of part 1
+CLONES = 8
+
+
+def grown(n, seed, pressure):
+    packing = jam.System.random(n, seed=seed)
+    packing.compress([(1.732e-2, 500.0), (1e-3, pressure)] if pressure > 500 else [(1.732e-2, pressure)])
+    return packing
+
+
+def jammed(packing):
+    """A crunched copy, or None when it is not jammed."""
+    copy = packing.copy()
+    report = copy.crunch()
+    return copy if report.jammed else None
+
+
+def between(a, b):
+    """(distance, contacts of a that are in b) of two jammed packings."""
+    found = a.compare(b).comparison
+    return found.displacement_rms**2, found.overlap_a
+
+
+def walk(n, seed, pressure, longest):
+    """Part 1 and 2: snapshots in time, what their crunches find, and the cage."""
+    with grown(n, seed, pressure) as packing:
+        first = jammed(packing)
+        begin, unit = packing.positions.copy(), packing.diameters.mean()
+        use = ~first.rattlers
+        state, cage, phi = [], [], [first.report.packing_fraction]
+        for step in np.diff(np.geomspace(0.5, longest, INSTANTS), prepend=0.0):
+            packing.run(step)
+            moved = packing.positions - begin
+            moved = (moved - np.round(moved))[use]
+            moved = moved - moved.mean(axis=0)
+            there = jammed(packing)
+            msd = np.mean(np.sum(moved**2, axis=1)) / unit**2
+            state.append((msd, *(between(first, there) if there else (np.nan, np.nan))))
+            phi.append(there.report.packing_fraction if there else np.nan)
+            cage.append(moved)
+        late = np.array(cage[-4:])  # mean square around the mean of late instants, and its bias taken out
+        size = np.mean(np.sum((late - late.mean(axis=0)) ** 2, axis=2)) / unit**2 * 4 / 3
+        lp = begin - first.positions
+        lp = (lp - np.round(lp))[use]
+        lp = lp - lp.mean(axis=0)
+        return {
+            "walk": state,
+            "phi": phi,
+            "cage": size,
+            "pressure": packing.run(20).pressure,
+            "lp": np.mean(np.sum(lp**2, axis=1)) / unit**2,
+        }
+
+
+def clones(n, seed, pressure, longest):
+    """Part 3: distances of jammed states of clones."""
+    rng = np.random.default_rng(seed)
+    with grown(n, seed, pressure) as packing:
+        ends = []
+        for _ in range(CLONES):
+            copy = packing.copy()
+            velocities = rng.normal(size=(n, 3))
+            copy.velocities = velocities - velocities.mean(axis=0)
+            copy.run(longest)
+            ends.append(jammed(copy))
+        ends = [e for e in ends if e]
+        return {"d": np.array([[between(a, b)[0] for b in ends] for a in ends])}
+
+
+def memory(n, seed, shrinks, collisions):
+    """Part 4: (distance, contacts found again, change of phi_J) after decompression and dynamics."""
+    with grown(n, seed, 1e6) as packing:
+        first = jammed(packing)
+        found = []
+        for x in shrinks:
+            copy = first.copy()
+            copy.scale_diameters((1 - x) ** (1 / 3))
+            copy.run(collisions)
+            end = jammed(copy)
+            if end is None:
+                found.append((np.nan,) * 3)
+                continue
+            found.append((*between(first, end), end.report.packing_fraction - first.report.packing_fraction))
+        return {"memory": found}
+
+
+def ultrametric(d):
+    """Over triples: (largest - middle) / (largest - smallest), 0 for an ultrametric tree, 1/2 without any order."""
+    from itertools import combinations
+
+    values = []
+    for k in combinations(range(len(d)), 3):
+        small, middle, large = sorted((d[k[0], k[1]], d[k[0], k[2]], d[k[1], k[2]]))
+        if large > small * (1 + 1e-6) + 1e-14:
+            values.append((large - middle) / (large - small))
+    return np.mean(values) if values else np.nan
+
+
+def shuffled(d, rng):
+    """The same distances at random places."""
+    upper = np.triu_indices(len(d), 1)
+    made = np.zeros_like(d)
+    made[upper] = rng.permutation(d[upper])
+    return made + made.T
+
+
+def walks(o, r, axes, n, seeds, pressures, longest):
+    cages, lps = [], []
+    for k, pressure in enumerate(pressures):
+        make = [
+            kept(o, f"landscape_n{n}", f"walk{pressure:.0e}_seed{s}", lambda: walk(n, s, pressure, longest))
+            for s in range(1, seeds + 1)
+        ]
+        made = [m for m in make if m is not None]
+        if not made:
+            continue
+        r.made(f"N = {n}, p_target = {pressure:.0e}, {INSTANTS} snapshots to {longest} collisions a sphere", len(made))
+        steps = np.array([m["walk"] for m in made])
+        for m in made:
+            axes[0].loglog(m["walk"][:, 0], np.maximum(m["walk"][:, 1], 1e-17), "o-", ms=3, lw=0.7, color=f"C{k}")
+        axes[0].plot([], [], "o-", ms=3, color=f"C{k}", label=f"p = {pressure:.0e}")
+        share = np.nanmean(steps[:, -1, 1] / steps[:, -1, 0])
+        r.add("7", f"landscape, p = {pressure:.0e}: jammed distance over MSD, last snapshot", "none", share)
+        r.add(
+            "7",
+            f"landscape, p = {pressure:.0e}: contacts of the first state in the last",
+            "none",
+            np.nanmean(steps[:, -1, 2]),
+        )
+        phi = np.array([m["phi"] for m in made])
+        r.add(
+            "7",
+            f"landscape, p = {pressure:.0e}: spread of phi_J of snapshots",
+            "none",
+            np.nanmean(np.nanstd(phi, axis=1)),
+        )
+        cages.append([np.log(m["cage"]) for m in made]), lps.append([np.log(m["lp"]) for m in made])
+    axes[0].loglog([1e-12, 1e-2], [1e-12, 1e-2], "k--", lw=1, label="equal")
+    axes[0].set(xlabel="MSD between snapshots", ylabel="distance of the jammed states")
+    axes[0].legend(fontsize=7)
+    if len(cages) < 3:
+        return
+    x = np.log(np.array(pressures[: len(cages)]))
+    for values, text in ((np.array(cages), "cage"), (np.array(lps), "MSD_LP")):
+        for low, high in ((0, 3), (len(x) - 3, len(x))):  # many jammed states, one jammed state
+            powers = [np.polyfit(x[low:high], v, 1)[0] for v in values[low:high].T]
+            error = mean_error(powers)[1] if len(powers) > 1 else np.nan
+            span = f"p = {pressures[low]:.0e} to {pressures[high - 1]:.0e}"
+            r.add(
+                "7", f"power of p in {text}, {span}", -KAPPA_MF if low == 0 else "-2: one state", np.mean(powers), error
+            )
+        y = np.exp(values.mean(axis=1))
+        axes[1].loglog(pressures[: len(y)], y, "o-", label=text)
+    for power, style in ((-KAPPA_MF, "k--"), (-1.0, "k:"), (-2.0, "k-.")):
+        p = np.array([pressures[0], pressures[-1]])
+        axes[1].loglog(p, np.exp(np.mean(cages[0])) * (p / p[0]) ** power, style, lw=1, label=f"p^{power:g}")
+    axes[1].set(xlabel="p", ylabel="mean squares")
+    axes[1].legend(fontsize=7)
+
+
+def trees(o, r, axis, n, seeds, pressures, longest):
+    rng = np.random.default_rng(0)
+    for pressure in pressures:
+        make = [
+            kept(o, f"landscape_n{n}", f"clones{pressure:.0e}_seed{s}", lambda: clones(n, s, pressure, longest))
+            for s in range(1, 2 * seeds + 1)
+        ]
+        found = [m["d"] for m in make if m is not None and len(m["d"]) > 3]
+        if not found:
+            continue
+        r.made(f"N = {n}, {CLONES} clones at p = {pressure:.0e}, {longest} collisions a sphere", len(found))
+        value = [ultrametric(d) for d in found]
+        blind = [np.mean([ultrametric(shuffled(d, rng)) for _ in range(50)]) for d in found]
+        known = [(v, w) for v, w in zip(value, blind) if np.isfinite(v)]  # not where all clones found one state
+        if len(known) > 1:
+            text = f"clones, p = {pressure:.0e}: (largest - middle) / (largest - smallest)"
+            r.add("7", text, "0: a tree", *mean_error([v for v, _ in known]))
+            r.add(
+                "7", f"the same, distances at random places, p = {pressure:.0e}", "none", np.mean([w for _, w in known])
+            )
+        upper = np.concatenate([d[np.triu_indices(len(d), 1)] for d in found])
+        r.add(
+            "7", f"clones, p = {pressure:.0e}: share of pairs in the same jammed state", "none", np.mean(upper < 1e-12)
+        )
+        axis.hist(
+            np.log10(np.maximum(upper, 1e-17)), np.arange(-17, 0, 0.5), histtype="step", label=f"p = {pressure:.0e}"
+        )
+    axis.set(xlabel="lg distance of two clones", ylabel="pairs")
+    axis.legend(fontsize=7)
+
+
+def memories(o, r, axes, n, seeds, collisions):
+    shrinks = np.geomspace(1e-6, 0.3, 12)
+    make = [
+        kept(o, f"landscape_n{n}", f"memory_seed{s}", lambda: memory(n, s, shrinks, collisions))
+        for s in range(1, seeds + 1)
+    ]
+    found = [m["memory"] for m in make if m is not None]
+    if not found:
+        return
+    r.made(f"N = {n}, decompression by 1e-6 to 0.3, {collisions} collisions a sphere", len(found))
+    mean = np.nanmean(found, axis=0)
+    for k in (0, 3, 6, 9, 11):
+        text = f"memory: contacts that come back from phi = (1 - {shrinks[k]:.0e}) phi_J"
+        r.add("7", text, "none", mean[k, 1], np.nanstd(np.array(found)[:, k, 1]) / len(found) ** 0.5)
+    axes.semilogx(shrinks, mean[:, 1], "o-", label="contacts that come back")
+    axes.semilogx(shrinks, np.exp(-mean[:, 0] / 0.01), "s-", label="exp(-distance / 0.01)")
+    axes.set(xlabel="1 - phi / phi_J after decompression", ylabel="mean over packings")
+    axes.legend(fontsize=8)
+
+
+def main():
+    o = arguments(__doc__.splitlines()[0]).parse_args()
+    n, seeds, longest = (1024, 10, 3000.0) if o.large else (128, 2, 300.0)
+    pressures = 10.0 ** np.arange(2, 9 if o.large else 7)
+    r = Results(o, "landscape")
+    figure, axes = plt.subplots(1, 4, figsize=(18, 4.5))
+    walks(o, r, axes, n, seeds, pressures, longest)
+    trees(o, r, axes[2], n, seeds, pressures[:4], longest)
+    memories(o, r, axes[3], n, seeds, longest)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

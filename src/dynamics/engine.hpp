@@ -218,6 +218,7 @@ class Engine final : public EngineBase {
   void each_outer_partner(int32_t i, F &&f) const;
   void build_outer();
   void check_outer();
+  bool tune_outer();
   void renew_outer(int32_t i);
   bool left_outer(int32_t i) const;
   std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
@@ -278,10 +279,11 @@ class Engine final : public EngineBase {
   // outer lists of the Mari-Kurchan model
   std::vector<std::vector<Outer>> outer_;
   std::vector<Place> outer_centre_;
-  std::vector<double> outer_reach_;  // rho up to which they hold
-  double outer_safe_ = 0.0;
-  std::vector<int32_t> internal_;  // inverse of user_
-  std::vector<Outer> redrawn_;     // partners (user's numbers) of each sphere with a shift drawn again
+  std::vector<double> outer_reach_;               // rho up to which they hold
+  double outer_safe_ = 0.0, outer_width_ = 0.25;  // the second in the largest radius
+  int64_t renewals_ = 0, outer_exits_ = 0;        // since all outer lists were made; exits_ then
+  std::vector<int32_t> internal_;                 // inverse of user_
+  std::vector<Outer> redrawn_;                    // partners (user's numbers) of each sphere with a shift drawn again
   std::vector<size_t> redrawn_first_;
 
 #ifdef JAM_CHECK_PAIRS

@@ -52,6 +52,9 @@ void Engine<D, Shift>::archive(Archive &a) {
     a(outer_centre_);
     a(outer_reach_);
     a(outer_safe_);
+    a(outer_width_);
+    a(renewals_);
+    a(outer_exits_);
     if (a.reading()) outer_.resize(static_cast<size_t>(n_));
     for (std::vector<Outer> &list : outer_) a(list);
   }
@@ -105,6 +108,8 @@ void Engine<D, Shift>::check_archive() const {
   if (cells_ != 0 || cells_alone_ != 0) check_cells();
   if (!quenched_) return;
   Archive::check(outer_centre_.size() == n && outer_reach_.size() == n);
+  Archive::check(outer_width_ > 0.0 && std::isfinite(outer_width_) && outer_safe_ >= 0.0 && renewals_ >= 0 &&
+                 renewals_ < int64_t{1} << 60 && outer_exits_ >= 0 && outer_exits_ < int64_t{1} << 60);
   for (size_t i = 0; i < n; ++i)
     for (const Outer &partner : outer_[i]) {
       Archive::check(sphere(partner.k) && partner.attempt >= 0);

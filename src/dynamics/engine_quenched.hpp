@@ -67,8 +67,7 @@ template <int D, bool Shift>
 void Engine<D, Shift>::build_outer() {
   double largest = 0.0;
   for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
-  // So wide that a caged sphere never leaves it. The 1.1 below allows for growth and wider shells.
-  outer_safe_ = 0.5 * largest;
+  outer_safe_ = outer_width_ * largest;  // the 1.1 below allows for growth and wider shells
   outer_.resize(body_.size());
   outer_centre_.resize(body_.size());
   outer_reach_.resize(body_.size());
@@ -77,6 +76,8 @@ void Engine<D, Shift>::build_outer() {
     outer_reach_[i] = 1.1 * rho_[i];
     outer_[i].clear();
   }
+  renewals_ = 0;
+  outer_exits_ = exits_;
   double partners = 0.0;
   for (int32_t i = 0; i < n_; ++i) {
     if (i % 64 == 0) CallScope::look();
@@ -94,7 +95,7 @@ void Engine<D, Shift>::build_outer() {
 // After the lists' places and reaches have changed: outer lists that no longer hold them are made anew.
 template <int D, bool Shift>
 void Engine<D, Shift>::check_outer() {
-  if (outer_.empty()) return build_outer();
+  if (outer_.empty() || outer_safe_ == 0.0) return build_outer();
   for (int32_t i = 0; i < n_; ++i)
     if (rho_[i] > outer_reach_[i]) return build_outer();
   for (int32_t i = 0; i < n_; ++i)
@@ -113,8 +114,34 @@ bool Engine<D, Shift>::left_outer(int32_t i) const {
   return r2 > outer_safe_ * outer_safe_;
 }
 
+// Chooses how far a sphere may go before its outer list is made anew. Each of the exits looks at the K partners of a
+// list, K ~ (reach + width)^D. A renewal looks at all spheres; diffusion makes width^-2 of them. The cost is that of
+// tune_shell. Returns true when the exits since the last change would have been cheaper by more than new lists for all.
+template <int D, bool Shift>
+bool Engine<D, Shift>::tune_outer() {
+  constexpr double step = 1.5, narrowest = 0.1, widest = 3.0, look = 3.0;  // look: at a sphere that may be a partner
+  const auto exits = static_cast<double>(exits_ - outer_exits_);
+  if (outer_safe_ == 0.0 || exits < 4.0 * n_) return false;
+  double partners = 0.0;
+  for (const auto &list : outer_) partners += static_cast<double>(list.size()) / n_;
+  const auto cost = [&](double width) {
+    const double now = 1.1 * rho_max_ + outer_safe_, then = now + outer_safe_ * (width / outer_width_ - 1.0);
+    const double more = std::pow(then / now, D), renewals = static_cast<double>(renewals_);
+    return exits * 2.0 * more * partners + renewals * std::pow(outer_width_ / width, 2) * look * n_;
+  };
+  const double saved = cost(outer_width_) - 0.5 * look * n_ * n_;
+  for (const double width : {outer_width_ / step, outer_width_ * step}) {
+    if (width < narrowest || width > widest || cost(width) > saved) continue;
+    outer_width_ = width;
+    outer_safe_ = 0.0;
+    return true;
+  }
+  return false;
+}
+
 template <int D, bool Shift>
 void Engine<D, Shift>::renew_outer(int32_t i) {
+  ++renewals_;
   for (const Outer &partner : outer_[i]) {
     std::vector<Outer> &list = outer_[partner.k];
     const auto entry = std::find_if(list.begin(), list.end(), [i](const Outer &o) { return o.k == i; });

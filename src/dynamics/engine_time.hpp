@@ -145,7 +145,8 @@ template <int D, bool Shift>
 void Engine<D, Shift>::rebase() {
   shift_origin();
   check_pairs();
-  if (tune_shell())
+  const bool outer = quenched_ && tune_outer();
+  if (tune_shell() || outer)
     refresh(1.0, true);
   else
     sort_calendar();

@@ -21,6 +21,7 @@ from jam import scaling
 sys.path.insert(0, str(HERE.parent))
 from tail_exponents import FLOOR, GAP_FLOOR, GAP_POWERS, POWERS, fit  # noqa: E402
 
+GAPS_END = {"euclid": 1.0, "mk": 1e-3}  # fits look no further: beyond, Mari-Kurchan pairs are those of a liquid
 FLOPPY = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}, "floppy_modes": {}}
 MAX_ORDER = 1.5
 
@@ -134,8 +135,9 @@ def table(r, sizes, model, top):
         ("localised", THETA_L if spheres else 0.0, FLOOR, ".7" if spheres else ".6"),
         ("forces", 0.25 if spheres else 0.1, FLOOR, ".7" if spheres else ".6"),
     ):
+        values = [v[v < GAPS_END[model]] for v in s.gaps] if name == "gaps" else getattr(s, name)
         try:
-            found = fit(getattr(s, name), largest, GAP_POWERS if name == "gaps" else POWERS, floor)
+            found = fit(values, largest, GAP_POWERS if name == "gaps" else POWERS, floor)
         except ValueError as error:
             print(f"{name}: {error}")
             continue
@@ -143,9 +145,9 @@ def table(r, sizes, model, top):
         text = f"exponent of {name}, N = {largest}, averaged over ranges"
         r.add(label, text, a, found["exponent"], found["error"])
         if name == "gaps":
-            cut = scaling.fit_power(s.gaps, found["high"], found["low"])
+            cut = scaling.fit_power(values, found["high"], found["low"])
             r.add(label, f"gaps, one law on {found['low']:.1e} ... {found['high']:.2g}", a, cut.value, cut.error)
-            whole = scaling.fit_power(s.gaps, found["high"])
+            whole = scaling.fit_power(values, found["high"])
             r.add(label, f"gaps, one law below {found['high']:.2g}, no truncation", a, whole.value, whole.error)
     for name, a, low, high, label in (("extended", THETA_E, 0.3, 10, ".2"), ("gaps", -GAMMA, 0.1, top, ".5")):
         if len(sizes) < 2:
@@ -175,12 +177,12 @@ def table(r, sizes, model, top):
             last[0] / first[0],
             last[0] / first[0] * np.hypot(last[1] / last[0], first[1] / first[0]),
         )
-    gap_crossover(r, figure + ".4", s, largest)
+    gap_crossover(r, figure + ".4", s, largest, GAPS_END[model])
 
 
-def gap_crossover(r, figure, s, n):
+def gap_crossover(r, figure, s, n, end):
     """N c(h) against h N^(1/(1-gamma)), c per packing: [(a h)^q + (b h^(1-gamma))^q]^(1/q); errors over packings."""
-    x = np.geomspace(0.03, 300, 40)
+    x = np.geomspace(0.03, min(300, end * n ** (1 / (1 - GAMMA))), 40)
     normal = np.mean([len(g) for g in s.gaps]) / n
 
     def fit(samples):
@@ -213,7 +215,7 @@ def main():
         sys.exit("fewer than 4 packings of every size")
     figure, axes = plt.subplots(2, 3, figsize=(13, 7.5))
     figures(axes, sizes, o.model)
-    table(r, sizes, o.model, 2e2)
+    table(r, sizes, o.model, min(2e2, GAPS_END[o.model] * min(sizes) ** (1 / (1 - GAMMA))))
     r.write(figure)
 
 

@@ -66,11 +66,13 @@ def ratios(r, figure, axes, sizes):
     """c / f^b for four b, and c - 0.25 / N."""
     x = np.geomspace(1e-4, 3, 60)
     largest = max(sizes)
-    for n, s in sizes.items():
+    for k, (n, s) in enumerate(sizes.items()):
         c = scaling.cdf_grid(s.extended, x).c
         for b, style in ((1 + THETA_E, "-"), (1.0, ":"), (1 + THETA_L, "--"), (1.25, "-.")):
             use = c > 0
-            axes[0].loglog(x[use], c[use] / x[use] ** b, style, lw=1, label=f"b = {b:.3f}" if n == largest else None)
+            axes[0].loglog(
+                x[use], c[use] / x[use] ** b, style, color=f"C{k}", lw=1, label=f"b = {b:.3f}" if n == largest else None
+            )
         axes[1].loglog(x * n ** (1 / (1 + THETA_E)), np.maximum(n * c - OFFSET, 1e-3), lw=1, label=f"N = {n}")
     axes[0].set(xlabel="f, extended", ylabel="c / f^b", ylim=(1e-2, 1e2))
     axes[1].set(xlabel="f N^(1/(1+theta_e))", ylabel="N c - 0.25", ylim=(1e-2, None))

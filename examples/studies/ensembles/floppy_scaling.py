@@ -23,9 +23,9 @@ from tail_exponents import FLOOR, POWERS, fit  # noqa: E402
 
 
 def slope(sizes, values):
-    """Exponent of N and its error from (mean, error) of each size, by weighted least squares of logarithms."""
+    """Exponent of N and its error from (mean of the logarithm, error) of each size, by weighted least squares."""
     x = np.log(np.array(sorted(sizes), float))
-    y, e = np.array([(np.log(values[n][0]), values[n][1] / values[n][0]) for n in sorted(sizes)]).T
+    y, e = np.array([values[n] for n in sorted(sizes)]).T
     w = 1 / e**2
     centre = (w @ x) / w.sum()
     spread = w @ (x - centre) ** 2
@@ -81,11 +81,17 @@ def main():
         "f_min": -1 / (1 + THETA_E),
     }
     for k, (name, law) in enumerate(expected.items()):
-        values = {n: mean_error(a[:, k]) for n, a in found.items()}
+        values = {n: mean_error(np.log(a[:, k])) for n, a in found.items()}  # packings scatter by factors of three
         power, error = slope(found, values)
         published = round(law, 4)
-        r.add("9", f"power of N of {name} ({'median' if k < 3 else 'mean over packings'})", published, power, error)
-        n, y = np.array(sorted(values)), np.array([values[m][0] for m in sorted(values)])
+        r.add(
+            "9",
+            f"power of N of {name} ({'median' if k < 3 else 'least'} of a packing, mean of its logarithm)",
+            published,
+            power,
+            error,
+        )
+        n, y = np.array(sorted(values)), np.exp([values[m][0] for m in sorted(values)])
         axes[2].loglog(n, y / y[0], "o-", label=f"{name}: {power:.2f}({error:.2f}), law {published:.2f}")
     largest = max(found)
     for n, a in sorted(found.items()):

@@ -234,8 +234,12 @@ def memories(o, r, axes, n, seeds, collisions):
 
 
 def main():
-    o = arguments(__doc__.splitlines()[0]).parse_args()
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--n", type=int, help="spheres (small 128, large 1024)")
+    p.add_argument("--seeds", type=int, help="packings (small 2, large 10)")
+    o = p.parse_args()
     n, seeds, longest = (1024, 10, 3000.0) if o.large else (128, 2, 300.0)
+    n, seeds = o.n or n, o.seeds or seeds
     pressures = 10.0 ** np.arange(2, 9 if o.large else 7)
     r = Results(o, "landscape")
     figure, axes = plt.subplots(1, 4, figsize=(18, 4.5))

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""Why does the collapse of gaps prefer an exponent below gamma? Looks into a row of finite_size.py, section 6.5.5.
+
+usage: gap_collapse.py [--large] [--folder DIR] [--only-read]
+
+Three suspects: the error of the collapse is too small; the smallest N has another density of gaps altogether; the range holds gaps so
+wide that they follow no power law. Synthetic packings follow the law exactly, with as many gaps and packings as the real ones.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import GAMMA, Results, arguments, ensemble, mean_error
+from finite_size import Size, protocol
+
+from jam import scaling
+
+BULK = 0.1  # gaps up to here: tail and shoulder, no second shell
+BEND = 0.3  # scaled gap where the law goes over into the part linear in h
+
+
+def collapsed(samples, top, resamples=20):
+    grid = lambda n: np.geomspace(0.1, top, 30) * n ** (-1 / (1 - GAMMA))  # noqa: E731
+    return scaling.collapse(samples, grid, [-GAMMA], resamples=resamples)
+
+
+def synthetic(rng, real):
+    """Packings with the exact law up to BULK, as many as there are, with as many gaps each."""
+    made = {}
+    for n, samples in real.items():
+        bend = BEND * n ** (-1 / (1 - GAMMA)) / BULK
+        made[n] = [BULK * scaling.draw_left_power(rng, len(g), -GAMMA, bend) for g in samples]
+    return made
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--sizes", type=int, nargs="+", help="N (small: 100 200 400; large: 256 512 1024 2048)")
+    p.add_argument("--particles", type=float, default=5e4, help="with --large: particles a size (5e4)")
+    p.add_argument("--trials", type=int, default=30, help="synthetic sets (30)")
+    o = p.parse_args()
+    r = Results(o, "gap_collapse")
+    every, tail = {}, {}
+    for n in o.sizes or ((256, 512, 1024, 2048) if o.large else (100, 200, 400)):
+        e = ensemble(o, protocol("euclid", n), round(o.particles / n) if o.large else 3200 // n)
+        s = Size(e, "euclid")
+        if len(s.rows) >= 4:
+            every[n], tail[n] = s.gaps, [g[g < BULK] for g in s.gaps]
+            r.used(e, len(s.rows))
+    for top in (200, 50, 15):
+        found = collapsed(every, top)
+        r.add("6.5.5", f"collapse, scaled h up to {top}", -GAMMA, found.value[0], found.error[0])
+    found = collapsed(tail, 200)
+    r.add("6.5.5", f"collapse, up to 200, c normalised at h = {BULK}", -GAMMA, found.value[0], found.error[0])
+    if len(every) > 2:
+        rest = {n: g for n, g in every.items() if n > min(every)}
+        found = collapsed(rest, 200)
+        r.add("6.5.5", f"collapse, up to 200, without N = {min(every)}", -GAMMA, found.value[0], found.error[0])
+    small, large = (mean_error([np.sum(g < BULK) / n for g in every[n]]) for n in (min(every), max(every)))
+    error = small[0] / large[0] * np.hypot(small[1] / small[0], large[1] / large[0])
+    text = f"gaps below {BULK} a sphere, N = {min(every)} over {max(every)}"
+    r.add("6.5.5", text, 1.0, small[0] / large[0], error)
+    rng = np.random.default_rng(1)
+    drawn = [collapsed(synthetic(rng, tail), 200, 12) for _ in range(o.trials)]
+    value = np.array([f.value[0] for f in drawn])
+    r.add("6.5.5", "synthetic packings with the published law: collapse", -GAMMA, *mean_error(value))
+    r.add(
+        "6.5.5",
+        "the same: scatter of one collapse over the error that it gives",
+        1.0,
+        value.std(ddof=1) / np.mean([f.error[0] for f in drawn]),
+    )
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5))
+    for n, samples in every.items():
+        h = np.geomspace(1e-5, 0.5, 60)
+        counts = np.array([np.searchsorted(np.sort(g), h) / n for g in samples])
+        mean, error = counts.mean(axis=0), counts.std(axis=0, ddof=1) / len(counts) ** 0.5
+        axes[0].errorbar(h, mean / h ** (1 - GAMMA), error / h ** (1 - GAMMA), lw=1, label=f"N = {n}")
+    axes[0].set(xscale="log", xlabel="h", ylabel="gaps a sphere below h, over h^(1-gamma)")
+    axes[1].hist(value, 15, label="synthetic, law exact")
+    axes[1].axvline(-GAMMA, color="k", lw=1, label="-gamma")
+    axes[1].axvline(collapsed(every, 200, 2).value[0], color="C1", label="real packings")
+    axes[1].set(xlabel="exponent by collapse", ylabel="sets")
+    axes[0].legend(fontsize=8), axes[1].legend(fontsize=8)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

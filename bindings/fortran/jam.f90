@@ -1309,7 +1309,8 @@ module jam
     end function jam_cell_set
 
     ! Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
-    ! new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1
+    ! new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+    ! Errors: as jam_cell_set. Threads: alone. @since 0.1
     function jam_strain(sys, strain, strain_len) &
         bind(c, name="jam_strain") result(status)
       import

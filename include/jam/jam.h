@@ -23,7 +23,7 @@
  *   positive diagonal. A cell given in another form is reduced, and rotated where it must
  *   be. The spheres rotate with it.
  * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
- * - Molecular dynamics and Monte Carlo need a cube. All else works in any cell.
+ * - Monte Carlo needs a cube, and so does the plain text format. All else works in any cell.
  *
  * Arrays
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
@@ -289,7 +289,8 @@ JAM_API jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_l
 JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
 /* Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
- * new cell is reduced: a simple shear of any size is one call. Errors: as jam_cell_set. Threads: alone. @since 0.1 */
+ * new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+ * Errors: as jam_cell_set. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 
 /* ------------------------------------------------------------------ progress, log, cancel */

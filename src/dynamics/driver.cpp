@@ -64,15 +64,15 @@ std::vector<int32_t> curve_order(const Packing &p) {
 }
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
-  check_cube(p, "molecular dynamics");
-  const bool images = p.model == JAM_MODEL_MK || !Engine<2, false>::fits(contact_distance_max(p) / p.cell.side());
+  const bool images =
+      p.model == JAM_MODEL_MK || !p.cell.cube() || !Engine<2, false>::fits(contact_distance_max(p) / p.cell.side());
   return choose(p, o, images, nullptr);
 }
 
 std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from) {
   int64_t images = 0;
   from(images);
-  Archive::check(images == 1 || (images == 0 && p.model == JAM_MODEL_EUCLID));
+  Archive::check(images == 1 || (images == 0 && p.model == JAM_MODEL_EUCLID && p.cell.cube()));
   return choose(p, EngineOptions{}, images == 1, &from);
 }
 

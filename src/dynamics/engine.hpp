@@ -1,7 +1,8 @@
 // The event-driven engine: spheres in the unit box (make_engine scales), asynchronous, one scheduled event per sphere.
 //
 // Numbers. Coordinates, radii and image shifts are integers with 2^64 to the box (2^61 with shifts). Differences wrap
-// to the nearest image by themselves and are exact. Gaps near contact are computed with 128-bit integers, so a gap is
+// to the nearest image by themselves and are exact. A cell that is no cube always has shifts: lattice vectors, 2^58 to
+// V^(1/d) unless the cell is very long (lattice.hpp). Gaps near contact are computed with 128-bit integers, so a gap is
 // known to 5e-20 of the box; doubles in a unit box give 1e-16. Velocities are doubles in the same unit per time. Times
 // are doubles from an origin that moves forward every few collisions per sphere.
 //
@@ -16,8 +17,9 @@
 // leave their cell by an event. Donev, Torquato and Stillinger, J. Comput. Phys. 202, 737 (2005), in a simpler form.
 //
 // Files. engine_events: prediction, collision, main loop; pair_kernel: its inner loops in vectors. engine_lists: lists;
-// engine_blocks: cells that find their candidates; engine_cells: dilute systems; engine_quenched: candidates in the
-// Mari-Kurchan model. engine_prefetch: loads memory ahead of its use. engine_time: origin of time, growth, state.
+// engine_blocks: cells that find their candidates; engine_images: the same with images; engine_cells: dilute systems;
+// engine_quenched: candidates in the Mari-Kurchan model. engine_prefetch: loads memory ahead of its use. engine_time:
+// origin of time, growth, state.
 #pragma once
 #include <array>
 #include <cmath>
@@ -29,6 +31,7 @@
 #include "core/packing.hpp"
 #include "core/pair_rule.hpp"
 #include "dynamics/calendar.hpp"
+#include "dynamics/lattice.hpp"
 #include "dynamics/observer.hpp"
 #include "dynamics/pair_kernel.hpp"
 
@@ -74,6 +77,7 @@ class EngineBase {
   virtual double twice_kinetic() const = 0;
   virtual double packing_fraction() const = 0;
   virtual double mean_diameter() const = 0;
+  virtual double resolution() const = 0;     // of coordinates, in V^(1/d)
   virtual double worst_overlap() const = 0;  // largest -h over all listed pairs, now
   MdSums sums;
   double max_overlap =
@@ -96,7 +100,7 @@ std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o
 std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from);
 
 template <int D, bool Shift>
-class Engine final : public EngineBase {
+class Engine final : public EngineBase, private Units<Shift> {
  public:
   Engine(const Packing &p, const EngineOptions &o, Archive *from = nullptr);
   Halt advance(int64_t collisions, const Monitor &monitor, double wall_end) override;
@@ -114,6 +118,7 @@ class Engine final : public EngineBase {
   double twice_kinetic() const override { return twice_kinetic_; }
   double packing_fraction() const override;
   double mean_diameter() const override { return 2.0 * mean_radius() * unit * (1.0 + rate_ * now_); }
+  double resolution() const override { return Units<Shift>::resolution; }
   double worst_overlap() const override;
 
   // Whether lists without image shifts can hold for this largest contact distance, unit box.
@@ -121,7 +126,8 @@ class Engine final : public EngineBase {
 
  private:
   using Place = std::array<uint64_t, D>;
-  static constexpr double scale = Shift ? 0x1p61 : 0x1p64, unit = 1.0 / scale;
+  using Units<Shift>::scale;
+  using Units<Shift>::unit;
   static constexpr double smallest_shell = 0.004, smallest_margin = 0.002;
 
   // -- hot path, here and in engine_events.hpp
@@ -200,6 +206,14 @@ class Engine final : public EngineBase {
   void drop(int32_t i, size_t cell);
   int32_t search(int32_t i) const;
 
+  // -- cells of the lists with images, engine_images.hpp
+  void choose_image_cells();
+  template <class F>
+  void each_cell_around(int c, const std::array<int64_t, D> &home, size_t cell, const std::array<int64_t, D> &image,
+                        F &&f) const;
+  template <class F>
+  void search_images(int32_t i, F &&f) const;
+
   // -- cells alone, engine_cells.hpp
   bool choose_cells_alone(double sigma);
   void build_cells_alone();
@@ -223,6 +237,12 @@ class Engine final : public EngineBase {
   bool left_outer(int32_t i) const;
   std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
 
+  int64_t side_of_cells(int c) const {
+    if constexpr (Shift)
+      return image_cells_[c];
+    else
+      return (void)c, cells_;
+  }
   const int32_t *list_of(int32_t i) const { return &neighbour_[static_cast<size_t>(i) * capacity_]; }
   int32_t *list_of(int32_t i) { return &neighbour_[static_cast<size_t>(i) * capacity_]; }
   size_t offset_at(int32_t i, int32_t entry) const {
@@ -236,10 +256,12 @@ class Engine final : public EngineBase {
   }
 
   std::unique_ptr<MkShifts> quenched_;  // Mari-Kurchan model
+  Lattice<D> lattice_;
   int32_t n_;
   EngineOptions options_;
   PairKernel<D> kernel_;
-  double box_, non_additivity_;
+  Cell cell_of_packing_;
+  double non_additivity_;
   double reach_factor_;  // largest contact distance over the sum of the radii
   std::vector<Body<D>> body_;
   Calendar calendar_;
@@ -267,9 +289,10 @@ class Engine final : public EngineBase {
   double rho_max_ = 0.0;
   int64_t cells_ = 0;  // per side; 0: brute force
   int cell_range_ = 1;
-  std::vector<Block<D>> block_;         // one of each cell, and further ones of overfull cells
-  mutable std::vector<size_t> around_;  // scratch: cells that are searched
-  mutable std::vector<int32_t> found_;  // scratch: spheres found in them
+  std::array<int64_t, D> image_cells_{}, image_range_{};  // Shift: along each cell vector
+  std::vector<Block<D>> block_;                           // one of each cell, and further ones of overfull cells
+  mutable std::vector<size_t> around_;                    // scratch: cells that are searched
+  mutable std::vector<int32_t> found_;                    // scratch: spheres found in them
 
   // cells alone: no lists; a sphere looks at the cells around its own, leaving which is an event
   int64_t cells_alone_ = 0;  // 1: now

@@ -4,6 +4,7 @@
 #include "dynamics/engine_blocks.hpp"
 #include "dynamics/engine_cells.hpp"
 #include "dynamics/engine_events.hpp"
+#include "dynamics/engine_images.hpp"
 #include "dynamics/engine_lists.hpp"
 #include "dynamics/engine_prefetch.hpp"
 #include "dynamics/engine_quenched.hpp"

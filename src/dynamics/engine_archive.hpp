@@ -40,6 +40,10 @@ void Engine<D, Shift>::archive(Archive &a) {
   a(rho_max_);
   a(cells_);
   a(cell_range_);
+  if (!lattice_.cube()) {
+    a(image_cells_);
+    a(image_range_);
+  }
   a(block_);
   a(cell_first_);
   a(cell_next_);
@@ -86,6 +90,8 @@ void Engine<D, Shift>::check_archive() const {
     Archive::check(b.radius > 0 && b.radius <= int64_t{1} << 62 && std::isfinite(b.time));
     for (const double v : b.v) Archive::check(std::fabs(v) <= limits::velocity_max * 10.0 * scale);
   }
+  // A longer reach would find images without end.
+  for (size_t i = 0; i < n; ++i) Archive::check(rho_[i] >= 0.0 && rho_[i] <= 4.0 * scale && std::isfinite(safe_[i]));
   for (const double m : mass_) Archive::check(m > 0.0 && std::isfinite(m));
   for (const double part : left_over_) Archive::check(std::isfinite(part));
   for (const double x : {now_, rate_, relative_rate_, twice_kinetic_, sums.time, max_overlap})
@@ -121,9 +127,21 @@ void Engine<D, Shift>::check_archive() const {
 
 template <int D, bool Shift>
 void Engine<D, Shift>::check_cells() const {
-  Archive::check(cells_ > 0 && cells_ < 1 << 20 && cells_ >= 2 * cell_range_ + 1 && !Shift &&
-                 (cells_alone_ == 0 || cells_alone_ == 1));
-  const double total = std::pow(static_cast<double>(cells_), D);
+  double total = std::pow(static_cast<double>(cells_), D);
+  if constexpr (Shift) {
+    Archive::check(cells_ == 1 && cells_alone_ == 0 && !lattice_.cube() && !quenched_);
+    double looked_cells = 1.0;
+    for (int c = 0; c < D; ++c) {
+      const int64_t cells = image_cells_[c], range = image_range_[c];
+      Archive::check(cells > 0 && cells < 1 << 20 && range >= 0 && range < 1 << 20);
+      total *= static_cast<double>(cells);
+      looked_cells *= 2.0 * static_cast<double>(range) + 1.0;
+    }
+    Archive::check(looked_cells <= 2.0 * n_);
+  } else {
+    Archive::check(cells_ > 0 && cells_ < 1 << 20 && cells_ >= 2 * cell_range_ + 1 &&
+                   (cells_alone_ == 0 || cells_alone_ == 1));
+  }
   if (cells_alone_) {
     Archive::check(cells_ >= 5 && cell_range_ == 1 && cell_.size() == static_cast<size_t>(n_));
     for (const auto &cell : cell_)

@@ -10,6 +10,15 @@ namespace jam {
 template <int D, bool Shift>
 std::array<int64_t, D> Engine<D, Shift>::home_of(int32_t i) const {
   std::array<int64_t, D> home;
+  if constexpr (Shift) {
+    double s[D];
+    lattice_.fraction(centre_[i], s);
+    for (int c = 0; c < D; ++c) {
+      const auto place = static_cast<int64_t>(std::floor(s[c] * static_cast<double>(image_cells_[c])));
+      home[c] = std::min(std::max<int64_t>(place, 0), image_cells_[c] - 1);
+    }
+    return home;
+  }
   for (int c = 0; c < D; ++c)
     home[c] = cells_alone_ ? cell_[i][c]
                            : static_cast<int64_t>(((centre_[i][c] >> 32) * static_cast<uint64_t>(cells_)) >> 32);
@@ -19,13 +28,18 @@ std::array<int64_t, D> Engine<D, Shift>::home_of(int32_t i) const {
 template <int D, bool Shift>
 size_t Engine<D, Shift>::cell_of(const std::array<int64_t, D> &home) const {
   size_t cell = 0;
-  for (int c = D - 1; c >= 0; --c) cell = cell * static_cast<size_t>(cells_) + static_cast<size_t>(home[c]);
+  for (int c = D - 1; c >= 0; --c) cell = cell * static_cast<size_t>(side_of_cells(c)) + static_cast<size_t>(home[c]);
   return cell;
 }
 
 // Writes the cells within cell_range_ of a cell to around_; returns their number.
 template <int D, bool Shift>
 size_t Engine<D, Shift>::cells_around(const std::array<int64_t, D> &home) const {
+  if constexpr (Shift) {
+    size_t found = 0;
+    each_cell_around(D - 1, home, 0, {}, [&](size_t cell, const auto &) { around_[found++] = cell; });
+    return found;
+  }
   const size_t width = 2 * static_cast<size_t>(cell_range_) + 1;
   size_t count = 1, stride = 1;
   around_[0] = 0;
@@ -49,7 +63,7 @@ size_t Engine<D, Shift>::cells_around(const std::array<int64_t, D> &home) const 
 template <int D, bool Shift>
 void Engine<D, Shift>::make_scratch() {
   size_t width = 1;
-  for (int c = 0; c < D; ++c) width *= 2 * static_cast<size_t>(cell_range_) + 1;
+  for (int c = 0; c < D; ++c) width *= 2 * static_cast<size_t>(Shift ? image_range_[c] : cell_range_) + 1;
   around_.resize(width);
   found_.resize(static_cast<size_t>(n_));
 }
@@ -58,7 +72,7 @@ template <int D, bool Shift>
 void Engine<D, Shift>::build_blocks() {
   make_scratch();
   size_t total = 1;
-  for (int c = 0; c < D; ++c) total *= static_cast<size_t>(cells_);
+  for (int c = 0; c < D; ++c) total *= static_cast<size_t>(side_of_cells(c));
   Block<D> empty;
   std::fill(empty.id, empty.id + Block<D>::lanes, Block<D>::free);
   for (auto &axis : empty.x) std::fill(axis, axis + Block<D>::lanes, 0);

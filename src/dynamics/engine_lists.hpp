@@ -17,7 +17,7 @@ void Engine<D, Shift>::choose_cells() {
     for (const auto &list : outer_) length += list.size();
     search_cost_ = 2.0 * static_cast<double>(length) / n_;
   }
-  if (Shift) return;
+  if constexpr (Shift) return choose_image_cells();
   const double reach = 2.0 * rho_max_ * unit;
   double best = 0.5 * n_;  // in units of tune_shell
   for (int range = 1; range <= 3; ++range) {
@@ -49,8 +49,9 @@ void Engine<D, Shift>::build_lists() {
   }
   // Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay below half the box, or it
   // wraps to another image than that of the list: both spheres may stand at the far ends of their safe spheres, two
-  // shells further.
-  const double space = (Shift ? 1.4 : 0.4999) / sigma - 1.0, shells = Shift ? 2.0 : 4.0;
+  // shells further. With images lists reach as far as the integers hold.
+  const double widest = Shift ? (lattice_.cube() ? 1.4 : 2.8) : 0.4999;
+  const double space = widest / sigma - 1.0, shells = Shift ? 2.0 : 4.0;
   margin_ = std::min(margin_, space - shells * smallest_shell);
   if (rate_ > 0.0) lists_end_ = margin_ * 0.999 / rate_;
   widest_shell_ = std::max(smallest_shell, std::min(1.5, 0.999 * (space - margin_) / shells));
@@ -59,10 +60,8 @@ void Engine<D, Shift>::build_lists() {
   for (int32_t i = 0; i < n_; ++i) {
     Body<D> &b = body_[i];
     if (observer_) note_path(i);
-    for (int c = 0; c < D; ++c) {
-      if (Shift) b.x[c] &= (uint64_t{1} << 61) - 1;
-      centre_[i][c] = b.x[c];
-    }
+    if constexpr (Shift) lattice_.wrap(b.x);
+    for (int c = 0; c < D; ++c) centre_[i][c] = b.x[c];
     const double radius = static_cast<double>(b.radius);
     // Small spheres among large ones are as quick, so their shells are wider in proportion.
     safe_[i] = 2.0 * shell_ * std::sqrt(radius * std::min(mean, largest));
@@ -121,37 +120,13 @@ bool Engine<D, Shift>::tune_shell() {
 template <int D, bool Shift>
 template <class F>
 void Engine<D, Shift>::each_image(int32_t i, int32_t k, double cutoff, std::array<int64_t, D> shift, F &&f) const {
-  constexpr int64_t box = int64_t{1} << 61;
-  std::array<int64_t, D> offset{};
-  std::array<int64_t, D> distance{};
-  std::array<int, D> step{};
-  std::array<double, D + 1> r2{};
-  double nearest2 = 0.0;
-  for (int c = 0; c < D; ++c) {
-    distance[c] = wrapping_sum(static_cast<int64_t>(centre_[i][c] - centre_[k][c]), shift[c]);
-    const int64_t nearest = wrapping_sum(distance[c], distance[c] >= 0 ? box / 2 : -(box / 2)) / box * box;
-    distance[c] -= nearest;
-    shift[c] = wrapping_sum(shift[c], -nearest);
-    nearest2 += static_cast<double>(distance[c]) * static_cast<double>(distance[c]);
-    if (nearest2 >= cutoff * cutoff) return;
-  }
-  // Depth first over -1, 0, 1 boxes in each direction, cut off as soon as the distance is too long.
-  int c = 0;
-  step[0] = -2;
-  while (c >= 0) {
-    if (++step[c] > 1) {
-      --c;
-      continue;
-    }
-    const double r = static_cast<double>(distance[c] + step[c] * box);
-    r2[c + 1] = r2[c] + r * r;
-    if (r2[c + 1] >= cutoff * cutoff) continue;
-    offset[c] = wrapping_sum(shift[c], step[c] * box);
-    if (c == D - 1)
-      f(&offset);
-    else
-      step[++c] = -2;
-  }
+  std::array<int64_t, D> distance;
+  for (int c = 0; c < D; ++c) distance[c] = wrapping_sum(static_cast<int64_t>(centre_[i][c] - centre_[k][c]), shift[c]);
+  lattice_.images(distance, cutoff, [&](const std::array<int64_t, D> &image) {
+    std::array<int64_t, D> offset;
+    for (int c = 0; c < D; ++c) offset[c] = wrapping_sum(shift[c], image[c]);
+    f(&offset);
+  });
 }
 
 // f(k, offset) for every k (and image) that belongs into the list of i.
@@ -182,6 +157,8 @@ void Engine<D, Shift>::candidates(int32_t i, F &&f) {
   };
   if (cells_ == 0) {
     for (int32_t k = 0; k < n_; ++k) check(k);
+  } else if constexpr (Shift) {
+    search_images(i, f);
   } else {
     const int32_t found = search(i);
     for (int32_t e = 0; e < found; ++e) check(found_[e]);
@@ -255,10 +232,8 @@ void Engine<D, Shift>::recentre(int32_t i) {
   if (observer_) note_path(i);
   if (cells_ > 0) drop(i, cell_of(home_of(i)));
   Body<D> &b = body_[i];
-  for (int c = 0; c < D; ++c) {
-    if (Shift) b.x[c] &= (uint64_t{1} << 61) - 1;
-    centre_[i][c] = b.x[c];
-  }
+  if constexpr (Shift) lattice_.wrap(b.x);
+  for (int c = 0; c < D; ++c) centre_[i][c] = b.x[c];
   if (cells_ > 0) put(i, cell_of(home_of(i)));
   if (quenched_ && left_outer(i)) renew_outer(i);
   candidates(i, [&](int32_t k, const std::array<int64_t, D> *offset) { append(i, k, offset); });

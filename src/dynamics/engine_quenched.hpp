@@ -33,7 +33,10 @@ std::array<int64_t, D> Engine<D, Shift>::shift_of(int32_t i, const Outer &partne
   const uint64_t pair = quenched_->pair_key(std::min(a, b), std::max(a, b));
   const double sign = a < b ? scale : -scale;
   std::array<int64_t, D> shift;
-  for (int c = 0; c < D; ++c) shift[c] = std::llrint(sign * quenched_->component(pair, partner.attempt, c));
+  double s[D], x[D];
+  for (int c = 0; c < D; ++c) s[c] = quenched_->component(pair, partner.attempt, c);
+  lattice_.combine(s, x);
+  for (int c = 0; c < D; ++c) shift[c] = std::llrint(sign * x[c]);
   return shift;
 }
 
@@ -49,6 +52,14 @@ void Engine<D, Shift>::each_outer_partner(int32_t i, F &&f) const {
     if (b == a) continue;
     const Outer partner{internal_[b], next < end && redrawn_[next].k == b ? redrawn_[next++].attempt : 0};
     const double cutoff = outer_reach_[i] + outer_reach_[partner.k] + 2.0 * outer_safe_, cutoff2 = cutoff * cutoff;
+    if (!lattice_.cube()) {
+      std::array<int64_t, D> distance = shift_of(i, partner);
+      for (int c = 0; c < D; ++c)
+        distance[c] =
+            wrapping_sum(distance[c], static_cast<int64_t>(outer_centre_[i][c] - outer_centre_[partner.k][c]));
+      if (lattice_.reaches(distance, cutoff)) f(partner);
+      continue;
+    }
     const uint64_t pair = quenched_->pair_key(std::min(a, b), std::max(a, b));
     const double sign = a < b ? scale : -scale;
     double r2 = 0.0;
@@ -105,6 +116,11 @@ void Engine<D, Shift>::check_outer() {
 template <int D, bool Shift>
 bool Engine<D, Shift>::left_outer(int32_t i) const {
   constexpr int64_t box = int64_t{1} << 61;
+  if (!lattice_.cube()) {
+    std::array<int64_t, D> way;
+    for (int c = 0; c < D; ++c) way[c] = static_cast<int64_t>(centre_[i][c] - outer_centre_[i][c]);
+    return !lattice_.reaches(way, outer_safe_);
+  }
   double r2 = 0.0;
   for (int c = 0; c < D; ++c) {
     const int64_t x = (static_cast<int64_t>(centre_[i][c] - outer_centre_[i][c]) + box / 2) & (box - 1);

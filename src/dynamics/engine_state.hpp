@@ -30,18 +30,22 @@ double Engine<D, Shift>::worst_overlap() const {
 
 template <int D, bool Shift>
 void Engine<D, Shift>::write_state(Packing &p, double ahead) const {
-  const double now = now_ + ahead, factor = rate_ * now;
+  const double now = now_ + ahead, factor = rate_ * now, side = cell_of_packing_.side();
   for (int32_t i = 0; i < n_; ++i) {
     const size_t u = static_cast<size_t>(user_[i]);
     const Body<D> &b = body_[i];
+    Place x;
     for (int c = 0; c < D; ++c) {
-      uint64_t x = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now - b.time)));
-      if (Shift) x &= (uint64_t{1} << 61) - 1;
-      p.position[u * D + c] = wrap(static_cast<double>(x) * unit * box_, box_);
+      x[c] = b.x[c] + static_cast<uint64_t>(std::llrint(b.v[c] * (now - b.time)));
       p.velocity[u * D + c] = b.v[c] * unit;
     }
+    if constexpr (Shift) lattice_.wrap(x);
+    double *position = &p.position[u * D];
+    for (int c = 0; c < D; ++c)
+      position[c] = (Shift ? static_cast<double>(static_cast<int64_t>(x[c])) : static_cast<double>(x[c])) * unit * side;
+    cell_of_packing_.wrap(position);
     const int64_t radius = wrapping_sum(b.radius, std::llrint(static_cast<double>(b.radius) * factor + left_over_[i]));
-    if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(radius) * box_;
+    if (options_.growth > 0.0) p.diameter[u] = 2.0 * unit * static_cast<double>(radius) * side;
   }
 }
 

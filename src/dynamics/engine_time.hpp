@@ -12,10 +12,12 @@ std::vector<int32_t> curve_order(const Packing &p);
 
 template <int D, bool Shift>
 Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from)
-    : n_(static_cast<int32_t>(p.n())),
+    : Units<Shift>(p.cell),
+      lattice_(p.cell, Shift ? scale : 0x1p61),
+      n_(static_cast<int32_t>(p.n())),
       options_(o),
       kernel_(pair_kernel<D>(o.instruction_set)),
-      box_(p.cell.side()),
+      cell_of_packing_(p.cell),
       non_additivity_(p.non_additivity),
       reach_factor_(1.0 + std::max(0.0, p.non_additivity)),
       body_(p.n()),
@@ -43,7 +45,8 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     const size_t u = static_cast<size_t>(user_[i]);
     Body<D> &b = body_[i];
     for (int c = 0; c < D; ++c) {
-      b.x[c] = static_cast<uint64_t>(wrap(p.position[u * D + c] / p.cell.side(), 1.0) * scale);
+      const double x = p.position[u * D + c] / p.cell.side();
+      b.x[c] = static_cast<uint64_t>((p.cell.cube() ? wrap(x, 1.0) : x) * scale);
       b.v[c] = p.velocity[u * D + c] * scale;
     }
     b.time = 0.0;
@@ -60,8 +63,8 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     start_rate(o.growth * scale / (2.0 * mean_radius()));
     double largest = 0.0;
     for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
-    // A sphere touches its own image, or the largest contact distance reaches the box.
-    full_time_ = (0.5 * scale / (largest * reach_factor_) - 1.0) / rate_;
+    // A sphere touches its own image, or the largest contact distance reaches the shortest lattice vector.
+    full_time_ = (0.5 * scale * lattice_.shortest() / (largest * reach_factor_) - 1.0) / rate_;
     if (o.target_fraction < never) {
       target_radius_ = static_cast<double>(body_[0].radius) * std::pow(o.target_fraction / fraction, 1.0 / D);
       fraction_time_ = (target_radius_ / static_cast<double>(body_[0].radius) - 1.0) / rate_;

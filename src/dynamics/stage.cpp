@@ -210,8 +210,9 @@ int32_t Stage::go_on(const Listeners &listeners, double wall_end) {
 int32_t Stage::judge() {
   if (window_kinetic_integral_ <= 0.0 && window_virial_ > 0.0) return ++frozen_ > 20 ? JAM_STOP_STALLED : JAM_STOP_NONE;
   if (growing() && steady_ && pressure_ >= stage_.pressure) return JAM_STOP_PRESSURE;
-  // Gaps are about sigma / p. Below 40 units of the integer coordinates they are noise.
-  if (growing() && pressure_ > 1.0 && engine_->mean_diameter() / pressure_ < 40.0 * 0x1p-61) return JAM_STOP_PRECISION;
+  // Gaps are about sigma / p. Below 40 units of the coordinates they are noise.
+  if (growing() && pressure_ > 1.0 && engine_->mean_diameter() / pressure_ < 40.0 * engine_->resolution())
+    return JAM_STOP_PRECISION;
   return JAM_STOP_NONE;
 }
 

@@ -232,8 +232,6 @@ static void refused(void **state) {
   assert_int_equal(jam_create_in_cell(&o, NULL, 0, x, 4, &sigma, 1, &sys), JAM_E_NULL);
   assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_E_OVERLAP); /* in the unit square they are one */
   assert_int_equal(jam_create_in_cell(&o, tall, 4, x, 4, &sigma, 1, &sys), JAM_OK);
-  assert_int_equal(jam_run(sys, NULL, NULL), JAM_E_UNSUPPORTED);
-  assert_int_equal(jam_compress(sys, NULL, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_monte_carlo(sys, NULL, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_structure_factor(sys, 10.0, NULL, 0, NULL, 0, &rows), JAM_OK);
   const double squeeze[4] = {0.0, 0.0, 0.0, -0.5};

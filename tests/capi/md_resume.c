@@ -9,7 +9,8 @@
 
 static const char *path = "md_resume_checkpoint.bin";
 
-static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) {
+/* cell: its vectors (dim, dim), or NULL for the cube. */
+static jam_system *make_in(const double *cell, int32_t model, int32_t dim, int64_t n, double fraction) {
   jam_create_options o;
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
@@ -18,7 +19,9 @@ static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) 
   o.model = model;
   o.packing_fraction = fraction;
   o.masses = dim == 2 ? JAM_MASSES_VOLUME : JAM_MASSES_EQUAL;
-  if (dim == 2) {
+  if (cell) {
+    assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
+  } else if (dim == 2) {
     double diameters[200];
     int64_t k;
     for (k = 0; k < n; ++k) diameters[k] = k % 2 ? 1.0 : 1.4;
@@ -27,6 +30,10 @@ static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) 
     assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
   }
   return sys;
+}
+
+static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) {
+  return make_in(NULL, model, dim, n, fraction);
 }
 
 static void same(const jam_system *a, const jam_system *b) {
@@ -62,17 +69,23 @@ static int32_t after(const jam_progress *p, void *user) {
   return --*left < 0;
 }
 
+static const double monoclinic[9] = {1.0, 0.0, 0.0, 0.0, 1.3, 0.0, 0.4, 0.0, 0.8};
+
 /* Euclidean with lists, with images (few spheres), Mari-Kurchan, mixture with masses; diameter and density rates;
- * slowing down. */
+ * slowing down; a cell that is no cube, with cells of neighbours, with few spheres, Mari-Kurchan. */
 static const struct {
   int32_t model, dim;
   int64_t n;
   double fraction, growth, end, pressure;
   int32_t law;
-} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.05, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER},
-             {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
-             {JAM_MODEL_MK, 3, 100, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER},
-             {JAM_MODEL_EUCLID, 2, 120, 0.4, 2e-2, 2e-3, 1e4, JAM_GROWTH_DENSITY}};
+  const double *cell;
+} cases[] = {{JAM_MODEL_EUCLID, 3, 150, 0.05, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER, NULL},
+             {JAM_MODEL_EUCLID, 3, 6, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DIAMETER, NULL},
+             {JAM_MODEL_MK, 3, 100, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER, NULL},
+             {JAM_MODEL_EUCLID, 2, 120, 0.4, 2e-2, 2e-3, 1e4, JAM_GROWTH_DENSITY, NULL},
+             {JAM_MODEL_EUCLID, 3, 150, 0.05, 1e-2, 0, 1e4, JAM_GROWTH_DIAMETER, monoclinic},
+             {JAM_MODEL_EUCLID, 3, 10, 0.1, 2e-2, 0, 1e3, JAM_GROWTH_DENSITY, monoclinic},
+             {JAM_MODEL_MK, 3, 60, 1.5, 1e-2, 0, 1e3, JAM_GROWTH_DIAMETER, monoclinic}};
 enum { CASES = sizeof cases / sizeof cases[0] };
 
 static jam_compress_options options_of(int k) {
@@ -89,13 +102,13 @@ static void growth_goes_on_to_the_same_bits(void **state) {
   int k, with_file;
   (void)state;
   for (k = 0; k < CASES; ++k) {
-    jam_system *whole = make(cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
+    jam_system *whole = make_in(cases[k].cell, cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
     jam_compress_options c = options_of(k);
     jam_md_report report, part;
     report.struct_size = part.struct_size = sizeof report;
     assert_int_equal(jam_compress(whole, &c, &report), JAM_OK);
     for (with_file = 0; with_file < 2; ++with_file) {
-      jam_system *sys = make(cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
+      jam_system *sys = make_in(cases[k].cell, cases[k].model, cases[k].dim, cases[k].n, cases[k].fraction);
       jam_status status;
       int64_t collisions = 0;
       int stops = 0, left = 12;

@@ -9,6 +9,7 @@
 #include "core/rng.hpp"
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
+#include "naive_dynamics.hpp"
 
 extern "C" {
 
@@ -16,93 +17,11 @@ extern "C" {
 }
 
 using namespace jam;
+using namespace jamtest;
 
 namespace {
 
-Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed, double non_additivity = 0.0,
-                       int32_t model = JAM_MODEL_EUCLID) {
-  jam_create_options o = default_create_options();
-  o.dim = dim;
-  o.n = n;
-  o.seed = seed;
-  o.packing_fraction = fraction;
-  o.non_additivity = non_additivity;
-  o.model = model;
-  std::vector<double> diameters(n, 1.0);
-  for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
-  Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size());
-  Rng rng(seed, Stream::velocities, 1000000);
-  for (double &v : p.velocity) v = rng.normal();
-  p.has_velocity = true;
-  return p;
-}
-
 MdStage nve(double collisions_per_particle) { return {0.0, 0.0, 0.0, collisions_per_particle, 1e9}; }
-
-// Makes `collisions` on p by looking at every pair and image each time; diameters grow as sigma (1 + rate t).
-void naive(Packing &p, int collisions, long double rate) {
-  const int d = p.dim, n = static_cast<int>(p.n());
-  std::vector<long double> x(p.position.begin(), p.position.end()), v(p.velocity.begin(), p.velocity.end());
-  long double now = 0.0L;
-  int images = 1;
-  for (int c = 0; c < d; ++c) images *= 3;
-  for (int done = 0; done < collisions; ++done) {
-    long double best = 1e30L;
-    int bi = -1, bj = -1, bm = 0;
-    const auto vector = [&](int i, int j, int m, long double *r) {
-      for (int c = 0; c < d; ++c, m /= 3) {
-        r[c] = x[i * d + c] - x[j * d + c];
-        r[c] -= std::round(r[c]);
-        r[c] += m % 3 - 1;
-      }
-    };
-    for (int i = 0; i < n; ++i)
-      for (int j = i + 1; j < n; ++j)
-        for (int m = 0; m < images; ++m) {
-          long double r[8], rv = 0, vv = 0, rr = 0;
-          vector(i, j, m, r);
-          for (int c = 0; c < d; ++c) {
-            const long double w = v[i * d + c] - v[j * d + c];
-            rv += r[c] * w, vv += w * w, rr += r[c] * r[c];
-          }
-          const long double s0 = contact_distance<long double>(p, i, j), s = s0 * (1 + rate * now), g = s0 * rate;
-          const long double a = vv - g * g, b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
-          if (b >= 0 || disc < 0) continue;
-          const long double t = gap <= 0 ? 0 : gap / (std::sqrt(disc) - b);
-          if (t < best) best = t, bi = i, bj = j, bm = m;
-        }
-    assert_true(bi >= 0);
-    for (size_t k = 0; k < x.size(); ++k) x[k] += v[k] * best;
-    now += best;
-    // Positions are not wrapped: the image is the one found, nearest plus its shift.
-    long double r[8], rr = 0, rv = 0;
-    long double back[8];
-    for (int c = 0; c < d; ++c) back[c] = x[bi * d + c] - v[bi * d + c] * best - (x[bj * d + c] - v[bj * d + c] * best);
-    for (int c = 0, m = bm; c < d; ++c, m /= 3) {
-      r[c] = x[bi * d + c] - x[bj * d + c] - std::round(back[c]) + (m % 3 - 1);
-      rr += r[c] * r[c], rv += r[c] * (v[bi * d + c] - v[bj * d + c]);
-    }
-    const long double push = contact_distance<long double>(p, bi, bj) * rate - rv / std::sqrt(rr);
-    for (int c = 0; c < d; ++c) {
-      v[bi * d + c] += push * r[c] / std::sqrt(rr);
-      v[bj * d + c] -= push * r[c] / std::sqrt(rr);
-    }
-  }
-  for (size_t k = 0; k < x.size(); ++k) {
-    p.position[k] = wrap(static_cast<double>(x[k] - std::floor(x[k])), 1.0);
-    p.velocity[k] = static_cast<double>(v[k]);
-  }
-  for (double &s : p.diameter) s *= static_cast<double>(1 + rate * now);
-}
-
-double furthest(const Packing &a, const Packing &b) {
-  double worst = 0.0;
-  for (size_t k = 0; k < a.position.size(); ++k) {
-    const double x = a.position[k] - b.position[k];
-    worst = std::fmax(worst, std::fmax(std::fabs(x - std::round(x)), std::fabs(a.velocity[k] - b.velocity[k])));
-  }
-  return worst;
-}
 
 struct Case {
   int dim, n;

@@ -1,0 +1,116 @@
+// Event-driven dynamics that looks at every pair and image each time, in long double: the oracle of the engine.
+#pragma once
+#include <cmath>
+#include <vector>
+
+#include "core/create.hpp"
+#include "core/pair_rule.hpp"
+#include "core/rng.hpp"
+
+extern "C" {
+#include "test.h"
+}
+
+namespace jamtest {
+
+using namespace jam;
+
+// rows: of a cell (dim, dim), or NULL for the unit cube.
+inline Packing random_packing(int dim, int n, double fraction, double ratio, int64_t seed, double non_additivity = 0.0,
+                              int32_t model = JAM_MODEL_EUCLID, const double *rows = nullptr) {
+  jam_create_options o = default_create_options();
+  o.dim = dim;
+  o.n = n;
+  o.seed = seed;
+  o.packing_fraction = fraction;
+  o.non_additivity = non_additivity;
+  o.model = model;
+  std::vector<double> diameters(n, 1.0);
+  for (int i = 0; i < n; ++i) diameters[i] = std::pow(ratio, n > 1 ? static_cast<double>(i) / (n - 1) : 0.0);
+  Packing p = make_packing(o, nullptr, 0, diameters.data(), diameters.size(), rows);
+  Rng rng(seed, Stream::velocities, 1000000);
+  for (double &v : p.velocity) v = rng.normal();
+  p.has_velocity = true;
+  return p;
+}
+
+// Takes lattice vectors off r until no component is longer than half an edge.
+inline void to_brick(const Cell &cell, long double *r) {
+  for (int c = cell.dim() - 1; c >= 0; --c) {
+    const long double m = std::round(r[c] / cell.edge(c));
+    for (int k = 0; k <= c; ++k) r[k] -= m * cell.row(c)[k];
+  }
+}
+
+// Makes `collisions` on p; diameters grow as sigma (1 + rate t). Images lie up to `reach` cell vectors off the brick.
+inline void naive(Packing &p, int collisions, long double rate, int reach = 1) {
+  const int d = p.dim, n = static_cast<int>(p.n()), width = 2 * reach + 1;
+  // Lengths in box sides, so that velocities are what they are in the engine.
+  Cell cell = p.cell;
+  const long double side = cell.side();
+  std::vector<long double> x(p.position.begin(), p.position.end()), v(p.velocity.begin(), p.velocity.end());
+  for (long double &u : v) u *= side;
+  long double now = 0.0L;
+  int images = 1;
+  for (int c = 0; c < d; ++c) images *= width;
+  const auto image = [&](int m, long double *r) {
+    for (int c = 0; c < d; ++c, m /= width)
+      for (int k = 0; k <= c; ++k) r[k] += (m % width - reach) * static_cast<long double>(cell.row(c)[k]);
+  };
+  for (int done = 0; done < collisions; ++done) {
+    long double best = 1e30L, at[8] = {};
+    int bi = -1, bj = -1;
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j)
+        for (int m = 0; m < images; ++m) {
+          long double r[8], rv = 0, vv = 0, rr = 0;
+          for (int c = 0; c < d; ++c) r[c] = x[i * d + c] - x[j * d + c];
+          to_brick(cell, r);
+          image(m, r);
+          for (int c = 0; c < d; ++c) {
+            const long double w = v[i * d + c] - v[j * d + c];
+            rv += r[c] * w, vv += w * w, rr += r[c] * r[c];
+          }
+          const long double s0 = contact_distance<long double>(p, i, j), s = s0 * (1 + rate * now), g = s0 * rate;
+          const long double a = vv - g * g, b = rv - s * g, gap = rr - s * s, disc = b * b - a * gap;
+          if (b >= 0 || disc < 0) continue;
+          const long double t = gap <= 0 ? 0 : gap / (std::sqrt(disc) - b);
+          if (!(t < best)) continue;
+          best = t, bi = i, bj = j;
+          for (int c = 0; c < d; ++c) at[c] = r[c] + (v[i * d + c] - v[j * d + c]) * t;
+        }
+    assert_true(bi >= 0);
+    for (size_t k = 0; k < x.size(); ++k) x[k] += v[k] * best;
+    now += best;
+    long double rr = 0, rv = 0;
+    for (int c = 0; c < d; ++c) rr += at[c] * at[c], rv += at[c] * (v[bi * d + c] - v[bj * d + c]);
+    const long double push = contact_distance<long double>(p, bi, bj) * rate - rv / std::sqrt(rr);
+    for (int c = 0; c < d; ++c) {
+      v[bi * d + c] += push * at[c] / std::sqrt(rr);
+      v[bj * d + c] -= push * at[c] / std::sqrt(rr);
+    }
+  }
+  for (size_t k = 0; k < x.size(); ++k) {
+    p.position[k] = static_cast<double>(x[k]);
+    p.velocity[k] = static_cast<double>(v[k] / side);
+  }
+  wrap_positions(p);
+  for (double &s : p.diameter) s *= static_cast<double>(1 + rate * now);
+}
+
+inline double furthest(const Packing &a, const Packing &b) {
+  const int d = a.dim;
+  double worst = 0.0;
+  for (size_t i = 0; i < a.n(); ++i) {
+    long double r[8];
+    for (int c = 0; c < d; ++c) r[c] = a.position[i * d + c] - b.position[i * d + c];
+    to_brick(a.cell, r);
+    for (int c = 0; c < d; ++c) {
+      const auto x = static_cast<double>(std::fabs(r[c]));
+      worst = std::fmax(worst, std::fmax(x, std::fabs(a.velocity[i * d + c] - b.velocity[i * d + c])));
+    }
+  }
+  return worst;
+}
+
+}  // namespace jamtest

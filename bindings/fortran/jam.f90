@@ -331,7 +331,7 @@ module jam
     integer(c_int32_t) :: monodisperse = 0
     ! jam_masses
     integer(c_int32_t) :: masses = 0
-    ! jam_phase of the MD stage that was stopped early and can be resumed, or 0
+    ! jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
     integer(c_int32_t) :: paused = 0
     ! Delta of a non-additive mixture, 0 for additive diameters
     real(c_double) :: non_additivity = 0
@@ -1492,10 +1492,11 @@ module jam
     end function jam_compress
 
     ! Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-    ! and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
-    ! written under another name and then renamed. A run that goes on from it makes the same bits as one that never
-    ! stopped. Threads: const. Errors:
-    ! JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+    ! and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
+    ! step. The contact network and what was observed are not in it. The file is written under another name and then
+    ! renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
+    ! packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
+    ! JAM_E_IO, JAM_E_MEMORY. @since 0.1
     function jam_checkpoint_write(sys, path) &
         bind(c, name="jam_checkpoint_write") result(status)
       import

@@ -90,13 +90,21 @@ TABLE = {
         ),
         Option("pressure", "pressure", "P", "target of stages without :P (1e7)", 1e7),
         Option("no-md", "switch", "", "none"),
-        Option("checkpoint", "output", "FILE", "state of the dynamics, every minute and where they stop"),
+    ),
+    "A job that may be killed": (
+        Option(
+            "checkpoint",
+            "output",
+            "FILE",
+            "state of the dynamics or of the crunch, every minute and where they stop early",
+        ),
+        Option("checkpoint-every", "positive", "SECONDS", "between checkpoints (60)", 60.0),
         Option(
             "resume",
             "input",
             "FILE",
-            "go on from a checkpoint, to the same bits: the stage that was cut off, then those stages whose pressure lies "
-            "beyond",
+            "go on from a checkpoint. Dynamics: to the same bits, the stage that was cut off, then those stages whose "
+            "pressure lies beyond. A crunch: from the packing of its last step",
         ),
     ),
     "Crunch": (

@@ -402,10 +402,11 @@ JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the
 ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
 Threads: alone. @since 0.1"
 %feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
-written under another name and then renamed. A run that goes on from it makes the same bits as one that never
-stopped. Threads: const. Errors:
-JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
+and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
+step. The contact network and what was observed are not in it. The file is written under another name and then
+renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
+packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
+JAM_E_IO, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
 damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"

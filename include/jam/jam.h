@@ -244,8 +244,8 @@ typedef struct jam_info {
   int32_t model;           /* jam_model */
   int32_t monodisperse;    /* 1 when all diameters are equal */
   int32_t masses;          /* jam_masses */
-  int32_t paused;          /* jam_phase of the MD stage that was stopped early and can be resumed, or 0 */
-  double non_additivity;   /* Delta of a non-additive mixture, 0 for additive diameters */
+  int32_t paused;        /* jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch */
+  double non_additivity; /* Delta of a non-additive mixture, 0 for additive diameters */
 } jam_info;
 
 /* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -489,10 +489,11 @@ JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_rep
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
- * and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
- * written under another name and then renamed. A run that goes on from it makes the same bits as one that never
- * stopped. Threads: const. Errors:
- * JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
+ * and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
+ * step. The contact network and what was observed are not in it. The file is written under another name and then
+ * renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
+ * packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
+ * JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
 /* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
  * damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */

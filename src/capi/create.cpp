@@ -22,6 +22,7 @@ void jam_system::note_diameters() noexcept {
 void jam_system::commit(const Packing &result) noexcept {
   show(result);
   paused.reset();
+  crunch_paused = false;
 }
 
 void jam_system::show(const Packing &result) noexcept {
@@ -100,6 +101,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->memory_limit = src->memory_limit;
     sys->note_diameters();
     sys->sweeps = src->sweeps;
+    sys->crunch_paused = src->crunch_paused;
     if (src->runs) sys->runs = std::make_unique<Isoconfigurational>(*src->runs);
     if (src->paused) sys->paused = read_dynamics(sys->packing, write_dynamics(*src->paused));
     *out = sys.release();
@@ -126,7 +128,7 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
     full.monodisperse = sys->monodisperse;
     full.masses = p.masses;
     full.non_additivity = p.non_additivity;
-    full.paused = sys->paused ? sys->paused->phase() : 0;
+    full.paused = sys->paused ? sys->paused->phase() : sys->crunch_paused ? JAM_PHASE_CRUNCH : 0;
     give_struct(full, info);
     return JAM_OK;
   });

@@ -17,9 +17,9 @@ jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
 template <class F>
 jam_status with_step(const jam_system *sys, F &&f) noexcept {
   return guard_const(sys, [&]() -> jam_status {
-    if (!sys->step || !sys->step->shown)
+    if (!sys->crunching || !sys->crunching->step().shown)
       fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
-    return f(*sys->step);
+    return f(sys->crunching->step());
   });
 }
 }  // namespace
@@ -36,15 +36,16 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
     History history;
-    struct Show {  // callbacks see the step while crunch runs
-      const CrunchStep *&step;
-      ~Show() { step = nullptr; }
-    } show{sys->step};
-    sys->step = &history.step();
+    struct Show {  // callbacks see the steps while crunch runs
+      const History *&shown;
+      ~Show() { shown = nullptr; }
+    } show{sys->crunching};
+    sys->crunching = &history;
     CrunchResult result = crunch(sys->packing, full, sys->monitor, &history);
     check_packing(result.packing, JAM_E_SOLVER);  // else all stays as before
     // Also after a failure: the state reached is valid and nothing is lost.
     sys->commit(result.packing);
+    sys->crunch_paused = result.status == JAM_CANCELLED || result.status == JAM_LIMIT;
     sys->contacts = std::move(result.contacts);
     sys->report = result.report;
     sys->has_report = true;

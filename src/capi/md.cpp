@@ -119,10 +119,12 @@ jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
     const Dynamics *kept = sys->paused ? sys->paused.get() : sys->runs.get();
-    if (sys->live)
-      write_checkpoint(sys->live->current(), write_dynamics(*sys->live), path);
+    if (sys->crunching)
+      write_checkpoint(sys->crunching->reached(), {"", true}, path);
+    else if (sys->live)
+      write_checkpoint(sys->live->current(), {write_dynamics(*sys->live), false}, path);
     else
-      write_checkpoint(sys->packing, kept ? write_dynamics(*kept) : std::string(), path);
+      write_checkpoint(sys->packing, {kept ? write_dynamics(*kept) : std::string(), sys->crunch_paused}, path);
     return JAM_OK;
   });
 }
@@ -132,11 +134,12 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     need(path, "path");
     need(out, "out");
     auto sys = std::make_unique<jam_system>();
-    std::string stage;
-    sys->packing = read_checkpoint(path, stage);
+    Unfinished work;
+    sys->packing = read_checkpoint(path, work);
     settle_overlaps(sys->packing, sys->packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->note_diameters();
-    if (!stage.empty()) sys->paused = read_dynamics(sys->packing, std::move(stage));
+    sys->crunch_paused = work.crunch;
+    if (!work.stage.empty()) sys->paused = read_dynamics(sys->packing, std::move(work.stage));
     if (sys->paused && sys->paused->phase() == JAM_PHASE_ISOCONFIGURATIONAL)  // results, and perhaps more to make
       sys->runs.reset(static_cast<Isoconfigurational *>(sys->paused.release()));
     *out = sys.release();

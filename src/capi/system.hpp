@@ -21,8 +21,9 @@ struct jam_system {
   bool has_report = false;
   std::vector<jam::HistoryRow> history;  // valid when has_history
   bool has_history = false;
-  std::vector<jam::SoftRow> soft_history;  // of the last decompression; empty without one
-  const jam::CrunchStep *step = nullptr;   // of the crunch that runs
+  std::vector<jam::SoftRow> soft_history;   // of the last decompression; empty without one
+  const jam::History *crunching = nullptr;  // of the crunch that runs
+  bool crunch_paused = false;               // the last change of spheres was a crunch that did not reach its end
   jam::Monitor monitor;
   double memory_limit = jam::default_memory_limit();  // bytes that one call may take
   mutable jam::CallGate gate;

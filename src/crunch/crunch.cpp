@@ -81,15 +81,15 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
                     const CrunchHooks *hooks) {
   check_options(start, o);
   monitor.wall_time = o.wall_time;
+  History own_history;
+  const CrunchHooks no_hooks;
+  CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);
   if (monitor.log_fn && monitor.log_level >= JAM_LOG_INFO) {
     const jam_estimate e = estimate(start, o);
     monitor.log(JAM_LOG_INFO,
                 "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
                 e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
   }
-  History own_history;
-  const CrunchHooks no_hooks;
-  CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);
   try {
     run_phases(s);
     finish(s);

@@ -42,9 +42,8 @@ void History::begin(const Packing &start, bool details) {
   details_ = details;
   rows_.clear();
   rows_.reserve(64);
-  position_ = start.position;
-  diameter_ = start.diameter.front();
-  total_.assign(position_.size(), 0.0);
+  reached_ = start;
+  total_.assign(start.position.size(), 0.0);
   last_ = total_;
   seconds_ = 0.0, factorisations_ = 0;
   step_ = CrunchStep();
@@ -52,7 +51,8 @@ void History::begin(const Packing &start, bool details) {
 
 HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                            const double *displacement) {
-  for (size_t k = 0; k < last_.size(); ++k) last_[k] = displacement ? displacement[k] : now.position[k] - position_[k];
+  for (size_t k = 0; k < last_.size(); ++k)
+    last_[k] = displacement ? displacement[k] : now.position[k] - reached_.position[k];
   for (size_t i = 0; !displacement && i < now.n(); ++i) now.cell.nearest(&last_[i * static_cast<size_t>(now.dim)]);
   for (size_t k = 0; k < last_.size(); ++k) total_[k] += last_[k];
   HistoryRow row;
@@ -62,13 +62,13 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
   row[JAM_HISTORY_STEP_MAX] = step.largest, row[JAM_HISTORY_STEP_MSD] = step.mean_square;
   row[JAM_HISTORY_TOTAL_MAX] = total.largest, row[JAM_HISTORY_TOTAL_MSD] = total.mean_square;
   row[JAM_HISTORY_PHASE] = phase;
-  row[JAM_HISTORY_GAIN] = (now.diameter.front() - diameter_) / diameter_;
+  const double before = reached_.diameter.front();
+  row[JAM_HISTORY_GAIN] = (now.diameter.front() - before) / before;
   row[JAM_HISTORY_PHI] = packing_fraction(now);
   row[JAM_HISTORY_SECONDS] = seconds - seconds_;
   row[JAM_HISTORY_FACTORISATIONS] = row[JAM_HISTORY_ITERATIONS] = factorisations - factorisations_;
   rows_.push_back(row);
-  position_ = now.position;
-  diameter_ = now.diameter.front();
+  reached_ = now;
   seconds_ = seconds, factorisations_ = factorisations;
   if (details_) {
     step_.displacement = last_;

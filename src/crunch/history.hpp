@@ -34,8 +34,12 @@ class History {
                     const double *displacement = nullptr);
   // Mean squares of the last row over stable spheres alone: those with a contact.
   void over_stable(const std::vector<int32_t> &coordination, int dim, double unit);
+  // The packing at the last row: valid also while a step is being made.
+  const Packing &reached() const { return reached_; }
   // Did any sphere move, or grow, since the last row?
-  bool behind(const Packing &now) const { return now.position != position_ || now.diameter.front() != diameter_; }
+  bool behind(const Packing &now) const {
+    return now.position != reached_.position || now.diameter.front() != reached_.diameter.front();
+  }
   // The linear network of an LP before its step is made.
   void take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer);
 
@@ -48,8 +52,9 @@ class History {
  private:
   bool details_ = false;
   std::vector<HistoryRow> rows_;
-  std::vector<double> position_, total_, last_;  // at the last row; moved since begin(); moved in the last row
-  double diameter_ = 0.0, seconds_ = 0.0;
+  Packing reached_;
+  std::vector<double> total_, last_;  // moved since begin(); moved in the last row
+  double seconds_ = 0.0;
   int factorisations_ = 0;
   CrunchStep step_;
 };

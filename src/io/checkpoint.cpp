@@ -21,10 +21,12 @@ constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '4'};
 struct Header {
   char magic[8];
   int64_t n, seed, redrawn, stage;
-  int32_t dim, model, has_velocity, masses;  // has_velocity: 1, plus 2 where overlaps are allowed
+  int32_t dim, model, flags, masses;
   double mk_zeta, pressure, non_additivity;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];  // (dim, dim) cell vectors, the rest 0
 };
+
+constexpr int32_t flag_velocity = 1, flag_overlap_allowed = 2, flag_crunch = 4;
 
 uint64_t checksum(const char *data, size_t size) {
   uint64_t sum = 0x6a616d;
@@ -63,18 +65,19 @@ std::string slurp(const char *path) {
 
 }  // namespace
 
-void write_checkpoint(const Packing &p, const std::string &stage, const char *path) {
+void write_checkpoint(const Packing &p, const Unfinished &work, const char *path) {
   OutputFile file(path);
   Header h{};
   std::memcpy(h.magic, magic, sizeof magic);
   h.n = static_cast<int64_t>(p.n());
   h.seed = p.seed;
   h.redrawn = static_cast<int64_t>(p.mk_redrawn.size());
-  h.stage = static_cast<int64_t>(stage.size());
+  h.stage = static_cast<int64_t>(work.stage.size());
   h.masses = p.masses;
   h.dim = p.dim;
   h.model = p.model;
-  h.has_velocity = (p.has_velocity ? 1 : 0) | (p.overlap_allowed ? 2 : 0);
+  h.flags = (p.has_velocity ? flag_velocity : 0) | (p.overlap_allowed ? flag_overlap_allowed : 0) |
+            (work.crunch ? flag_crunch : 0);
   for (int k = 0; k < p.dim; ++k) std::copy(p.cell.row(k), p.cell.row(k) + p.dim, h.cell + k * p.dim);
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
@@ -85,13 +88,13 @@ void write_checkpoint(const Packing &p, const std::string &stage, const char *pa
   put(text, p.diameter);
   put(text, p.velocity);
   put(text, p.mk_redrawn);
-  text += stage;
+  text += work.stage;
   const uint64_t sum = checksum(text.data(), text.size());
   text.append(reinterpret_cast<const char *>(&sum), sizeof sum);
   file.commit();
 }
 
-Packing read_checkpoint(const char *path, std::string &stage) {
+Packing read_checkpoint(const char *path, Unfinished &work) {
   const std::string all = slurp(path);
   Header h{};
   if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0)
@@ -117,21 +120,23 @@ Packing read_checkpoint(const char *path, std::string &stage) {
   p.mk_zeta = h.mk_zeta;
   p.pressure = h.pressure;
   p.non_additivity = h.non_additivity;
-  p.has_velocity = (h.has_velocity & 1) != 0;
-  p.overlap_allowed = (h.has_velocity & 2) != 0;
+  p.has_velocity = (h.flags & flag_velocity) != 0;
+  p.overlap_allowed = (h.flags & flag_overlap_allowed) != 0;
+  work.crunch = (h.flags & flag_crunch) != 0;
   const char *at = all.data() + sizeof h;
   const size_t n = static_cast<size_t>(h.n), d = static_cast<size_t>(h.dim);
   take(at, p.position, n * d);
   take(at, p.diameter, n);
   take(at, p.velocity, n * d);
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
-  stage.assign(at, static_cast<size_t>(h.stage));
+  work.stage.assign(at, static_cast<size_t>(h.stage));
   check_dim(h.dim);
   reduce_cell(h.dim, h.cell);  // for its checks
   p.cell = Cell::from_triangle(h.dim, h.cell);
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
-              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0);
+              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0) &&
+              !(work.crunch && h.stage > 0);
   for (int r = 0; r < h.dim; ++r) {
     good = good && h.cell[r * (h.dim + 1)] > 0.0;
     for (int c = r + 1; c < h.dim; ++c) good = good && h.cell[r * h.dim + c] == 0.0;

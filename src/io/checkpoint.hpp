@@ -6,8 +6,12 @@
 
 namespace jam {
 
-// stage: bytes of a paused stage, or empty.
-void write_checkpoint(const Packing &p, const std::string &stage, const char *path);
-Packing read_checkpoint(const char *path, std::string &stage);
+// What was under way: one of them, or nothing.
+struct Unfinished {
+  std::string stage;    // bytes of a paused stage of dynamics
+  bool crunch = false;  // the packing is a state that a crunch went through
+};
+void write_checkpoint(const Packing &p, const Unfinished &work, const char *path);
+Packing read_checkpoint(const char *path, Unfinished &work);
 
 }  // namespace jam

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -171,6 +172,19 @@ class Copies(unittest.TestCase):
             self.check_same(a, c)
         with self.assertRaises(jam.errors.FormatError):
             jam.System.from_checkpoint(__file__)
+
+    def test_crunch_keeps_checkpoints(self):
+        s = jam.System.random(n=100, dim=3, seed=1)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "crunch")
+            s.crunch(checkpoint=file, checkpoint_every=0, on_step=lambda step: None, progress=lambda p: False)
+            self.assertTrue(s.report.jammed)
+            amid = jam.System.from_checkpoint(file)
+            self.assertEqual(amid.info.paused, jam.Phase.CRUNCH)
+            self.assertTrue(amid.crunch().jammed)
+            amid = jam.System.random(n=100, dim=3, seed=1)
+            amid.crunch(checkpoint=file, progress=lambda p: True)
+            self.assertEqual(jam.System.from_checkpoint(file).packing_fraction, amid.packing_fraction)
 
     def test_pickle_carries_results_until_the_next_change(self):
         a = jam.System.random(n=40, dim=2, seed=2)

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import pty
+import random
 import re
 import signal
 import subprocess
@@ -372,6 +373,30 @@ class JamPack(unittest.TestCase):
         report = self.report("--n", 1024, "--no-md", "--wall-time", 0.5, status=1)
         self.assertLess(time.monotonic() - began, 20)
         self.assertEqual(report["stop_reason"], "wall_time")
+
+    def test_a_killed_crunch_goes_on(self):
+        """Killed at random moments: the checkpoint is whole each time, and what follows it ends jammed."""
+        kept, job = self.dir / "state.bin", ["--n", "500", "--growth", "1e-2:500", "--quiet"]
+        self.report(*job, "--no-crunch", "--checkpoint", kept)
+        start, moments, changed = kept.read_bytes(), random.Random(1), 0
+        whole = self.report(*job, "--resume", kept)
+        for _ in range(12):
+            before = kept.read_bytes()
+            often = ["--resume", kept, "--checkpoint", kept, "--checkpoint-every", "0.01"]
+            with subprocess.Popen([program, *job, *map(str, often)]) as process:
+                time.sleep(moments.uniform(0.05, 1.0))
+                process.kill()
+            self.assertEqual(self.report("--resume", kept, "--no-crunch", "--no-md")["n"], 500)
+            changed += kept.read_bytes() != before
+        self.assertGreater(changed, 0)
+        self.assertNotEqual(kept.read_bytes(), start)
+        last = self.report(*job, "--resume", kept)
+        self.assertTrue(last["jammed"])
+        self.assertLess(last["force_residual"], 1e-10)
+        self.assertEqual(last["collisions"], 0)  # dynamics are not made again
+        self.assertGreater(last["packing_fraction"], 0.99 * whole["packing_fraction"])
+        for part in self.dir.glob("*.part-*"):  # of a kill amid a write, which left the checkpoint as it was
+            part.unlink()
 
     def test_ctrl_c_keeps_the_state(self):
         out = self.dir / "p.xyz"

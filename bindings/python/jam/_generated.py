@@ -356,7 +356,7 @@ class Info:
     model: jam_model
     monodisperse: 1 when all diameters are equal
     masses: jam_masses
-    paused: jam_phase of the MD stage that was stopped early and can be resumed, or 0
+    paused: jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
     non_additivity: Delta of a non-additive mixture, 0 for additive diameters"""
     dim: int
     n: int

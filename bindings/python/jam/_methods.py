@@ -37,8 +37,10 @@ class Methods:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
         model, and a stage that was stopped early or runs now.
 
-        The contact network and what was observed are not in it. The file is written under another name and then
-        renamed. A run that goes on from it makes the same bits as one that never stopped.
+        While a crunch runs, its callback writes the packing of the last step. The contact network and what was
+        observed are not in it. The file is written under another name and then renamed. Dynamics that go on from it
+        make the same bits as those that never stopped. A crunch begins anew from the packing that it had reached: it
+        ends jammed, not always with the same bits.
 
         Parameters
         ----------

@@ -54,11 +54,14 @@ OPTIONS = (
         'target of stages without :P (1e7)'),
     ('no-md', 'switch', '', None, (0, 0), (), False,
         'none'),
+    # A job that may be killed
     ('checkpoint', 'output', 'FILE', None, (0, 0), (), False,
-        'state of the dynamics, every minute and where they stop'),
+        'state of the dynamics or of the crunch, every minute and where they stop early'),
+    ('checkpoint-every', 'positive', 'SECONDS', 60.0, (0, 0), (), False,
+        'between checkpoints (60)'),
     ('resume', 'input', 'FILE', None, (0, 0), (), False,
-        'go on from a checkpoint, to the same bits: the stage that was cut off, then those stages whose '
-        'pressure lies beyond'),
+        'go on from a checkpoint. Dynamics: to the same bits, the stage that was cut off, then those '
+        'stages whose pressure lies beyond. A crunch: from the packing of its last step'),
     # Crunch
     ('method', 'choice', '', 'barrier', (0, 0), ('barrier', 'sequential-lp'), False,
         'the quench: barrier path (default), or the published sequence of linear programs alone'),

@@ -1,6 +1,8 @@
 """What moves the spheres: dynamics, growth, the crunch; and how to stop it."""
 from __future__ import annotations
 
+import os
+import time
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
@@ -108,7 +110,13 @@ class Verbs(Observing):
         return report
 
     def crunch(
-        self, *, progress: Any = None, on_step: Callable[[Step], Any] | None = None, **options: Any
+        self,
+        *,
+        progress: Any = None,
+        on_step: Callable[[Step], Any] | None = None,
+        checkpoint: str | os.PathLike | None = None,
+        checkpoint_every: float = 60.0,
+        **options: Any,
     ) -> CrunchReport:
         """Moves the spheres to their jamming point and certifies the result.
 
@@ -117,6 +125,11 @@ class Verbs(Observing):
         on_step : callable(Step), optional
             Gets every step with its displacements and linear network. Each LP is then solved in full, which is slower.
             A true answer stops the call.
+        checkpoint : path-like, optional
+            Name of a file that gets the packing of the last step while the call runs. After a kill,
+            System.from_checkpoint(checkpoint).crunch() goes on from there. It ends jammed, not always with the same bits.
+        checkpoint_every : float
+            Seconds between checkpoints. Default 60.
 
         Returns
         -------
@@ -131,20 +144,33 @@ class Verbs(Observing):
         >>> report.stop_reason.name, report.force_residual < 1e-10
         ('CONVERGED', True)
         """
+        user = reporter(progress)
+        told: Callable[[Any], bool] | None = user
         if on_step is not None:
-            user = reporter(progress)
-            try:
-                return self._verb(
-                    "jam_crunch",
-                    "jam_crunch_options",
-                    "jam_crunch_report",
-                    self._stepper(on_step, user),
-                    {**options, "steps": 1},
-                )
-            finally:
-                if hasattr(user, "close"):
-                    user.close()
-        return self._verb("jam_crunch", "jam_crunch_options", "jam_crunch_report", progress, options or None)
+            told, options = self._stepper(on_step, told), {**options, "steps": 1}
+        if checkpoint is not None:
+            told = self._keeper(os.fspath(checkpoint), checkpoint_every, told)
+        try:
+            report = self._verb("jam_crunch", "jam_crunch_options", "jam_crunch_report", told, options or None)
+        finally:
+            if hasattr(user, "close"):
+                user.close()
+        if checkpoint is not None and report.status in (StatusCode.CANCELLED, StatusCode.LIMIT):
+            self.call("checkpoint_write", os.fspath(checkpoint))
+        return report
+
+    def _keeper(self, path: str, every: float, told: Callable[[Any], Any] | None) -> Callable[[Any], bool]:
+        """A progress callable that writes a checkpoint now and then."""
+        kept = time.monotonic()
+
+        def on_progress(p: Any) -> bool:
+            nonlocal kept
+            if time.monotonic() - kept >= every:
+                kept = time.monotonic()
+                raw.jam_checkpoint_write(self.handle, path)
+            return bool(told(p)) if told else False
+
+        return on_progress
 
     def isoconfigurational(
         self,

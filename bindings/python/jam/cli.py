@@ -128,12 +128,14 @@ class _Work:
         return max(1e-3, self.deadline - time.monotonic())
 
     def stage(self, verb: str, **options: Any) -> int:
-        """With --checkpoint in slices of a minute: they cost nothing, and a killed job goes on from the last one."""
+        """With --checkpoint in slices: they cost nothing, and a killed job goes on from the last one."""
         o, out = self.o, self.out
         while True:
             try:
                 md = getattr(self.system, verb)(
-                    progress=self.progress, wall_time=min(60.0, self.left()) if o.checkpoint else self.left(), **options
+                    progress=self.progress,
+                    wall_time=min(o.checkpoint_every if o.checkpoint else math.inf, self.left()),
+                    **options,
                 )
             finally:
                 if o.checkpoint:
@@ -152,7 +154,9 @@ class _Work:
         if not o.no_md and (o.growth or not o.input):
             chosen = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][: 2 if o.pressure > 500 else 1]
             steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in chosen]
-        if o.resume:  # what the checkpoint was in the middle of; then the stages that lead beyond its pressure
+        if o.resume:  # what the checkpoint was in the middle of; then the stages that lead beyond its pressure, or none
+            if self.system.info.paused == Phase.CRUNCH:
+                return []
             paused = {Phase.RUN: "run", Phase.COMPRESS: "compress"}.get(self.system.info.paused)
             own = {"collisions_per_particle": o.nve} if paused == "run" and o.nve > 0 else {}
             steps = [(paused, {"resume": 1, **own})] * bool(paused) + steps
@@ -180,6 +184,8 @@ class _Work:
                 strain=o.strain,
                 lp_solver=o.lp,
                 threads=o.threads,
+                checkpoint=o.checkpoint,
+                checkpoint_every=o.checkpoint_every,
             )
             out["protocol"].append({"stage": "crunch", "method": method, "strain": o.strain})
             status, out["crunch"], out["stop_reason"] = int(r.status), r, r.stop_reason.name.lower()

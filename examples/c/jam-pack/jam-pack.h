@@ -39,15 +39,18 @@ typedef struct outcome {
   double seconds_md;
 } outcome;
 
-/* progress.c: lines on stderr, rewritten in place on a terminal, every ten seconds elsewhere; and the log. */
+/* progress.c: lines on stderr, rewritten in place on a terminal, every ten seconds elsewhere; the log; checkpoints. */
 typedef struct terminal {
   const char *stage;
-  double begin, told; /* seconds on the clock of seconds_now */
+  double begin, told, kept; /* seconds on the clock of seconds_now: of the job, the last line, the last checkpoint */
   int is_terminal;
   FILE *log;
+  const options *o;
+  const jam_system *sys;
 } terminal;
 double seconds_now(void);
 int start_progress(terminal *t, const options *o, jam_system *sys);
+void write_checkpoint(const jam_system *sys, const options *o);
 int end_progress(terminal *t, const options *o);
 
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */

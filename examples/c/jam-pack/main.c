@@ -29,16 +29,15 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-/* With --checkpoint a stage runs in slices of a minute: they cost nothing, and a killed job goes on from the last one.
- */
+/* With --checkpoint a stage runs in slices: they cost nothing, and a killed job goes on from the last one. */
 static double slice(const options *o, double deadline) {
   const double left = deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3;
-  return o->checkpoint && left > 60 ? 60 : left;
+  return o->checkpoint && left > o->checkpoint_every ? o->checkpoint_every : left;
 }
 
 static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status,
                    const jam_md_report *md) {
-  if (o->checkpoint && status >= 0 && jam_checkpoint_write(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
+  if (status >= 0) write_checkpoint(sys, o);
   return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 &&
          !interrupted;
 }
@@ -79,15 +78,18 @@ static jam_status run_stage(jam_system *sys, const options *o, const stage *s, d
   return status;
 }
 
-/* What a checkpoint was in the middle of; then the stages that lead beyond its pressure are left. */
-static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, double deadline, outcome *result) {
+/* What a checkpoint was in the middle of; then the stages that lead beyond its pressure are left, or the crunch alone.
+ */
+static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, double deadline, outcome *result,
+                                int *stages_left) {
   jam_info info;
   info.struct_size = sizeof info;
   jam_info_get(sys, &info);
+  if (info.paused == JAM_PHASE_CRUNCH) *stages_left = 0;
   t->stage = "resumed stage";
   result->pressure = info.pressure;
   if (info.paused == JAM_PHASE_RUN) return run_nve(sys, o, 1, deadline, result);
-  return info.paused ? run_stage(sys, o, NULL, deadline, result) : JAM_OK;
+  return info.paused && *stages_left ? run_stage(sys, o, NULL, deadline, result) : JAM_OK;
 }
 
 static jam_status run_crunch(jam_system *sys, const options *o, double wall_time, outcome *result) {
@@ -102,6 +104,7 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
   result->crunch.struct_size = sizeof result->crunch;
   if (status >= 0) status = jam_crunch(sys, &crunch, &result->crunch);
   result->has_crunch = status >= 0;
+  if (status == JAM_CANCELLED || status == JAM_LIMIT) write_checkpoint(sys, o);
   return status;
 }
 
@@ -121,15 +124,15 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   const double deadline = t->begin + o->wall_time;
   char name[64] = "NVE";
   jam_status status = JAM_OK;
-  int k;
+  int k, stages_left = o->given.stage_count;
 #define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
   t->stage = name;
   if (o->resume)
-    status = finish_paused(sys, o, t, deadline, result);
+    status = finish_paused(sys, o, t, deadline, result, &stages_left);
   else if (o->nve > 0)
     status = run_nve(sys, o, 0, deadline, result);
   t->stage = name;
-  for (k = 0; k < o->given.stage_count && !ends_job(status); ++k) {
+  for (k = 0; k < stages_left && !ends_job(status); ++k) {
     if (o->resume && o->given.stages[k].pressure <= result->pressure) continue;
     snprintf(name, sizeof name, "growth %g", o->given.stages[k].growth);
     status = run_stage(sys, o, &o->given.stages[k], deadline, result);
@@ -174,7 +177,7 @@ static int write_all(jam_system *sys, const options *o, outcome *result) {
 int main(int argc, char **argv) {
   options o;
   outcome result;
-  terminal t = {"start", seconds_now(), 0, 0, NULL};
+  terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
   int bad;

@@ -21,6 +21,7 @@ typedef struct options {
   double pressure;
   int no_md;
   const char *checkpoint;
+  double checkpoint_every;
   const char *resume;
   int64_t method;
   int64_t strain;
@@ -85,6 +86,7 @@ static const option_row table[] = {
     {"--pressure", TAKE_PRESSURE, offsetof(options, pressure), 0, 0, NULL, 0},
     {"--no-md", TAKE_SWITCH, offsetof(options, no_md), 0, 0, NULL, 0},
     {"--checkpoint", TAKE_OUTPUT, offsetof(options, checkpoint), 0, 0, NULL, 0},
+    {"--checkpoint-every", TAKE_POSITIVE, offsetof(options, checkpoint_every), 0, 0, NULL, 0},
     {"--resume", TAKE_INPUT, offsetof(options, resume), 0, 0, NULL, 0},
     {"--method", TAKE_CHOICE, offsetof(options, method), 0, 0, "barrier sequential-lp", 0},
     {"--strain", TAKE_CHOICE, offsetof(options, strain), 0, 0, "none edges tilts free", 0},
@@ -117,6 +119,7 @@ static const options defaults = {
     .box = 1.0,
     .nve = 0.0,
     .pressure = 10000000.0,
+    .checkpoint_every = 60.0,
     .method = 0,
     .strain = 0,
     .lp = 0,
@@ -159,9 +162,14 @@ static const char *const help[] = {
     "                         3e-3 up to --pressure",
     "  --pressure P           target of stages without :P (1e7)",
     "  --no-md                none",
-    "  --checkpoint FILE      state of the dynamics, every minute and where they stop",
-    "  --resume FILE          go on from a checkpoint, to the same bits: the stage that was cut",
-    "                         off, then those stages whose pressure lies beyond",
+    "A job that may be killed",
+    "  --checkpoint FILE      state of the dynamics or of the crunch, every minute and where they",
+    "                         stop early",
+    "  --checkpoint-every SECONDS",
+    "                         between checkpoints (60)",
+    "  --resume FILE          go on from a checkpoint. Dynamics: to the same bits, the stage that",
+    "                         was cut off, then those stages whose pressure lies beyond. A",
+    "                         crunch: from the packing of its last step",
     "Crunch",
     "  --method barrier|sequential-lp",
     "                         the quench: barrier path (default), or the published sequence of",

@@ -14,9 +14,22 @@ double seconds_now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+void write_checkpoint(const jam_system *sys, const options *o) {
+  if (o->checkpoint && jam_checkpoint_write(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
+}
+
+/* A crunch cannot be cut into slices as dynamics can: its checkpoints are written while it runs. */
+static void keep_crunch(terminal *t, const jam_progress *p, double now) {
+  if ((p->phase != JAM_PHASE_CRUNCH && p->phase != JAM_PHASE_POLISH) || now - t->kept < t->o->checkpoint_every) return;
+  t->kept = now;
+  write_checkpoint(t->sys, t->o);
+}
+
 static int32_t show_progress(const jam_progress *p, void *user) {
   terminal *t = user;
   const double now = seconds_now();
+  keep_crunch(t, p, now);
+  if (t->o->quiet) return 0;
   if (!t->is_terminal && now - t->told < seconds_between_lines) return 0;
   t->told = now;
   if (t->is_terminal) fputs("\r\033[K", stderr);
@@ -41,7 +54,9 @@ static void write_log(int32_t level, const char *line, void *user) {
 int start_progress(terminal *t, const options *o, jam_system *sys) {
   t->is_terminal = isatty(STDERR_FILENO);
   t->told = t->begin;
-  if (!o->quiet) jam_set_progress(sys, show_progress, t);
+  t->o = o;
+  t->sys = sys;
+  if (!o->quiet || o->checkpoint) jam_set_progress(sys, show_progress, t);
   if (!o->log) return 0;
   t->log = strcmp(o->log, "-") ? fopen(o->log, "w") : stdout;
   if (t->log) return jam_set_log(sys, write_log, JAM_LOG_INFO, t) < 0;

@@ -311,7 +311,7 @@ mutable struct jam_info
     model::Int32  # jam_model
     monodisperse::Int32  # 1 when all diameters are equal
     masses::Int32  # jam_masses
-    paused::Int32  # jam_phase of the MD stage that was stopped early and can be resumed, or 0
+    paused::Int32  # jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
     non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
     jam_info() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -1109,10 +1109,11 @@ end
 
 """
 Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-and a stage that was stopped early or runs now. The contact network and what was observed are not in it. The file is
-written under another name and then renamed. A run that goes on from it makes the same bits as one that never
-stopped. Threads: const. Errors:
-JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
+step. The contact network and what was observed are not in it. The file is written under another name and then
+renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
+packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
+JAM_E_IO, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_write(sys, path)
     return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)

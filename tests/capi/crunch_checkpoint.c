@@ -1,0 +1,121 @@
+/* Checkpoints that the callback of a crunch writes: each is a valid packing, and a crunch goes on from each. */
+#include <stdio.h>
+#include <string.h>
+
+#include "test.h"
+
+#include "jam/jam.h"
+
+static const char *path = "crunch_checkpoint.bin";
+
+typedef struct keeper {
+  const jam_system *sys;
+  int written, wanted; /* checkpoints so far; the one to keep, 0: the last */
+  double phi;          /* of the callback's record then */
+} keeper;
+
+static int32_t keep(const jam_progress *p, void *user) {
+  keeper *k = user;
+  if (k->wanted && k->written == k->wanted) return 0;
+  assert_int_equal(jam_checkpoint_write(k->sys, path), JAM_OK);
+  ++k->written;
+  k->phi = p->packing_fraction;
+  return 0;
+}
+
+static jam_system *start(double cell) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 100, o.packing_fraction = 0.3, o.seed = 5;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  if (cell != 0.0) {
+    const double strain[9] = {0, cell, 0, 0, 0, 0, 0, 0, 0};
+    assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
+    assert_int_equal(jam_strain(sys, strain, 9), JAM_OK);
+  }
+  return sys;
+}
+
+static jam_crunch_report crunch(jam_system *sys, int32_t steps, jam_status expected) {
+  jam_crunch_options o;
+  jam_crunch_report r;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  jam_crunch_options_init(&o, sizeof o);
+  o.steps = steps;
+  assert_int_equal(jam_crunch(sys, &o, &r), expected);
+  return r;
+}
+
+static jam_info info_of(const jam_system *sys) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  return info;
+}
+
+/* Of the checkpoint that the n-th callback wrote: what it holds, and where a crunch from it ends. */
+static double go_on_from(int n, double cell, double *phi) {
+  jam_system *sys = start(cell), *again = NULL;
+  const double before = info_of(sys).packing_fraction;
+  keeper k = {sys, 0, n, 0.0};
+  jam_crunch_report whole, rest;
+  jam_info info;
+  assert_int_equal(jam_set_progress(sys, keep, &k), JAM_OK);
+  whole = crunch(sys, 1, JAM_OK);
+  assert_true(k.written == n || !n);
+  if (jam_checkpoint_read(path, &again) < 0) fail_msg("checkpoint %d: %s", n, jam_last_error()); /* no overlap */
+  info = info_of(again);
+  assert_int_equal(info.paused, JAM_PHASE_CRUNCH);
+  assert_true(info.packing_fraction > before && info.packing_fraction < whole.packing_fraction * (1.0 + 1e-12));
+  assert_true(info.packing_fraction > k.phi * (1.0 - 1e-12)); /* the step that was told, not the one before */
+  rest = crunch(again, 0, JAM_OK);
+  assert_true(rest.jammed && rest.packing_fraction > info.packing_fraction * (1.0 - 1e-12));
+  assert_int_equal(info_of(again).paused, 0);
+  jam_destroy(again);
+  jam_destroy(sys);
+  *phi = rest.packing_fraction;
+  return whole.packing_fraction;
+}
+
+static void each_one_goes_on(void **state) {
+  int n;
+  double phi = 0.0, whole;
+  (void)state;
+  for (n = 1; n < 40; n += 6) go_on_from(n, 0.0, &phi);
+  go_on_from(9, 0.3, &phi); /* a sheared cell */
+  whole = go_on_from(0, 0.0, &phi);
+  assert_true(phi > whole * (1.0 - 1e-10) && phi < whole * (1.0 + 1e-10)); /* at its end the same packing */
+  remove(path);
+}
+
+static int32_t stop(const jam_progress *p, void *user) {
+  (void)user;
+  return p->factorisations > 5;
+}
+
+/* The handle itself, its copies and its checkpoints know of a crunch that was stopped, until spheres change. */
+static void a_stopped_crunch_is_known(void **state) {
+  jam_system *sys = start(0.0), *copy = NULL, *again = NULL;
+  (void)state;
+  assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
+  crunch(sys, 1, JAM_CANCELLED);
+  assert_int_equal(info_of(sys).paused, JAM_PHASE_CRUNCH);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  remove(path);
+  assert_int_equal(info_of(copy).paused, JAM_PHASE_CRUNCH);
+  assert_int_equal(info_of(again).paused, JAM_PHASE_CRUNCH);
+  assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
+  assert_int_equal(info_of(sys).paused, 0);
+  jam_destroy(again);
+  jam_destroy(copy);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_one_goes_on), cmocka_unit_test(a_stopped_crunch_is_known)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -85,6 +85,8 @@ const Scene scenes[] = {
     {"d5_4096", 5, 4096, 0.05, 0.15, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"d8_512", 8, 512, 0.004, 0.01, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"dilute_16384", 3, 16384, 0.05, 0.1, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
+    {"changeover_1024", 3, 1024, 0.1, 0.225, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
+    {"changeover_16384", 3, 16384, 0.1, 0.225, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"mixture_4096", 3, 4096, 0.25, 0.5, 1.4, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"mixture10_2000", 3, 2000, 0.2, 0.5, 10.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"mk_1024", 3, 1024, 0.1, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},

@@ -1,0 +1,53 @@
+"""Every block of the guide's tutorials runs.      usage: test_tutorials.py ROOT BUILD"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT, BUILD = (Path(x).resolve() for x in (sys.argv.pop(1), sys.argv.pop(1)))
+PAGE = ROOT / "bindings" / "docs" / "tutorials.md"
+FILES = {"c": "program.c", "fortran": "program.f90"}
+# As of an installed library: what pkg-config would say of the build tree.
+PKG_CONFIG = f"""#!/bin/sh
+[ "$3" = jam ] || fortran=-ljam_fortran
+echo -I{ROOT}/include -I{BUILD}/fortran -L{BUILD} -L{BUILD}/bindings -Wl,-rpath,{BUILD} $fortran -ljam
+"""
+
+
+def sections():
+    for part in re.split(r"^## ", PAGE.read_text(encoding="utf-8"), flags=re.M)[1:]:
+        yield part.splitlines()[0], re.findall(r"^```(\w+)\n(.*?)^```$", part, flags=re.M | re.S)
+
+
+class Tutorials(unittest.TestCase):
+    def test_all_kinds_of_users_are_there(self):
+        self.assertEqual(len(list(sections())), 7)
+        self.assertEqual({kind for _, blocks in sections() for kind, _ in blocks}, {"python", "c", "fortran", "sh"})
+
+    def test_blocks_run(self):
+        for title, blocks in sections():
+            with self.subTest(title), tempfile.TemporaryDirectory() as folder:
+                if "fortran" in dict(blocks) and not (BUILD / "fortran" / "jam.mod").exists():
+                    self.skipTest("built without Fortran")
+                for kind, text in blocks:
+                    self.run_block(kind, text, Path(folder))
+
+    def run_block(self, kind, text, folder):
+        (folder / "bin").mkdir(exist_ok=True)
+        stand_in = folder / "bin" / "pkg-config"
+        stand_in.write_text(PKG_CONFIG)
+        stand_in.chmod(0o755)
+        if kind in FILES:
+            (folder / FILES[kind]).write_text(text)
+            return
+        environment = dict(os.environ, PATH=f"{folder}/bin:{BUILD}:{os.environ['PATH']}")
+        command = [sys.executable, "-c", text] if kind == "python" else ["sh", "-eu", "-c", text]
+        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, text + done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

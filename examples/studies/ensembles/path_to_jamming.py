@@ -158,7 +158,7 @@ def main():
     p.add_argument("--seeds", type=int, help="packings (small 3, large 20)")
     p.add_argument("--kappas", type=float, nargs="+", help="radius rates (small 1e-3 3e-4, large 3e-4 1e-4 3e-5 1e-5)")
     o = p.parse_args()
-    r = Results(o, "path_to_jamming")
+    r = Results(o, "path_to_jamming" + ("_large" if o.large else ""))
     figure, axes = plt.subplots(2, 4, figsize=(17, 8))
     n, found = kept_paths(o)
     for k, (kappa, pressures, made) in enumerate(found):

@@ -438,7 +438,7 @@ preliminary run and then frozen. After soft spheres the system allows overlaps, 
 numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
 tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
 JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
-JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_isoconf_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_isoconfigurational "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
 is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:

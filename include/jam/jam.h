@@ -23,7 +23,7 @@
  *   positive diagonal. A cell given in another form is reduced, and rotated where it must
  *   be. The spheres rotate with it.
  * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
- * - Monte Carlo needs a cube, and so does the plain text format. All else works in any cell.
+ * - The plain text format holds cubes alone. All else works in any cell.
  *
  * Arrays
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
@@ -166,7 +166,7 @@ JAM_API const char *jam_last_error(void);
 
 /* ------------------------------------------------------------------ the system */
 
-/* N spheres in a periodic cube; opaque. Made by jam_create, jam_read or jam_copy. @since 0.1 */
+/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read or jam_copy. @since 0.1 */
 typedef struct jam_system jam_system;
 
 /* What to do with overlaps in given positions. @since 0.1 */
@@ -637,7 +637,7 @@ JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size
  * numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
  * tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
  * JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
- * JAM_E_UNSUPPORTED (Mari-Kurchan model, box below two diameters), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+ * JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
  */
 JAM_API jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report);
 

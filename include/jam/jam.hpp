@@ -93,7 +93,7 @@ std::vector<T> fetch(F &&f) {
   return out;
 }
 
-// N spheres in a periodic cube.
+// N spheres in a periodic cell.
 class System {
  public:
   // Returns true to stop the call.

@@ -21,12 +21,6 @@ void check_n(int64_t n) {
 
 void check_box(double box) { check_range("box", box, limits::box_min, limits::box_max); }
 
-void check_cube(const Packing &p, const char *verb) {
-  if (!p.cell.cube())
-    fail(JAM_E_UNSUPPORTED, "%s needs a cubic cell; this one has edges %g to %g and heights from %g", verb,
-         p.cell.edge(0), p.cell.edge(p.dim - 1), p.cell.height_min());
-}
-
 void check_non_additivity(double delta) {
   if (!(delta > -1.0 && delta <= limits::non_additivity_max))
     fail(JAM_E_ARGUMENT, "non_additivity is %g, it must be above -1 and at most %g", delta, limits::non_additivity_max);

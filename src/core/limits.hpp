@@ -26,8 +26,6 @@ void check_range(const char *name, double value, double low, double high);
 void check_dim(int64_t dim);
 void check_n(int64_t n);
 void check_box(double box);
-// Integer coordinates of a cube: JAM_E_UNSUPPORTED names the verb.
-void check_cube(const Packing &p, const char *verb);
 void check_non_additivity(double delta);
 // Diameters in the unit of `box`: the smallest, and the ratio of the largest to it. That no sphere is wider than the
 // box is a question of overlaps (core/create.hpp).

@@ -49,6 +49,7 @@ class Lattice {
         units_[c][k] = static_cast<uint64_t>(std::llrint(row_[c][k] * scale));
       }
       edge_[c] = static_cast<double>(units_[c][c]);
+      turns_[c] = 1.0 / edge_[c];
       height_[c] = cell.height(c) / cell.side();
     }
   }
@@ -89,7 +90,7 @@ class Lattice {
     }
   }
   void add(Vector &x, int c, int64_t turns) const {
-    for (int k = 0; k <= c; ++k) x[k] = sum(x[k], static_cast<uint64_t>(turns) * units_[c][k]);
+    for (int k = cube_ ? c : 0; k <= c; ++k) x[k] = sum(x[k], static_cast<uint64_t>(turns) * units_[c][k]);
   }
 
   // f(shift) for every lattice vector with |r + shift| < cutoff, in ascending order of the components.
@@ -123,7 +124,7 @@ class Lattice {
       found_.push_back(above);
       return;
     }
-    const auto nearest = -std::llrint(static_cast<double>(sum(r[c], static_cast<uint64_t>(above[c]))) / edge_[c]);
+    const auto nearest = -std::llrint(static_cast<double>(sum(r[c], static_cast<uint64_t>(above[c]))) * turns_[c]);
     for (const int64_t step : {-1, 1})
       for (int64_t turns = step < 0 ? nearest : nearest + 1;; turns += step) {
         Vector shift = above;
@@ -138,9 +139,9 @@ class Lattice {
   bool cube_;
   double shortest_;
   std::array<std::array<double, D>, D> row_{};
-  std::array<std::array<uint64_t, D>, D> units_{};  // int64_t that wrap
-  std::array<double, D> edge_{}, height_{};
-  mutable std::vector<Vector> found_;  // scratch
+  std::array<std::array<uint64_t, D>, D> units_{};     // int64_t that wrap
+  std::array<double, D> edge_{}, turns_{}, height_{};  // turns: 1 / edge
+  mutable std::vector<Vector> found_;                  // scratch
 };
 
 }  // namespace jam

@@ -16,8 +16,9 @@ template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run);
 
 double largest_monte_carlo_step(const Packing &p) {
-  const double reach = contact_distance_max(p) / p.cell.side();
-  return reach < 0.499 ? 0.49 * p.cell.side() / diameter_mean(p) : 0.0;
+  // Along a cell vector a step in a cube of that half side goes no farther than 0.49 of it.
+  const double far = p.cell.cube() ? 1.0 : std::sqrt(static_cast<double>(p.dim));
+  return 0.49 * p.cell.height_min() / far / diameter_mean(p);
 }
 
 std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
@@ -77,14 +78,10 @@ void check_monte_carlo_options(const jam_monte_carlo_options &o) {
 }
 
 void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
-  check_cube(p, "Monte Carlo");
   if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "Monte Carlo has no quenched shifts (JAM_MODEL_MK)");
   const double largest = largest_monte_carlo_step(p);
-  if (!(largest > 0.0))
-    fail(JAM_E_UNSUPPORTED, "the largest contact distance, %g, is too near half the box side, %g",
-         contact_distance_max(p), 0.5 * p.cell.side());
   if (o.step > largest)
-    fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this box the largest is %g", o.step, largest);
+    fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this cell the largest is %g", o.step, largest);
 }
 
 // ---- tuning

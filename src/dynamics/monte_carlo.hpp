@@ -1,7 +1,8 @@
 // Metropolis Monte Carlo of hard spheres and of soft ones at a temperature, at constant volume.
 //
-// Numbers. Coordinates are integers with 2^64 to the box side, so that differences wrap to the nearest image by
-// themselves and moving there and back gives the same bits. Distances and energies are doubles.
+// Numbers. Coordinates are integers with 2^64 to each cell vector, so that differences wrap by themselves and moving
+// there and back gives the same bits. Distances and energies are doubles. A large cube has one image of each pair in
+// reach; monte_carlo_geometry.hpp has the other cells, and small ones with several images.
 //
 // Lists. Each sphere lists those within the longest contact distance and a skin. Lists hold until a sphere has moved by
 // half the skin; then all are made again from cells. Dilute hard spheres take such long steps that lists would hold for
@@ -46,11 +47,11 @@ class MonteCarlo {
 std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run);
 
 jam_monte_carlo_options default_monte_carlo_options();
-// Throw naming the value; the packing must suit: no Mari-Kurchan shifts, a box of more than two ranges.
+// Throw naming the value; the packing must suit: no Mari-Kurchan shifts.
 void check_monte_carlo_options(const jam_monte_carlo_options &o);
 void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o);
 
-// A larger step, in mean diameters, could reach past the nearest images.
+// A larger step, in mean diameters, could be longer than half a cell vector.
 double largest_monte_carlo_step(const Packing &p);
 // The step, in mean diameters, whose acceptance is o.acceptance, from a preliminary run of its own stream; p stays.
 double tuned_step(const Packing &p, const jam_monte_carlo_options &o);

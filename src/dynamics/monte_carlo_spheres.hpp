@@ -8,10 +8,11 @@
 #include "core/pair_rule.hpp"
 #include "dynamics/monte_carlo.hpp"
 #include "dynamics/monte_carlo_cells.hpp"
+#include "dynamics/monte_carlo_geometry.hpp"
 
 namespace jam {
 
-template <int D>
+template <int D, bool Cube>
 class MonteCarloSpheres : public MonteCarlo {
  public:
   MonteCarloSpheres(const Packing &p, const jam_monte_carlo_options &o)
@@ -19,14 +20,14 @@ class MonteCarloSpheres : public MonteCarlo {
         n_(static_cast<int32_t>(p.n())),
         swap_share_(o.swap_share),
         hard_(o.alpha == 0.0),
+        geometry_(p.cell, contact_distance_max(p) / p.cell.side()),
         x_(p.n()),
         radius_(p.n()),
         centre_(p.n()),
         displacement_(p.position.size(), 0.0),
         first_(p.n() + 1) {
     for (int32_t i = 0; i < n_; ++i) {
-      for (int c = 0; c < D; ++c)
-        x_[i][c] = static_cast<uint64_t>(wrap(p.position[i * D + c] / p.cell.side(), 1.0) * scale);
+      x_[i] = geometry_.place(&p.position[static_cast<size_t>(i) * D]);
       radius_[i] = 0.5 * p.diameter[i] / p.cell.side();
     }
     contact_max_ = contact_distance_max(p) / p.cell.side();
@@ -37,7 +38,7 @@ class MonteCarloSpheres : public MonteCarlo {
     step_ = step;
     // A trial from where the lists were made must stay within half the skin. Longer lists hold for longer; trials take
     // least time near 8 steps, and shorter ones than 0.35 diameters (tests/bench/monte_carlo).
-    const double least = 2.02 * std::sqrt(static_cast<double>(D)) * step, room = widest_range - contact_max_;
+    const double least = 2.02 * std::sqrt(static_cast<double>(D)) * step, room = geometry_.widest() - contact_max_;
     const double best = std::min(longest_skin, std::max(0.03, skin_steps * step / contact_max_)) * contact_max_;
     skin_ = std::max(least, std::min(best, room));
     if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
@@ -45,7 +46,7 @@ class MonteCarloSpheres : public MonteCarlo {
     if (!cells_.in_use()) make_lists();
   }
 
-  double gap_range() const final { return std::min(skin_, widest_range - contact_max_) / contact_max_; }
+  double gap_range() const final { return std::min(skin_, geometry_.widest() - contact_max_) / contact_max_; }
   void count_gaps(double h_max, std::vector<double> &bins) final {
     make_lists();  // after it the lists hold all pairs within the skin
     each_pair([&](int32_t i, int32_t k, double r2) {
@@ -56,8 +57,7 @@ class MonteCarloSpheres : public MonteCarlo {
 
   void write_state(Packing &p) const final {
     for (int32_t i = 0; i < n_; ++i) {
-      for (int c = 0; c < D; ++c)
-        p.position[i * D + c] = wrap(static_cast<double>(x_[i][c]) * unit * p.cell.side(), p.cell.side());
+      geometry_.position(x_[i], &p.position[static_cast<size_t>(i) * D]);
       p.diameter[i] = p_.diameter[i];
     }
   }
@@ -86,8 +86,7 @@ class MonteCarloSpheres : public MonteCarlo {
 
  protected:
   using Place = std::array<uint64_t, D>;
-  static constexpr double scale = 0x1p64, unit = 0x1p-64, skin_steps = 12.0, longest_skin = 0.7, widest_range = 0.499,
-                          everything = 1e3;
+  static constexpr double skin_steps = 12.0, longest_skin = 0.7, everything = 1e9;
   // Beyond it cells are faster, in contact distances (tests/bench/monte_carlo).
   static constexpr double longest_step_of_lists = 0.1;
 
@@ -95,24 +94,17 @@ class MonteCarloSpheres : public MonteCarlo {
     const double sum = radius_[i] + radius_[k];
     return p_.non_additivity == 0.0 || radius_[i] == radius_[k] ? sum : (1.0 + p_.non_additivity) * sum;
   }
-  static double distance2(const Place &a, const Place &b) {
-    double r2 = 0.0;
-    for (int c = 0; c < D; ++c) {
-      const double r = static_cast<double>(static_cast<int64_t>(a[c] - b[c])) * unit;
-      r2 += r * r;
-    }
-    return r2;
-  }
   template <class F>
   void each_pair(F &&f) const {
     for (int32_t i = 0; i < n_; ++i)
       for (int32_t e = first_[i]; e < first_[i + 1]; ++e)
-        if (neighbour_[e] > i) f(i, neighbour_[e], distance2(x_[i], x_[neighbour_[e]]));
+        if (const int32_t k = neighbour_[e]; k > i)
+          geometry_.each_image2(x_[i], x_[k], [&](double r2) { f(i, k, r2); });
   }
   void make_lists() {
     ++counts.lists;
     found_.clear();
-    const auto cells = static_cast<int64_t>(1.0 / list_range());
+    const auto cells = static_cast<int64_t>(geometry_.height() / list_range());
     if (cells >= 4 && std::pow(3.0, D) < n_)
       find_in_cells(std::min<int64_t>(cells, static_cast<int64_t>(std::pow(2.0 * n_, 1.0 / D)) + 1));
     else
@@ -141,7 +133,7 @@ class MonteCarloSpheres : public MonteCarlo {
   }
   // Before a trial that takes sphere i there.
   void prepare(int32_t i, const Place &to) {
-    if (!cells_.in_use() && distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
+    if (!cells_.in_use() && geometry_.distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
   }
   void put(int32_t i, const Place &to) {
     x_[i] = to;
@@ -152,6 +144,7 @@ class MonteCarloSpheres : public MonteCarlo {
   int32_t n_;
   double swap_share_, step_ = 0.0, skin_ = 0.0;
   bool hard_;
+  MonteCarloGeometry<D, Cube> geometry_;
   std::vector<Place> x_;
   std::vector<double> radius_;
   std::vector<Place> centre_;
@@ -162,7 +155,7 @@ class MonteCarloSpheres : public MonteCarlo {
  private:
   bool touches(int32_t i, const Place &at, int32_t k) const {
     const double sigma = contact(i, k);
-    return distance2(at, x_[k]) < sigma * sigma;
+    return geometry_.nearest2(at, x_[k]) < sigma * sigma;
   }
   // Not a part of the loop over lists, which is slower with this code in it.
   [[gnu::noinline]] bool overlaps_in_cells(int32_t i, const Place &at) const {
@@ -171,7 +164,7 @@ class MonteCarloSpheres : public MonteCarlo {
   // Sums of soft energies need the order of a list, which the archive keeps; an overlap needs no order.
   void choose_cells() {
     cells_.clear();
-    const auto side = static_cast<int64_t>(1.0 / contact_max_);
+    const auto side = static_cast<int64_t>(geometry_.height() / contact_max_);
     if (hard_ && step_ > longest_step_of_lists * contact_max_ && side >= 4 && std::pow(3.0, D) < n_)
       cells_.build(x_,
                    static_cast<size_t>(std::min<int64_t>(side, static_cast<int64_t>(std::pow(2.0 * n_, 1.0 / D)) + 1)));
@@ -182,7 +175,7 @@ class MonteCarloSpheres : public MonteCarlo {
   double list_range(int32_t i, int32_t k) const { return (swap_share_ > 0.0 ? contact_max_ : contact(i, k)) + skin_; }
   void note_pair(int32_t i, int32_t k) {
     const double range = list_range(i, k);
-    if (distance2(x_[i], x_[k]) < range * range) found_.push_back({i, k});
+    if (geometry_.nearest2(x_[i], x_[k]) < range * range) found_.push_back({i, k});
   }
   void look_at_limits(int64_t step) const {
     if (step % 64 == 0) CallScope::look();

@@ -7,9 +7,9 @@
 
 namespace jam {
 
-template <int D, bool Soft>
-class MonteCarloOf final : public MonteCarloSpheres<D> {
-  using Base = MonteCarloSpheres<D>;
+template <int D, bool Soft, bool Cube>
+class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
+  using Base = MonteCarloSpheres<D, Cube>;
 
  public:
   MonteCarloOf(const Packing &p, const jam_monte_carlo_options &o, int64_t run)
@@ -57,9 +57,9 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
   using Base::contact;
   using Base::counts;
   using Base::displacement_;
-  using Base::distance2;
   using Base::each_pair;
   using Base::first_;
+  using Base::geometry_;
   using Base::n_;
   using Base::neighbour_;
   using Base::overlaps;
@@ -67,10 +67,8 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
   using Base::prepare;
   using Base::put;
   using Base::radius_;
-  using Base::scale;
   using Base::step_;
   using Base::swap_share_;
-  using Base::unit;
   using Base::x_;
   using typename Base::Place;
   static constexpr uint64_t weyl = 0x9e3779b97f4a7c15ull;
@@ -89,8 +87,10 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
       double sum = 0.0;
       for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
         const int32_t k = neighbour_[e];
-        const double r2 = distance2(at, x_[k]), sigma = contact(i, k);
-        if (r2 < sigma * sigma) sum += value(overlap(std::sqrt(r2), sigma));
+        const double sigma = contact(i, k);
+        geometry_.each_image2(at, x_[k], [&](double r2) {
+          if (r2 < sigma * sigma) sum += value(overlap(std::sqrt(r2), sigma));
+        });
       }
       return sum;
     });
@@ -104,9 +104,12 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
       for (int32_t e = first_[i]; e < first_[i + 1]; ++e) {
         const int32_t k = neighbour_[e];
         const double sigma = contact(i, k), sigma2 = sigma * sigma;
-        const double r2 = distance2(to, x_[k]), old2 = distance2(from, x_[k]);
-        if (r2 < sigma2) sum += value(overlap(std::sqrt(r2), sigma));
-        if (old2 < sigma2) sum -= value(overlap(std::sqrt(old2), sigma));
+        geometry_.each_image2(to, x_[k], [&](double r2) {
+          if (r2 < sigma2) sum += value(overlap(std::sqrt(r2), sigma));
+        });
+        geometry_.each_image2(from, x_[k], [&](double r2) {
+          if (r2 < sigma2) sum -= value(overlap(std::sqrt(r2), sigma));
+        });
       }
       return sum;
     });
@@ -119,20 +122,20 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
   void try_move(int32_t i, uint64_t base) {
     ++counts.moves;
     Place to;
-    std::array<int64_t, D> shift;
+    double dx[D];
     for (int c = 0; c < D; ++c) {
-      // 2^63 is never reached: the step is less than half the box, and the number is in [-1, 1).
       const double part =
           static_cast<double>(static_cast<int64_t>(mix64(base + static_cast<uint64_t>(c) * weyl)) >> 11);
-      shift[c] = static_cast<int64_t>(part * 0x1p-52 * step_ * scale);
-      to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
+      dx[c] = part * 0x1p-52 * step_;
     }
+    // 2^63 is never reached: the step is less than half a cell vector, and the number is in [-1, 1).
+    const std::array<int64_t, D> shift = geometry_.shift_of(dx);
+    for (int c = 0; c < D; ++c) to[c] = x_[i][c] + static_cast<uint64_t>(shift[c]);
     prepare(i, to);
     if (!accept(change(i, to), base)) return;
     ++counts.moved;
     put(i, to);
-    double *moved = &displacement_[static_cast<size_t>(i) * D];
-    for (int c = 0; c < D; ++c) moved[c] += static_cast<double>(shift[c]) * unit;
+    geometry_.add_step(shift, &displacement_[static_cast<size_t>(i) * D]);
   }
 
   void try_swap(int32_t i, uint64_t base) {
@@ -162,8 +165,13 @@ class MonteCarloOf final : public MonteCarloSpheres<D> {
 
 template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
-  if (o.alpha == 0.0) return std::make_unique<MonteCarloOf<D, false>>(p, o, run);
-  return std::make_unique<MonteCarloOf<D, true>>(p, o, run);
+  const bool cube = p.cell.cube() && contact_distance_max(p) < monte_carlo_range * p.cell.side();
+  if (o.alpha == 0.0) {
+    if (cube) return std::make_unique<MonteCarloOf<D, false, true>>(p, o, run);
+    return std::make_unique<MonteCarloOf<D, false, false>>(p, o, run);
+  }
+  if (cube) return std::make_unique<MonteCarloOf<D, true, true>>(p, o, run);
+  return std::make_unique<MonteCarloOf<D, true, false>>(p, o, run);
 }
 
 }  // namespace jam

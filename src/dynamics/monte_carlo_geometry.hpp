@@ -1,0 +1,143 @@
+// Distances and steps of Monte Carlo: in a cube larger than two contact distances, or in any cell with all images.
+//
+// Coordinates are integers with 2^64 to each cell vector, so that differences wrap by themselves and moving there and
+// back gives the same bits. Lengths are in V^(1/d).
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/cell.hpp"
+
+namespace jam {
+
+// Pairs nearer than this share of the distance of two faces have one image in reach, the one that differences wrap to.
+constexpr double monte_carlo_range = 0.499;
+
+template <int D, bool Cube>
+class MonteCarloGeometry {
+ public:
+  using Place = std::array<uint64_t, D>;
+  using Shift = std::array<int64_t, D>;
+  static constexpr double scale = 0x1p64, unit = 0x1p-64;
+
+  MonteCarloGeometry(const Cell &cell, double contact_max)
+      : cell_(cell), height_(cell.height_min() / cell.side()), widest_(monte_carlo_range * height_) {
+    // In between, lists would have no skin, and the pressure of hard spheres no gaps to count.
+    constexpr double fullest = 0.8, beyond = 1.25;
+    for (int c = 0; c < D; ++c)
+      for (int k = 0; k <= c; ++k) row_[c][k] = cell.row(c)[k] / cell.side();
+    if (Cube || contact_max <= fullest * widest_) return;
+    widest_ = beyond * contact_max;
+    add_images(D - 1, {});
+  }
+
+  // Pairs up to this distance are seen, with all their images.
+  double widest() const { return widest_; }
+  // Least distance of two faces.
+  double height() const { return height_; }
+
+  Place place(const double *position) const {
+    double s[D];
+    cell_.fraction(position, s);
+    Place x;
+    for (int c = 0; c < D; ++c) x[c] = static_cast<uint64_t>(wrap(s[c], 1.0) * scale);
+    return x;
+  }
+  void position(const Place &x, double *position) const {
+    const double side = cell_.side();
+    if (Cube) {
+      for (int c = 0; c < D; ++c) position[c] = wrap(static_cast<double>(x[c]) * unit * side, side);
+      return;
+    }
+    for (int c = 0; c < D; ++c) position[c] = static_cast<double>(x[c]) * unit;
+    cell_.combine(position, position);
+    cell_.wrap(position);
+  }
+  // From a step dx to integers and back.
+  Shift shift_of(const double *dx) const {
+    Shift shift;
+    double s[D];
+    for (int c = D - 1; c >= 0; --c) {
+      s[c] = dx[c];
+      if (!Cube) {
+        for (int k = c + 1; k < D; ++k) s[c] -= s[k] * row_[k][c];
+        s[c] /= row_[c][c];
+      }
+      shift[c] = static_cast<int64_t>(s[c] * scale);
+    }
+    return shift;
+  }
+  void add_step(const Shift &shift, double *moved) const {
+    for (int c = 0; c < D; ++c) {
+      double x = static_cast<double>(shift[c]) * unit;
+      if (!Cube) {
+        x *= row_[c][c];
+        for (int k = c + 1; k < D; ++k) x += static_cast<double>(shift[k]) * unit * row_[k][c];
+      }
+      moved[c] += x;
+    }
+  }
+
+  // Squared distance of the image that the difference wraps to.
+  double distance2(const Place &a, const Place &b) const {
+    double r[D];
+    vector(a, b, r);
+    return length2(r);
+  }
+  // Of the nearest image.
+  double nearest2(const Place &a, const Place &b) const {
+    if (Cube || image_.empty()) return distance2(a, b);
+    double least = distance2(a, b);
+    each_image2(a, b, [&least](double r2) { least = r2 < least ? r2 : least; });
+    return least;
+  }
+  // f(squared distance) for every image that can be in range.
+  template <class F>
+  void each_image2(const Place &a, const Place &b, F &&f) const {
+    if (Cube || image_.empty()) return f(distance2(a, b));
+    double r[D];
+    vector(a, b, r);
+    for (const auto &image : image_) {
+      double x[D];
+      for (int c = 0; c < D; ++c) x[c] = r[c] + image[c];
+      f(length2(x));
+    }
+  }
+
+ private:
+  void vector(const Place &a, const Place &b, double *r) const {
+    for (int c = 0; c < D; ++c) r[c] = static_cast<double>(static_cast<int64_t>(a[c] - b[c])) * unit;
+    if (Cube) return;
+    for (int c = 0; c < D; ++c) {
+      r[c] *= row_[c][c];
+      for (int k = c + 1; k < D; ++k) r[c] += r[k] * row_[k][c];
+    }
+  }
+  static double length2(const double *r) {
+    double r2 = 0.0;
+    for (int c = 0; c < D; ++c) r2 += r[c] * r[c];
+    return r2;
+  }
+  // A difference has no coefficient beyond 1/2. A vector shorter than widest_ has none beyond widest_ / height.
+  void add_images(int c, const std::array<double, D> &above) {
+    if (c < 0) {
+      image_.push_back(above);
+      return;
+    }
+    const double most = std::floor(widest_ * cell_.side() / cell_.height(c) + 0.5);
+    for (double m = -most; m <= most; ++m) {
+      std::array<double, D> image = above;
+      for (int k = 0; k <= c; ++k) image[k] += m * row_[c][k];
+      add_images(c - 1, image);
+    }
+  }
+
+  Cell cell_;
+  double height_, widest_;
+  std::array<std::array<double, D>, D> row_{};
+  std::vector<std::array<double, D>> image_;  // empty: the nearest is enough
+};
+
+}  // namespace jam

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include "analysis/structure.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
@@ -11,24 +12,6 @@
 #include "jam/jam.h"
 
 namespace jam {
-namespace {
-
-// Whether pair k of `all` is a contact. Both lists are sorted by (i, j); `at` advances through the network.
-bool is_contact(const Packing &p, const PairList &all, size_t k, const ContactNetwork &net, size_t &at) {
-  const double same_image =
-      0.25 * p.cell.shortest();  // a lattice vector has a component of shortest / sqrt(d) at least
-  const int32_t i = all.i[k], j = all.j[k];
-  while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;
-  for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j; ++q) {
-    bool same = true;
-    for (int c = 0; c < p.dim; ++c)
-      same &= std::fabs(net.pairs.offset[q * p.dim + c] - all.offset[k * p.dim + c]) < same_image;
-    if (same) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 void check_pair_count(const Packing &p, double reach) {
   const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.cell.side(), p.dim),
@@ -43,11 +26,12 @@ PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, dou
   check_pair_count(p, (1.0 + h_max) * diameter_mean(p));
   const PairList all = find_pairs(p, 0.0, 1.0 + h_max);
   PairList out;
-  size_t at = 0;
+  std::optional<ContactLookup> contacts;
+  if (net) contacts.emplace(p, *net);
   for (size_t k = 0; k < all.size(); ++k) {
     const int32_t i = all.i[k], j = all.j[k];
     if (net && stable_only && (net->coordination[i] == 0 || net->coordination[j] == 0)) continue;
-    if (net && is_contact(p, all, k, *net, at)) continue;
+    if (contacts && contacts->holds(all, k)) continue;
     out.i.push_back(i);
     out.j.push_back(j);
     out.offset.insert(out.offset.end(), &all.offset[k * p.dim], &all.offset[k * p.dim] + p.dim);

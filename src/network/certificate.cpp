@@ -13,26 +13,17 @@ namespace {
 
 // Smallest gap of two stable spheres that are no contact: the pairs of `net` are skipped image by image.
 void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &report) {
-  const int d = p.dim;
   double r[JAM_MAX_DIM];
   report.min_gap = std::numeric_limits<double>::infinity();
   report.max_overlap = 0.0;
   for (const double slope : {1.2, 2.0}) {
     const PairList pairs = find_pairs(p, 0.0, slope);
-    size_t at = 0;  // both lists are sorted by (i, j)
+    ContactLookup contacts(p, net);
     for (size_t k = 0; k < pairs.size(); ++k) {
       const int32_t i = pairs.i[k], j = pairs.j[k];
       const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, i, j) - 1.0;
       report.max_overlap = std::max(report.max_overlap, -gap);
-      while (at < net.size() && std::make_pair(net.pairs.i[at], net.pairs.j[at]) < std::make_pair(i, j)) ++at;
-      bool contact = false;
-      for (size_t q = at; q < net.size() && net.pairs.i[q] == i && net.pairs.j[q] == j && !contact; ++q) {
-        double apart = 0.0;
-        for (int c = 0; c < d; ++c)
-          apart = std::max(apart, std::fabs(net.pairs.offset[q * d + c] - pairs.offset[k * d + c]));
-        contact = apart < 0.25 * p.cell.shortest();  // the same image
-      }
-      if (!contact && i != j && net.coordination[i] > 0 && net.coordination[j] > 0)
+      if (!contacts.holds(pairs, k) && i != j && net.coordination[i] > 0 && net.coordination[j] > 0)
         report.min_gap = std::min(report.min_gap, gap);
     }
     if (std::isfinite(report.min_gap)) return;

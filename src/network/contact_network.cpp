@@ -47,4 +47,19 @@ ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, in
   return out;
 }
 
+// A lattice vector has a component of its length / sqrt(d) at least.
+ContactLookup::ContactLookup(const Packing &p, const ContactNetwork &net)
+    : net_(net), dim_(p.dim), apart_(0.5 * p.cell.shortest() / std::sqrt(static_cast<double>(p.dim))) {}
+
+bool ContactLookup::holds(const PairList &pairs, size_t k) {
+  const auto pair = std::make_pair(pairs.i[k], pairs.j[k]);
+  const auto key = [this](size_t q) { return std::make_pair(net_.pairs.i[q], net_.pairs.j[q]); };
+  while (at_ < net_.size() && key(at_) < pair) ++at_;
+  for (size_t q = at_; q < net_.size() && key(q) == pair; ++q) {
+    const double *a = &net_.pairs.offset[q * dim_], *b = &pairs.offset[k * dim_];
+    if (std::equal(a, a + dim_, b, [this](double x, double y) { return std::fabs(x - y) < apart_; })) return true;
+  }
+  return false;
+}
+
 }  // namespace jam

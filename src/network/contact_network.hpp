@@ -26,6 +26,19 @@ void measure_contacts(const Packing &p, ContactNetwork &net);
 // Contacts above those of one state of self-stress, d (stable - 1) + 1.
 int64_t excess_contacts(const ContactNetwork &net, int dim);
 
+// Whether pairs of a list are contacts of a network, image by image. Both are sorted by (i, j); pairs come in order.
+class ContactLookup {
+ public:
+  ContactLookup(const Packing &p, const ContactNetwork &net);
+  bool holds(const PairList &pairs, size_t k);
+
+ private:
+  const ContactNetwork &net_;
+  const int dim_;
+  const double apart_;  // offsets of two images differ by more in one component at least
+  size_t at_ = 0;
+};
+
 // Only those that are `on`, one flag a contact.
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim);
 

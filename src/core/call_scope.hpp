@@ -44,6 +44,7 @@ class CallScope {
     if (scope->quiet_) lock = std::unique_lock<std::mutex>(*scope->quiet_);
     scope->monitor_->look();
   }
+  static bool can_tell() { return current() && current()->monitor_ && current()->monitor_->progress; }
   // look() with a record of its own.
   static void report(const jam_progress &p) {
     ask([&](Monitor &monitor) { return monitor.report(p) || monitor.interrupted(); });

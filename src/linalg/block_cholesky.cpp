@@ -15,6 +15,8 @@ namespace {
 
 // Additions, and numbers read, below which a second thread is not worth its start.
 constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
+// Numbers of a panel that take some 0.1 ms to read: the callback is told between such panels.
+constexpr size_t worth_a_look = 100000;
 
 }  // namespace
 
@@ -149,6 +151,7 @@ void BlockCholesky::forward(const std::vector<int32_t> &list, double *y, double 
   for (const int32_t index : list) {
     const Supernode &s = supernodes_[index];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
+    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::tell();
     panel_forward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d,
                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
     for (int r = 0; r < nrhs; ++r)
@@ -165,6 +168,7 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, double *y, double
   for (size_t at = list.size(); at-- > 0;) {
     const Supernode &s = supernodes_[list[at]];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
+    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::tell();
     for (int r = 0; r < nrhs; ++r)
       for (size_t k = 0; k < s.row_count; ++k)
         for (size_t c = 0; c < d; ++c)

@@ -18,6 +18,8 @@ constexpr int narrow = 48;           // columns that are factored without splitt
 // Fewer multiplications than this are done before a second thread has started; a product of a vector is as slow as
 // memory.
 constexpr double worth_a_thread = 1e7, worth_a_reader = 1e6;
+// Longer products, in multiplications, take some 0.1 s: callbacks are told meanwhile.
+constexpr double worth_telling = 2e9;
 
 // Unblocked Cholesky of the leading columns of a small block; returns the number of replaced pivots.
 int factor_small(double *a, int lda, int columns, const double *original, const PivotRule &rule) {
@@ -51,10 +53,12 @@ void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b,
   if (rest > 0) dgemm_("N", "T", &rest, &columns, &k, &minus_one, b + columns, &ldb, b, &ldb, &beta, c + columns, &ldc);
 }
 
+double area_of(int rows, int columns) { return columns * (rows - 0.5 * columns); }
+
 // The same, on two threads when it is worth it: columns are split where the two areas are even.
-void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b, int ldb, int k, const double &beta,
-                     int threads) {
-  const double area = columns * (rows - 0.5 * columns);
+void minus_trapezoid_on(int threads, double *c, int ldc, int rows, int columns, const double *b, int ldb, int k,
+                        const double &beta) {
+  const double area = area_of(rows, columns);
   if (threads < 2 || area * k < worth_a_thread) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, beta);
   const int cut = static_cast<int>(rows - std::sqrt(static_cast<double>(rows) * rows - area));
   on_two_threads([&](int part) {
@@ -63,6 +67,13 @@ void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b,
     else
       minus_trapezoid(c + static_cast<size_t>(cut) * ldc + cut, ldc, rows - cut, columns - cut, b + cut, ldb, k, beta);
   });
+}
+
+void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b, int ldb, int k, const double &beta,
+                     int threads) {
+  const auto work = [&] { minus_trapezoid_on(threads, c, ldc, rows, columns, b, ldb, k, beta); };
+  if (area_of(rows, columns) * k < worth_telling) return work();
+  while_telling(work);
 }
 
 // B := B L^-T.

@@ -1,7 +1,12 @@
-// Work in two parts, side by side when the host allowed two threads.
+// Work in two parts, side by side when the host allowed two threads; and long work during which a callback is told.
 #pragma once
+#include <chrono>
+#include <functional>
+#include <future>
 #include <system_error>
 #include <thread>
+
+#include "core/call_scope.hpp"
 
 namespace jam {
 
@@ -17,6 +22,21 @@ void on_two_threads(const Work &work) {
   }
   work(0);
   if (other.joinable()) other.join();
+}
+
+// Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one tells the
+// callback. The work is the same, so are the bits.
+template <class Work>
+void while_telling(const Work &work) {
+  constexpr std::chrono::milliseconds between_looks(20);
+  if (!CallScope::can_tell()) return work();
+  std::future<void> done;
+  try {
+    done = std::async(std::launch::async, std::cref(work));
+  } catch (const std::system_error &) {
+    return work();
+  }
+  while (done.wait_for(between_looks) != std::future_status::ready) CallScope::tell();
 }
 
 }  // namespace jam

@@ -2,7 +2,9 @@
 #include "core/monitor.hpp"
 
 #include "core/call_scope.hpp"
+#include "linalg/dense_front.hpp"
 #include "linalg/scratch_buffer.hpp"
+#include "linalg/two_threads.hpp"
 #include "test.h"
 
 using namespace jam;
@@ -32,6 +34,26 @@ void silence_is_short(void **) {
   assert_in_range(calls_during(1.2, [](Monitor &monitor) { monitor.look(); }), 4, 8);
   assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::look(); }), 4, 8);
   assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::tell(); }), 4, 8);
+}
+
+// Work that asks nobody: its end comes before that of the call, and nothing is told without a callback.
+void work_on_another_thread_tells(void **) {
+  const auto nap = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); };
+  assert_in_range(calls_during(1.0, [&](Monitor &) { while_telling(nap); }), 4, 8);
+  std::thread::id worker;
+  while_telling([&] { worker = std::this_thread::get_id(); });
+  assert_true(worker == std::this_thread::get_id());
+}
+
+// One product of a large front takes most of a second. Its bits do not depend on who listens.
+void a_large_product_tells(void **) {
+  const int n = 3000;
+  std::vector<double> b(static_cast<size_t>(n) * n), alone(b.size()), watched(b.size());
+  for (size_t k = 0; k < b.size(); ++k) b[k] = std::sin(static_cast<double>(k));
+  minus_square(alone.data(), n, b.data(), n, n, 1);
+  const auto product = [&](Monitor &) { minus_square(watched.data(), n, b.data(), n, n, 1); };
+  assert_true(calls_during(0.1, product) > 0);
+  assert_true(alone == watched);
 }
 
 // Clearing memory is such work: seconds for the factors of 100000 spheres.
@@ -65,6 +87,7 @@ void tell_leaves_nothing(void **) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(silence_is_short), cmocka_unit_test(clearing_memory_tells),
+                              cmocka_unit_test(work_on_another_thread_tells), cmocka_unit_test(a_large_product_tells),
                               cmocka_unit_test(tell_leaves_nothing)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -35,6 +35,9 @@ The package `jam`. Options are keywords under the names of the C header, and enu
    :members:
 .. autoclass:: jam.Step
    :members:
+.. autofunction:: jam.advise
+.. autoclass:: jam.Advice
+   :members:
 .. autofunction:: jam.eos
 .. autofunction:: jam.glass_fit
 ```

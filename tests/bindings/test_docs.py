@@ -9,7 +9,7 @@ import numpy as np
 
 import jam
 
-MODULES = ("system", "_verbs", "_network", "_state", "_observe", "results")
+MODULES = ("system", "_verbs", "_network", "_state", "_observe", "results", "advice")
 
 
 class Examples(unittest.TestCase):

@@ -17,6 +17,7 @@ from . import errors as errors, raw as raw
 from ._generated import *  # noqa: F401,F403  enums and report dataclasses
 from ._generated import JAM_ABI, StatusCode as StatusCode
 from ._methods import eos as eos, glass_fit as glass_fit
+from .advice import Advice as Advice, advise as advise
 from .errors import JamError as JamError
 from ._observe import Observed as Observed, Step as Step
 from .system import Contacts as Contacts, Modes as Modes, System as System

@@ -178,7 +178,7 @@ SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
 INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
 
 
-def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str, Any]:
+def _take_inputs(name: str, table: tuple[Any, ...], args: tuple[Any, ...], named: dict[str, Any]) -> dict[str, Any]:
     """Python arguments by the header's names. Other keywords must be members of an option struct."""
     inputs = [a for a in table if a[1] in INPUTS]
     plain = [a[0] for a in inputs if a[1] != "struct_in"]
@@ -186,7 +186,7 @@ def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str,
     if len(args) > len(plain):
         raise TypeError(f"{name} takes at most {len(plain)} positional arguments: {', '.join(plain)}")
     given = dict(zip(plain, args))
-    members: dict[str, dict] = {s: {} for s in structs}
+    members: dict[str, dict[str, Any]] = {s: {} for s in structs}
     for key, value in named.items():
         if value is None and key not in plain:
             continue
@@ -205,7 +205,7 @@ def _take_inputs(name: str, table: tuple, args: tuple, named: dict) -> dict[str,
     return given
 
 
-def invoke(handle: Any, dim: int, name: str, args: tuple, named: dict[str, Any]) -> tuple[StatusCode, Any]:
+def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[str, Any]) -> tuple[StatusCode, Any]:
     """Calls jam_<name>: inputs by position or keyword, members of option structs by keyword, outputs returned.
 
     Returns the status and the outputs: None, one result, or a named tuple. Arrays are asked for their size first.

@@ -28,14 +28,14 @@ class _Dispatch:
     """
 
     def __init__(self) -> None:
-        self._targets: dict[int, Callable] = {}
+        self._targets: dict[int, Callable[..., Any]] = {}
 
     def __call__(self, progress: Any) -> bool:
         target = self._targets.get(threading.get_ident())
         return target(progress) if target else False
 
     @contextmanager
-    def to(self, target: Callable) -> Any:
+    def to(self, target: Callable[..., Any]) -> Any:
         me = threading.get_ident()
         before = self._targets.get(me)
         self._targets[me] = target
@@ -56,7 +56,7 @@ class Base(Methods):
     def __init__(self, handle: Any) -> None:
         self._handle: Any = handle
         self._first_info: Info | None = None
-        self._carried: tuple | None = None  # report, contacts and history that came with a pickle or a file
+        self._carried: tuple[Any, ...] | None = None  # report, contacts and history that came with a pickle or a file
         #: Calls that moved the spheres: verb, options (every one), status and stop reason of each
         self.calls: list[dict[str, Any]] = []
         #: Progress records of this system's calls, at most one every 0.05 s
@@ -73,7 +73,7 @@ class Base(Methods):
             raise errors.ClosedError("the system is closed")
         return self._handle
 
-    def _recorder(self, user: Callable | None) -> Callable:
+    def _recorder(self, user: Callable[..., Any] | None) -> Callable[..., Any]:
         def on_progress(p: Any) -> bool:
             record = _calls.freeze(p, "jam_progress")
             if len(self.trace) < TRACE_LENGTH:

@@ -98,7 +98,7 @@ class Observing(Base):
         finally:
             self.call("observe_stop")
 
-    def _stepper(self, on_step: Callable[[Step], Any], user: Callable | None) -> Callable:
+    def _stepper(self, on_step: Callable[[Step], Any], user: Callable[..., Any] | None) -> Callable[..., Any]:
         """A progress callable that passes each finished step to on_step. A true answer of either stops the call."""
 
         def on_progress(p: Any) -> bool:

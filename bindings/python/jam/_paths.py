@@ -5,7 +5,7 @@ import errno
 import os
 
 
-def replaceable(path: str | os.PathLike) -> str:
+def replaceable(path: str | os.PathLike[str]) -> str:
     """The regular file that a rename onto path may replace. Links are followed, so that they stay.
 
     Devices, pipes and folders are refused: a rename would put a file in their place.

@@ -78,7 +78,7 @@ def every_ten_seconds() -> Callable[[Any], bool]:
     return line
 
 
-def reporter(progress: bool | Callable | None) -> Callable | None:
+def reporter(progress: bool | Callable[..., Any] | None) -> Callable[..., Any] | None:
     if progress is True:
         return Line()
     if progress is None or progress is False:

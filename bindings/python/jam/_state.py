@@ -37,7 +37,7 @@ class State(Base):
             self._first_info = self.info
         return getattr(self._first_info, name)
 
-    def _show(self, function: Callable, flat: bool = False) -> Array:
+    def _show(self, function: Callable[..., Any], flat: bool = False) -> Array:
         handle = self.handle
         _, (address, count) = function(handle)
         n = raw.jam_diameters_view(handle)[1][1]
@@ -64,7 +64,7 @@ class State(Base):
     def velocities(self, values: Any) -> None:
         self._set(raw.jam_set_velocities, values, "velocities")
 
-    def _set(self, function: Callable, values: Any, name: str) -> None:
+    def _set(self, function: Callable[..., Any], values: Any, name: str) -> None:
         x = _calls.as_array(values, name=name)
         shape = self._show(raw.jam_positions_view).shape
         if x.shape != shape:

@@ -114,7 +114,7 @@ class Verbs(Observing):
         *,
         progress: Any = None,
         on_step: Callable[[Step], Any] | None = None,
-        checkpoint: str | os.PathLike | None = None,
+        checkpoint: str | os.PathLike[str] | None = None,
         checkpoint_every: float = 60.0,
         **options: Any,
     ) -> CrunchReport:

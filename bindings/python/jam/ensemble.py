@@ -51,7 +51,7 @@ __all__ = [
 ]
 
 
-def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1) -> tuple:
+def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1) -> tuple[Any, ...]:
     """Makes one packing and its file: the call that an executor runs.
 
     Parameters
@@ -133,7 +133,7 @@ class Entry:
 
     seed = property(lambda self: int(self.row["seed"]))
 
-    def read(self, *names: str) -> tuple:
+    def read(self, *names: str) -> tuple[Any, ...]:
         """Several of the attributes with one opening of the file."""
         with store.open_file(self.path) as file:
             return tuple(self._get(file, name) for name in names)
@@ -177,7 +177,7 @@ class Ensemble:
         See jam.ensemble_protocol; ``dict(n=128, dim=3)`` is enough. None: the only one of the folder.
     """
 
-    def __init__(self, folder: str | os.PathLike, protocol: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, folder: str | os.PathLike[str], protocol: Mapping[str, Any] | None = None) -> None:
         self.files = Folder(folder)
         if protocol is None:
             known = self.files.protocols()
@@ -310,7 +310,7 @@ class Ensemble:
             found = entry.read(*names)
             yield found[0] if len(names) == 1 else found
 
-    def export(self, folder: str | os.PathLike, per_shard: int = 1000) -> list[Path]:
+    def export(self, folder: str | os.PathLike[str], per_shard: int = 1000) -> list[Path]:
         """Packs the packings into HDF5 files of `per_shard` each, a group a packing; jam.load(path, name) reads one.
 
         Returns
@@ -350,8 +350,8 @@ class _Run:
     def __init__(self, ensemble: Ensemble, pool: Executor, bar: Any) -> None:
         self.pool, self.bar, self.files = pool, bar, ensemble.files
         self.ensemble, self.protocol = ensemble, to_json(ensemble.protocol)
-        self.pending: dict[Future, tuple[int, int]] = {}
-        self.rows: list[tuple] = []
+        self.pending: dict[Future[Any], tuple[int, int]] = {}
+        self.rows: list[tuple[Any, ...]] = []
         self.flushed = time.monotonic()
 
     def work(self, todo: list[int]) -> None:
@@ -378,7 +378,7 @@ class _Run:
         folder = os.fspath(self.files.path.resolve())
         self.pending[self.pool.submit(make_packing, folder, self.protocol, seed, attempt)] = (seed, attempt)
 
-    def _take(self, future: Future, seed: int, attempt: int) -> tuple[int, int] | None:
+    def _take(self, future: Future[Any], seed: int, attempt: int) -> tuple[int, int] | None:
         """Takes an answer; returns what must be tried again."""
         try:
             answer = future.result()

@@ -65,7 +65,7 @@ def row_of(jam: Any, name: str) -> Array:
 class Folder:
     """Files of one folder."""
 
-    def __init__(self, path: str | os.PathLike) -> None:
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
         self.packings, self.parts = self.path / "packings", self.path / "parts"
 
@@ -93,7 +93,7 @@ class Folder:
                 file.unlink(missing_ok=True)
 
     # ---- protocols
-    def protocols(self) -> dict[str, dict]:
+    def protocols(self) -> dict[str, dict[str, Any]]:
         """Protocols by name."""
         found = sorted((self.path / "protocols").glob("*.json"))
         return {p.stem: json.loads(p.read_text(encoding="utf-8")) for p in found}

@@ -34,8 +34,8 @@ class LocalPool(Executor):
 
     def __init__(self, workers: int | None = None) -> None:
         self._count = workers or len(os.sched_getaffinity(0))
-        self._work: queue.SimpleQueue = queue.SimpleQueue()
-        self._processes: dict[int, subprocess.Popen] = {}
+        self._work: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._processes: dict[int, subprocess.Popen[bytes]] = {}
         self._lock = threading.Lock()
         self._closed = self._killed = False
         self._threads = [threading.Thread(target=self._serve, args=(k,), daemon=True) for k in range(self._count)]
@@ -48,9 +48,9 @@ class LocalPool(Executor):
         with self._lock:
             return [p.pid for p in self._processes.values() if p.poll() is None]
 
-    def submit(self, fn: Callable, /, *args: Any, **kwargs: Any) -> Future:
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Calls fn in a worker; fn is found there by its module and name, arguments and answer go by pickle."""
-        future: Future = Future()
+        future: Future[Any] = Future()
         with self._lock:
             if self._closed:
                 raise RuntimeError("the pool is shut down")
@@ -79,7 +79,7 @@ class LocalPool(Executor):
             for thread in self._threads:
                 thread.join()
 
-    def _begin(self, k: int) -> subprocess.Popen:
+    def _begin(self, k: int) -> subprocess.Popen[bytes]:
         home = str(Path(__file__).resolve().parent.parent)
         paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(paths), OPENBLAS_NUM_THREADS="1")
@@ -95,7 +95,9 @@ class LocalPool(Executor):
                 process.kill()
         return process
 
-    def _call(self, k: int, process: subprocess.Popen | None, call: bytes, future: Future) -> subprocess.Popen | None:
+    def _call(
+        self, k: int, process: subprocess.Popen[bytes] | None, call: bytes, future: Future[Any]
+    ) -> subprocess.Popen[bytes] | None:
         """Runs one call; returns the worker, or None when it died."""
         if process is None or process.poll() is not None:
             process = self._begin(k)
@@ -125,7 +127,7 @@ class LocalPool(Executor):
             _end(process)
 
 
-def _end(process: subprocess.Popen) -> int:
+def _end(process: subprocess.Popen[bytes]) -> int:
     """Closes the pipes, waits for the worker and returns its exit status."""
     try:
         process.stdin.close()
@@ -146,7 +148,7 @@ def main() -> None:
         except EOFError:
             return
         try:
-            answer: tuple = (True, fn(*args, **kwargs))
+            answer: tuple[Any, ...] = (True, fn(*args, **kwargs))
         except Exception as error:
             answer = (False, error)
         try:

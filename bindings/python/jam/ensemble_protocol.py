@@ -30,7 +30,7 @@ LATTICES = ("fcc",)
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
 #: Growth that avoids crystals: fast through the fluid, slower in the glass (the stages of `python3 -m jam`).
 STAGES = ({"growth_rate": 1e-2, "pressure": 500.0}, {"growth_rate": 3e-3, "pressure": 1e7})
-ANALYSIS: dict[str, dict] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
+ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
 
@@ -38,7 +38,7 @@ class ProtocolError(ValueError):
     """A protocol that cannot be run; the text names the entry and says what is allowed."""
 
 
-def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple = ()) -> dict[str, Any]:
+def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple[Any, ...] = ()) -> dict[str, Any]:
     """All options of a struct, those that are not given at the library's defaults."""
     known = {k: v[0] for k, v in OPTIONS[struct].items() if k not in leave_out}
     if unknown := set(given) - set(known):

@@ -69,7 +69,7 @@ def _in_python(text: str) -> str:
     """The library's text with its C functions under their Python names: `jam_crunch` is `crunch()`."""
     from .system import System
 
-    def name(found: re.Match) -> str:
+    def name(found: re.Match[str]) -> str:
         word = found.group(1)
         if word in _NAMES:
             return _NAMES[word]

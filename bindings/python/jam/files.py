@@ -20,7 +20,7 @@ from .system import System
 
 
 @contextmanager
-def _replacing(path: str | os.PathLike) -> Iterator[Any]:
+def _replacing(path: str | os.PathLike[str]) -> Iterator[Any]:
     """A text file that takes the place of path when all went well."""
     path = replaceable(path)
     folder, name = os.path.split(path)
@@ -57,7 +57,7 @@ def _kinds(system: System) -> Array | None:
         return None
 
 
-def write_vtk(system: System, path: str | os.PathLike) -> None:
+def write_vtk(system: System, path: str | os.PathLike[str]) -> None:
     """The spheres as .vtp points with diameter, contacts and kind (0 rattler, 1 buckler, 2 other).
 
     In ParaView: filter Glyph, sphere, scale by `diameter`, factor 1.
@@ -65,7 +65,7 @@ def write_vtk(system: System, path: str | os.PathLike) -> None:
     system.write(path, "vtp")
 
 
-def write_vtk_network(system: System, path: str | os.PathLike) -> None:
+def write_vtk_network(system: System, path: str | os.PathLike[str]) -> None:
     """The force network as .vtp lines with force (mean 1) and gap; each contact as two half lines.
 
     In ParaView: filter Tube, vary radius by `force`.
@@ -77,7 +77,7 @@ def _axes(d: int) -> list[str]:
     return list("xyz"[:d]) if d <= 3 else [f"x{k + 1}" for k in range(d)]
 
 
-def write_csv(system: System, path: str | os.PathLike) -> None:
+def write_csv(system: System, path: str | os.PathLike[str]) -> None:
     """One line a sphere: coordinates, diameter and, after crunch, contacts."""
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     if _kinds(system) is not None:
@@ -86,12 +86,12 @@ def write_csv(system: System, path: str | os.PathLike) -> None:
         np.savetxt(file, np.hstack(columns), fmt="%.17g", delimiter=",", header=",".join(names), comments="")
 
 
-def write_contacts_csv(system: System, path: str | os.PathLike) -> None:
+def write_contacts_csv(system: System, path: str | os.PathLike[str]) -> None:
     """One line a contact: i, j, unit vector, gap, force (mean 1)."""
     system.write_contacts(path, "csv")
 
 
-def write_spectrum_csv(modes: Modes, path: str | os.PathLike) -> None:
+def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
     """One line a mode that converged: number, lambda = omega^2, omega, participation."""
     values = modes.values[: np.count_nonzero(np.isfinite(modes.values))]
     rows = np.column_stack(
@@ -103,7 +103,7 @@ def write_spectrum_csv(modes: Modes, path: str | os.PathLike) -> None:
         )
 
 
-def write_gaps_csv(system: System, path: str | os.PathLike, h_max: float = 1.0) -> None:
+def write_gaps_csv(system: System, path: str | os.PathLike[str], h_max: float = 1.0) -> None:
     """One line a gap below h_max that is no contact, ascending: i, j, gap, and 1 when both spheres are stable."""
     gaps, rattlers = system.gaps(h_max, False), system.rattlers
     stable = ~rattlers[gaps.pair].any(1)
@@ -118,7 +118,7 @@ def write_gaps_csv(system: System, path: str | os.PathLike, h_max: float = 1.0) 
         )
 
 
-def write_structure_csv(system: System, path: str | os.PathLike) -> None:
+def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
     """One line a sphere: contacts, class, C_i = sum n_ij, S_i and the same with forces, Q6, Voronoi packing fraction (d = 3)."""
     d, z = system.dim, system.coordination
     plain, weighted = system.sphere_structure(0), system.sphere_structure(1)

@@ -129,7 +129,7 @@ class Runs:
             status=max(self.status, other.status),
         )
 
-    def save(self, path: str | os.PathLike) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Writes an .npz file, beside and renamed."""
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
         arrays.update({"series_" + k: v for k, v in self.series.items()})
@@ -140,7 +140,7 @@ class Runs:
         os.replace(new, path)
 
     @classmethod
-    def load(cls, path: str | os.PathLike) -> "Runs":
+    def load(cls, path: str | os.PathLike[str]) -> "Runs":
         """Reads what save wrote."""
         with np.load(path) as data:
             plain = {f.name: data[f.name] for f in fields(cls) if f.name not in ("series", "kept")}
@@ -183,7 +183,12 @@ def take_runs(system: Any) -> Runs:
 
 
 def run(
-    system: Any, instants: Any, monte_carlo: dict | None, keep: Sequence[int], progress: Any, options: dict
+    system: Any,
+    instants: Any,
+    monte_carlo: dict[str, Any] | None,
+    keep: Sequence[int],
+    progress: Any,
+    options: dict[str, Any],
 ) -> Runs:
     """What System.isoconfigurational calls."""
     times = _calls.as_array(instants, name="instants").reshape(-1)
@@ -204,7 +209,7 @@ def run(
 _FREE = ("runs", "threads", "memory_limit", "wall_time", "progress")
 
 
-def _origin(system: Any, options: dict) -> str:
+def _origin(system: Any, options: dict[str, Any]) -> str:
     """A digest of the packing and of all options that runs depend on."""
     digest = hashlib.sha256()
     for array in (system.positions, system.diameters):
@@ -215,7 +220,7 @@ def _origin(system: Any, options: dict) -> str:
 
 
 def campaign(
-    system: Any, path: str | os.PathLike, instants: Any, runs: int, *, part: int = 100, **options: Any
+    system: Any, path: str | os.PathLike[str], instants: Any, runs: int, *, part: int = 100, **options: Any
 ) -> Runs:
     """Makes `runs` runs in parts and saves them to the .npz file `path` after each: a killed campaign goes on.
 

@@ -65,7 +65,7 @@ def correlations(runs: Runs, structure: Predictors, weights: Any = None, rattler
 
 def correlation_errors(runs: Runs, structure: Predictors, times: int = 100, **options: Any) -> dict[str, Array]:
     """Standard errors (m,) of correlations(), by resampling blocks of runs with replacement."""
-    made: dict[str, list] = {}
+    made: dict[str, list[Any]] = {}
 
     def keep(weights: Array) -> float:
         for name, values in correlations(runs, structure, weights, **options).items():
@@ -142,7 +142,7 @@ def collapse_exponent(
     """
     blocks = min(r.blocks for r in ensembles)
 
-    def curves(weights: Array) -> tuple:
+    def curves(weights: Array) -> tuple[Any, ...]:
         pairs = [decay_curve(r, structure, kind, _fill(weights, r.blocks)) for r in ensembles]
         return [x for x, _ in pairs], [k for _, k in pairs]
 

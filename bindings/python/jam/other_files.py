@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 # Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
 
 
-def write_gsd(system: System, path: str | os.PathLike) -> None:
+def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
     """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `read_gsd` prefers."""
     import gsd.hoomd
 
@@ -61,7 +61,7 @@ def _centred(x: Array, cell: Array) -> Array:
     return (s - np.floor(s + 0.5)) @ cell
 
 
-def read_gsd(path: str | os.PathLike, frame: int = -1, **options: Any) -> System:
+def read_gsd(path: str | os.PathLike[str], frame: int = -1, **options: Any) -> System:
     """Reads one frame of a GSD file; the last by default.
 
     Files that libjam wrote come back to the bit. Others hold float32, so that spheres in contact overlap by 1e-7:
@@ -88,7 +88,7 @@ def _box(cell: Array) -> dict[str, Any]:
     return {"box": float(cell[0, 0])} if cube else {"cell": cell}
 
 
-def read_ase(path: str | os.PathLike, diameters: Any = None, *, dim: int = 3, **options: Any) -> System:
+def read_ase(path: str | os.PathLike[str], diameters: Any = None, *, dim: int = 3, **options: Any) -> System:
     """Reads any file that ASE reads (CIF, POSCAR, ...), periodic in all directions.
 
     Parameters

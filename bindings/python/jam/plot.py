@@ -227,7 +227,7 @@ def network(
     return ax
 
 
-def _samples(system: System | Iterable) -> tuple[Any, Any]:
+def _samples(system: System | Iterable[Any]) -> tuple[Any, Any]:
     if isinstance(system, System):
         try:
             series = system.observed_series()
@@ -241,7 +241,7 @@ def _samples(system: System | Iterable) -> tuple[Any, Any]:
     return [p.packing_fraction for p in records], [p.pressure for p in records]
 
 
-def trace(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
+def trace(system: System | Iterable[Any], ax: Any = None, **style: Any) -> Any:
     """Reduced pressure against packing fraction, while compress or run move the spheres.
 
     What observing() recorded comes first: its samples stand at fixed numbers of collisions, so the same seed gives the same
@@ -258,7 +258,7 @@ def trace(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
     return ax
 
 
-def convergence(system: System | Iterable, ax: Any = None, **style: Any) -> Any:
+def convergence(system: System | Iterable[Any], ax: Any = None, **style: Any) -> Any:
     """Crunch: gain sqrt(Gamma) - 1 and largest step against factorisations; from the history of a system's last crunch, or from
     progress records (at most one every 0.05 s)."""
     if isinstance(system, System):

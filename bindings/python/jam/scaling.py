@@ -99,7 +99,7 @@ def local_exponent(x: Array, c: Array, width: float = 0.5) -> Array:
 
 # ---- resampling
 def bootstrap(
-    samples: Sequence[Any], statistic: Callable[[list], Any], resamples: int = RESAMPLES, seed: int = 0
+    samples: Sequence[Any], statistic: Callable[[list[Any]], Any], resamples: int = RESAMPLES, seed: int = 0
 ) -> Estimate:
     """Standard error of a statistic by drawing packings with replacement.
 

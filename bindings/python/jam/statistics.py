@@ -95,7 +95,7 @@ def collapse(
 
 
 def collapse_estimate(
-    curves: Callable[[Array], tuple], blocks: int, control: Any, times: int = 40, **options: Any
+    curves: Callable[[Array], tuple[Any, ...]], blocks: int, control: Any, times: int = 40, **options: Any
 ) -> Estimate:
     """collapse() of curves(weights) -> (x, y), with the standard error from resampled blocks of runs."""
     value = collapse(*curves(np.ones(blocks)), control, **options)

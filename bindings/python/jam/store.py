@@ -52,7 +52,7 @@ class StoreError(OSError):
 
 
 # ---- compound values
-def _dtype(cls: type) -> np.dtype:
+def _dtype(cls: type) -> np.dtype[Any]:
     kinds = {"int": "i8", "bool": "i8", "float": "f8"}
     return np.dtype([(f.name, kinds.get(f.type, "i4")) for f in fields(cls)])
 
@@ -192,7 +192,7 @@ def image(
     return memory.getvalue()
 
 
-def write_file(path: str | os.PathLike, data: bytes, parts: str | os.PathLike | None = None) -> None:
+def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLike[str] | None = None) -> None:
     """Writes a file so that it is there as a whole or not at all: beside, flushed to the disk, renamed.
 
     Parameters
@@ -230,13 +230,13 @@ def write_file(path: str | os.PathLike, data: bytes, parts: str | os.PathLike | 
         ) from error
 
 
-def save(system: System, path: str | os.PathLike, **more: Any) -> None:
+def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:
     """Writes one packing with all its results; jam.load reads it. For `more` see image()."""
     write_file(path, image(system, **more))
 
 
 # ---- reading
-def open_file(path: str | os.PathLike) -> Any:
+def open_file(path: str | os.PathLike[str]) -> Any:
     """The h5py.File of a packing or of a shard, read-only."""
     try:
         return h5py.File(path, "r", locking=False)
@@ -258,7 +258,7 @@ def _jam(group: Any, path: Any) -> Any:
     return found
 
 
-def results_of(jam: Any) -> tuple | None:
+def results_of(jam: Any) -> tuple[Any, ...] | None:
     """Report, contacts and history of a group `jam`, or None."""
     report = unpack(jam["report"][()], _report_class()) if "report" in jam else None
     contacts = Contacts(*(jam["contacts/" + k][()] for k in _CONTACTS)) if "contacts" in jam else None
@@ -271,7 +271,7 @@ def _report_class() -> type:
     return _generated.REPORTS["jam_crunch_report"]
 
 
-def load(path: str | os.PathLike, name: str | None = None) -> System:
+def load(path: str | os.PathLike[str], name: str | None = None) -> System:
     """A packing from a file of save(), of an ensemble, or, by its name, from a shard of Ensemble.export.
 
     Reports, contacts, forces, coordination and history are those that were stored. Calls that need the network in

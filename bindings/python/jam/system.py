@@ -144,7 +144,7 @@ class System(State, Verbs, Network):
         return cls._create(options, x.reshape(-1), sizes.reshape(-1))
 
     @classmethod
-    def read(cls, path: str | os.PathLike, **options: Any) -> "System":
+    def read(cls, path: str | os.PathLike[str], **options: Any) -> "System":
         """Reads a packing: plain text, extended XYZ, LAMMPS data (atom_style sphere), each also compressed, or GSD.
 
         The content tells the format, but for GSD (needs python3-gsd), which goes by the ending .gsd. For other formats
@@ -167,12 +167,12 @@ class System(State, Verbs, Network):
         return cls(raw.jam_read(name, made)[1])
 
     @classmethod
-    def from_checkpoint(cls, path: str | os.PathLike) -> "System":
+    def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
         """Reads a file of `checkpoint_write`. The dynamics continue to the same bits as if they had never stopped."""
         return cls(raw.jam_checkpoint_read(os.fspath(path))[1])
 
     @classmethod
-    def _create(cls, options: dict, positions: Any, diameters: Any, progress: Any = None) -> "System":
+    def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
         cell = options.pop("cell", None)
         made = _calls.options("jam_create_options", options)
         vectors = None if cell is None else _calls.as_array(cell, name="cell")
@@ -212,16 +212,16 @@ class System(State, Verbs, Network):
 
     __copy__ = copy
 
-    def __deepcopy__(self, memo: dict) -> "System":
+    def __deepcopy__(self, memo: dict[str, Any]) -> "System":
         return self.copy()
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[Any, ...]:
         with tempfile.TemporaryDirectory() as folder:  # the checkpoint alone holds all: velocities, Mari-Kurchan shifts
             file = Path(folder, "state")
             self.checkpoint_write(str(file))
             return _restore, (file.read_bytes(), self._results(), self.calls, self.trace)
 
-    def _results(self) -> tuple | None:
+    def _results(self) -> tuple[Any, ...] | None:
         found: list[Any] = []
         for name in ("report", "contacts", "history"):
             try:
@@ -240,7 +240,7 @@ class System(State, Verbs, Network):
         return self.n
 
     # ---- files
-    def write(self, path: str | os.PathLike, format: int | str = "auto") -> None:
+    def write(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes positions and diameters with 17 digits.
 
         Parameters
@@ -259,7 +259,7 @@ class System(State, Verbs, Network):
             return other_files.write_gsd(self, name)
         raw.jam_write(self.handle, name, _calls.as_enum(format, "Format"))
 
-    def write_contacts(self, path: str | os.PathLike, format: int | str = "auto") -> None:
+    def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes the contact network: pairs, unit vectors, gaps and forces.
 
         Parameters
@@ -273,7 +273,12 @@ class System(State, Verbs, Network):
         raw.jam_write_contacts(self.handle, os.fspath(path), _calls.as_enum(format, "ContactFormat"))
 
     def page(
-        self, path: str | os.PathLike, title: str = "", *, values: Mapping[str, Any] | None = None, small: bool = False
+        self,
+        path: str | os.PathLike[str],
+        title: str = "",
+        *,
+        values: Mapping[str, Any] | None = None,
+        small: bool = False,
     ) -> None:
         """Writes one HTML file to look at the packing in a browser; it needs no network.
 
@@ -320,7 +325,7 @@ class System(State, Verbs, Network):
             'style="width:100%;height:480px;border:1px solid #ccc"></iframe>'
         )
 
-    def save(self, path: str | os.PathLike) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
 
         Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
@@ -331,7 +336,7 @@ class System(State, Verbs, Network):
         store.save(self, path)
 
 
-def _restore(state: bytes, results: tuple | None, calls: list, trace: list) -> System:
+def _restore(state: bytes, results: tuple[Any, ...] | None, calls: list[Any], trace: list[Any]) -> System:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "state")
         file.write_bytes(state)

@@ -81,7 +81,7 @@ def draw(rows, path):
                 of = [r for r in rows if (r["method"], r["cell"], r["n"]) == (method, name, n)]
                 x, y = [r["seconds"] for r in of], [r["p_error"] / r["p"] for r in of]
                 axis.loglog(x, y, style, color=colour, mfc="white", label=f"{name}, N = {n}")
-        axis.set_title(method.replace("_", " "))
+        axis.set_title("Monte Carlo" if method == "monte_carlo" else "molecular dynamics")
         axis.set_xlabel("processor time (s)")
     axes[0].set_ylabel("standard error of p, relative")
     axes[1].legend(fontsize=7)

@@ -1,4 +1,5 @@
 """Examples in the docstrings of the Python package run and give what they show; words that newcomers try are answered."""
+import contextlib
 import doctest
 import importlib
 import tempfile
@@ -15,10 +16,11 @@ MODULES = ("system", "_verbs", "_network", "_state", "_observe", "results", "adv
 class Examples(unittest.TestCase):
     def test_docstrings_run(self):
         run = 0
-        for name in MODULES:
-            found = doctest.testmod(importlib.import_module("jam." + name))
-            self.assertEqual(found.failed, 0, name)
-            run += found.attempted
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # examples write files
+            for name in MODULES:
+                found = doctest.testmod(importlib.import_module("jam." + name))
+                self.assertEqual(found.failed, 0, name)
+                run += found.attempted
         self.assertGreater(run, 20)
 
 

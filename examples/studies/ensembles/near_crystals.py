@@ -3,11 +3,11 @@
 
 usage: near_crystals.py [--large] [--folder DIR] [--only-read]
 
-Log-normal diameters on the sites of the crystal. Spheres: packing fraction 0.7, growth at G = 1e-3 to p = 1e7, crunch. Disks lie in
-the rectangle that fits their lattice, where there is no molecular dynamics: random displacements and a crunch. The thesis gives no parameters. Known (G. Tsekenis, arXiv
-2006.07373): phi_J falls linearly with the spread; the force exponent is universal, those of gaps and localised forces are
-not. Packings that end without a verdict are counted. Small: 108 spheres, 120 disks, 6 packings a spread. Large: 256 spheres, 480
-disks, 60.
+Log-normal diameters on the sites of the crystal. Spheres: packing fraction 0.7, growth at G = 1e-3 to p = 1e7, crunch. Disks lie
+in the rectangle that fits their lattice, where there is no molecular dynamics: random displacements and a crunch. The thesis
+gives no parameters. Known (G. Tsekenis, arXiv 2006.07373): phi_J falls linearly with the spread; the force exponent is
+universal, those of gaps and localised forces are not. Packings that end without a verdict are counted. Small: 108 spheres, 120
+disks, 6 packings a spread. Large: 256 spheres, 480 disks, 60.
 """
 import matplotlib
 

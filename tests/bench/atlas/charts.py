@@ -72,9 +72,7 @@ def draw_routes(data, n, picture):
         axis.set_ylabel(label)
     for axis in axes.flat:
         axis.grid(alpha=0.3)
-    figure.suptitle(
-        "Crosses: the status says that the point is not certified. Values below the scale are drawn on its edge."
-    )
+    figure.suptitle("Crosses: not certified, as the status says")
     figure.tight_layout()
     figure.savefig(picture, dpi=80)
 

@@ -150,7 +150,7 @@ def momenta(packing):
 
 def softened(n, seed, minimiser, distances, limit_seconds=3600.0):
     """Soft spheres from above: random overlapping spheres at packing fraction 0.70 are decompressed to one distance
-    ln(R / R_J) after the other. The limit is the crunch from just below."""
+    ln(R / R_J) after the other. The limit is a crunch of the last state, shrunk to contact."""
     packing = jam.System.random(n=n, seed=seed, packing_fraction=0.70, overlap="allow")
     seconds, rows = 0.0, []
     for distance in distances:
@@ -162,14 +162,14 @@ def softened(n, seed, minimiser, distances, limit_seconds=3600.0):
         rows.append((f"ln(R/R_J) = {distance:g}", seconds, report, network(packing)))
         if report.status != 0 or seconds > limit_seconds:
             break
-    last = packing.copy()
-    best = last.decompress(isostatic=0, distance=distances[-1], crunch=1, minimiser=minimiser)
-    exact = network(last)
+    below = jam.System.from_arrays(packing.positions, packing.diameters, overlap="shrink")
+    best = below.crunch()
+    exact = network(below)
     return [
         point(
             name,
             seconds,
-            abs(r.jammed_fraction - best.crunch_fraction),
+            abs(r.jammed_fraction - best.packing_fraction),
             found,
             exact,
             r.force_residual,

@@ -148,11 +148,15 @@ module jam
   integer(c_int32_t), parameter :: JAM_CRUNCH_BARRIER_PATH = 0
   integer(c_int32_t), parameter :: JAM_CRUNCH_SEQUENTIAL_LP = 1
 
-  ! jam_free_strain: What of the cell jam_crunch may change, at fixed volume. @since 0.1
+  ! jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1
   integer(c_int32_t), parameter :: JAM_STRAIN_NONE = 0
   integer(c_int32_t), parameter :: JAM_STRAIN_EDGES = 1
   integer(c_int32_t), parameter :: JAM_STRAIN_TILTS = 2
   integer(c_int32_t), parameter :: JAM_STRAIN_FREE = 3
+  integer(c_int32_t), parameter :: JAM_STRAIN_VOLUME = 4
+  integer(c_int32_t), parameter :: JAM_STRAIN_EDGES_VOLUME = 5
+  integer(c_int32_t), parameter :: JAM_STRAIN_TILTS_VOLUME = 6
+  integer(c_int32_t), parameter :: JAM_STRAIN_ALL = 7
 
   ! jam_step_phase: What kind of step a row of the history is. @since 0.1
   integer(c_int32_t), parameter :: JAM_STEP_PATH = 1
@@ -758,14 +762,22 @@ module jam
     integer(c_int64_t) :: max_evaluations = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
+    ! jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one
+    integer(c_int32_t) :: strain = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised; else 0, the default
+    real(c_double) :: pressure = 0
+    ! bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all
+    integer(c_int64_t) :: components = 0
   end type jam_relax_options
 
   ! What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
   ! again and again; stable spheres are the others. @since 0.1
   type, bind(c) :: jam_relax_report
     ! set by the caller: sizeof(jam_relax_report)
-    integer(c_int32_t) :: struct_size = 144
-    ! 1: force_residual is below force_tolerance, or no spheres overlap
+    integer(c_int32_t) :: struct_size = 152
+    ! 1: both residuals are below force_tolerance, or no spheres overlap
     integer(c_int32_t) :: converged = 0
     ! jam_stop_reason
     integer(c_int32_t) :: stop_reason = 0
@@ -803,6 +815,8 @@ module jam
     integer(c_int64_t) :: factorisations = 0
     ! wall time
     real(c_double) :: seconds = 0
+    ! largest stress that a free cell leaves, less the target, over the pressure
+    real(c_double) :: stress_residual = 0
   end type jam_relax_report
 
   ! Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1
@@ -1882,11 +1896,11 @@ module jam
       integer(c_int32_t) :: status
     end function jam_relax_options_init
 
-    ! Minimises the energy of overlapping spheres at fixed diameters and box. Keeps the contact network with its forces and
-    ! stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. The system must have been
-    ! made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond.
-    ! report may be NULL. Example: examples/c/soft.c
-    ! Status: JAM_OK converged.
+    ! Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
+    ! the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
+    ! contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
+    ! the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
+    ! network holds the digits beyond. report may be NULL. Example: examples/c/soft.c Status: JAM_OK converged.
     ! JAM_NOT_JAMMED converged to energy 0: no overlaps.
     ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
     ! JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.

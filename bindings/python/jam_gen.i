@@ -485,11 +485,11 @@ none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 
 sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
 0.1"
 %feature("docstring") jam_relax_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters and box. Keeps the contact network with its forces and
-stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. The system must have been
-made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond.
-report may be NULL. Example: examples/c/soft.c
-Status: JAM_OK converged.
+%feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
+the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
+contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
+the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
+network holds the digits beyond. report may be NULL. Example: examples/c/soft.c Status: JAM_OK converged.
 JAM_NOT_JAMMED converged to energy 0: no overlaps.
 JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
 JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.

@@ -746,12 +746,16 @@ typedef enum jam_crunch_method {
   JAM_CRUNCH_SEQUENTIAL_LP = 1 /* LPs alone, as published */
 } jam_crunch_method;
 
-/* What of the cell jam_crunch may change, at fixed volume. @since 0.1 */
+/* What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1 */
 typedef enum jam_free_strain {
-  JAM_STRAIN_NONE = 0,  /* a fixed cell */
-  JAM_STRAIN_EDGES = 1, /* the diagonal of the cell: lengths of a brick */
-  JAM_STRAIN_TILTS = 2, /* what is off the diagonal */
-  JAM_STRAIN_FREE = 3   /* both */
+  JAM_STRAIN_NONE = 0,         /* a fixed cell */
+  JAM_STRAIN_EDGES = 1,        /* the diagonal of the cell: lengths of a brick */
+  JAM_STRAIN_TILTS = 2,        /* what is off the diagonal */
+  JAM_STRAIN_FREE = 3,         /* both */
+  JAM_STRAIN_VOLUME = 4,       /* the volume; this and the following in jam_relax alone, with a pressure */
+  JAM_STRAIN_EDGES_VOLUME = 5, /* each edge by itself */
+  JAM_STRAIN_TILTS_VOLUME = 6, /* tilts and the volume */
+  JAM_STRAIN_ALL = 7           /* edges, tilts and the volume */
 } jam_free_strain;
 
 /* Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
@@ -946,13 +950,17 @@ typedef struct jam_relax_options {
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, >= 1, default 1e6 */
   double wall_time;        /* limit in seconds, > 0, default infinity */
+  int32_t strain;     /* jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one */
+  int32_t reserved;   /* 0 */
+  double pressure;    /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised; else 0, the default */
+  int64_t components; /* bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all */
 } jam_relax_options;
 
 /* What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
  * again and again; stable spheres are the others. @since 0.1 */
 typedef struct jam_relax_report {
   uint32_t struct_size;    /* set by the caller: sizeof(jam_relax_report) */
-  int32_t converged;       /* 1: force_residual is below force_tolerance, or no spheres overlap */
+  int32_t converged;       /* 1: both residuals are below force_tolerance, or no spheres overlap */
   int32_t stop_reason;     /* jam_stop_reason */
   int32_t minimiser;       /* jam_minimiser */
   double force_residual;   /* max |F_i| of stable spheres over the mean contact force; 0 without contacts */
@@ -971,15 +979,16 @@ typedef struct jam_relax_report {
   int64_t evaluations;     /* of the forces */
   int64_t factorisations;  /* of the Hessian */
   double seconds;          /* wall time */
+  double stress_residual;  /* largest stress that a free cell leaves, less the target, over the pressure */
 } jam_relax_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
-/* Minimises the energy of overlapping spheres at fixed diameters and box. Keeps the contact network with its forces and
- * stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. The system must have been
- * made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond.
- * report may be NULL. Example: examples/c/soft.c
- * Status: JAM_OK converged.
+/* Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
+ * the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
+ * contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
+ * the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
+ * network holds the digits beyond. report may be NULL. Example: examples/c/soft.c Status: JAM_OK converged.
  * JAM_NOT_JAMMED converged to energy 0: no overlaps.
  * JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
  * JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.

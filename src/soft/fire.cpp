@@ -25,20 +25,20 @@ DescentEnd fire(Relaxation &r, double tolerance) {
   const size_t d = static_cast<size_t>(state.dim()), size = r.force.size();
   const double mean = state.diameter_mean(), move_limit = longest_move * mean;
   // Masses go with the stiffness of a sphere's contacts, so that all spheres of a mixture take the same time step.
-  std::vector<double> inverse_mass(state.n(), 1.0);
+  std::vector<double> inverse_mass(state.blocks(), 1.0);
   if (state.energy().relative())
     for (size_t i = 0; i < state.n(); ++i) inverse_mass[i] = std::pow(state.base().diameter[i] / mean, 2);
   std::vector<double> v(size, 0.0);
   double step = first_step, mixing = mixing_start;
   int downhill = 0;
   for (int64_t count = 0;; ++count) {
-    if (r.sums.energy == 0.0) return DescentEnd::no_overlaps;
+    if (r.at_rest()) return DescentEnd::no_overlaps;
     if (r.residual() < tolerance || (count % look_every == 0 && r.stable_residual() < tolerance))
       return DescentEnd::balanced;
     DescentEnd end;
     if (r.must_stop(end)) return end;
     std::vector<double> &u = state.displacement(), &f = r.force;
-    const double dt = step / std::sqrt(r.sums.stiffness(state.energy().alpha()));
+    const double dt = step / std::sqrt(r.stiffness);
     double power = 0.0;
     for (size_t k = 0; k < size; ++k) power += f[k] * v[k];
     if (power > 0.0) {
@@ -53,7 +53,7 @@ DescentEnd fire(Relaxation &r, double tolerance) {
       for (size_t k = 0; k < size; ++k) u[k] -= 0.5 * dt * v[k], v[k] = 0.0;
     }
     double vv = 0.0, aa = 0.0;
-    for (size_t i = 0; i < state.n(); ++i)
+    for (size_t i = 0; i < state.blocks(); ++i)
       for (size_t k = i * d; k < (i + 1) * d; ++k) {
         const double a = f[k] * inverse_mass[i];
         v[k] += dt * a;
@@ -62,7 +62,7 @@ DescentEnd fire(Relaxation &r, double tolerance) {
       }
     const double turn = aa > 0.0 ? mixing * std::sqrt(vv / aa) : 0.0;
     double most = 0.0;
-    for (size_t i = 0; i < state.n(); ++i) {
+    for (size_t i = 0; i < state.blocks(); ++i) {
       double v2 = 0.0;
       for (size_t k = i * d; k < (i + 1) * d; ++k) {
         v[k] = (1.0 - mixing) * v[k] + turn * f[k] * inverse_mass[i];

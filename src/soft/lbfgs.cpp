@@ -50,22 +50,22 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
   std::deque<Update> updates;
   std::vector<double> way, before;
   for (int64_t count = 0;; ++count) {
-    if (r.sums.energy == 0.0) return DescentEnd::no_overlaps;
+    if (r.at_rest()) return DescentEnd::no_overlaps;
     if (r.residual() < tolerance || (count % look_every == 0 && r.stable_residual() < tolerance))
       return DescentEnd::balanced;
     DescentEnd end;
     if (r.must_stop(end)) return end;
     before = way = r.force;
-    descent_way(updates, r.sums.stiffness(state.energy().alpha()), way);
+    descent_way(updates, r.stiffness, way);
     double slope = dot(before, way);
     if (!(slope > 0.0)) {  // no descent: begin again along the force
       updates.clear();
       way = before;
-      for (double &x : way) x /= r.sums.stiffness(state.energy().alpha());
+      for (double &x : way) x /= r.stiffness;
       slope = dot(before, way);
     }
     double most = 0.0;
-    for (size_t i = 0; i < state.n(); ++i) {
+    for (size_t i = 0; i < state.blocks(); ++i) {
       double w2 = 0.0;
       for (int c = 0; c < d; ++c) w2 += way[i * d + c] * way[i * d + c];
       most = std::max(most, w2);

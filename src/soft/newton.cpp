@@ -34,7 +34,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
   double last = 0.0, start = 0.0;
   std::vector<double> way;
   for (int step = 0; step < most_steps; ++step) {
-    if (r.sums.energy == 0.0) return DescentEnd::no_overlaps;
+    if (r.at_rest()) return DescentEnd::no_overlaps;
     const SoftContacts contacts = state.contacts();
     const std::vector<char> on = stable_contacts(state, contacts);
     const double now = r.stable_residual();
@@ -58,12 +58,12 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     const double part = most > move_limit ? move_limit / most : 1.0;
     for (double &x : way) x *= part;
     const double slope = dot(force, way), model = (part - 0.5 * part * part) / part * slope;
-    const double energy = r.sums.energy;
+    const double energy = r.sums.enthalpy();
     for (size_t k = 0; k < way.size(); ++k) state.displacement()[k] += way[k];
     r.evaluate();
     // Near the minimum the energy has no digits left: then the slope behind the step must have fallen.
     const double gain =
-        now > energy_is_blind ? (energy - r.sums.energy) / model : 1.0 - std::fabs(dot(r.force, way)) / slope;
+        now > energy_is_blind ? (energy - r.sums.enthalpy()) / model : 1.0 - std::fabs(dot(r.force, way)) / slope;
     if (gain > 0.75 && part == 1.0) {
       shift = shift < 0.01 * first_shift ? 0.0 : shift * 0.1;
     } else if (gain < 0.25) {

@@ -8,6 +8,10 @@
 
 namespace jam {
 
+// The minimum of a fixed cell is found to this residual before the cell is free. Mean forces below the part weak_part
+// of what the pressure makes of one contact a sphere are none.
+constexpr double before_strain = 1e-6, weak_part = 1e-3;
+
 jam_relax_options default_relax_options() {
   jam_relax_options o{};
   o.struct_size = sizeof o;
@@ -18,6 +22,9 @@ jam_relax_options default_relax_options() {
   o.force_tolerance = 1e-12;
   o.max_evaluations = 1000000;
   o.wall_time = std::numeric_limits<double>::infinity();
+  o.strain = JAM_STRAIN_NONE;
+  o.pressure = 0.0;
+  o.components = -1;
   return o;
 }
 
@@ -34,6 +41,13 @@ void check_relax_options(const jam_relax_options &o) {
   if (o.max_evaluations < 1)
     fail(JAM_E_ARGUMENT, "max_evaluations is %lld, it must be at least 1", static_cast<long long>(o.max_evaluations));
   if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+  if (o.strain < JAM_STRAIN_NONE || o.strain > JAM_STRAIN_ALL)
+    fail(JAM_E_ARGUMENT, "strain is %d, not a jam_free_strain", o.strain);
+  if (o.reserved != 0) fail(JAM_E_ARGUMENT, "reserved is %d, it must be 0", o.reserved);
+  const bool volume = (o.strain & JAM_STRAIN_VOLUME) != 0;
+  if (!(o.pressure >= 0.0) || !std::isfinite(o.pressure) || volume != (o.pressure > 0.0))
+    fail(JAM_E_ARGUMENT, "pressure is %g, with strain %d it must be %s", o.pressure, o.strain,
+         volume ? "positive and finite" : "0: the volume is fixed");
 }
 
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision) {
@@ -83,8 +97,24 @@ double overlap_resolution(const Packing &p) {
          *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 
+// The minimum with the cell free, from the minimum of the fixed one.
+static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o) {
+  const FreeCell cell = free_cell_of(r.state.dim(), o.strain, o.components, o.pressure);
+  const LeavingScope scope;
+  try {
+    r.weak_force = 0.0;
+    r.state.free_cell(cell);
+    r.evaluate();
+  } catch (const Cancelled &) {  // in a search for pairs
+    return DescentEnd::interrupted;
+  }
+  return minimise(r, o.minimiser, o.force_tolerance, false);
+}
+
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
   check_relax_options(o);
+  if (o.strain != JAM_STRAIN_NONE && free_cell_of(start.dim, o.strain, o.components, o.pressure).count() == 0)
+    fail(JAM_E_ARGUMENT, "components is %lld: no strain is free", static_cast<long long>(o.components));
   monitor.wall_time = o.wall_time;
   SoftState state = first_state(start, PairEnergy(o.alpha, o.scale), o.precision);
   Effort effort;
@@ -94,7 +124,15 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   effort.packing_fraction = packing_fraction(start);
   effort.pressure = std::nan("");
   Relaxation r(state, effort);
-  const DescentEnd end = minimise(r, o.minimiser, o.force_tolerance, false);
+  // Forces that are weak beside the pressure to come need no balance yet.
+  r.weak_force =
+      weak_part * o.pressure * start.cell.volume() / (state.diameter_mean() * static_cast<double>(state.n()));
+  const bool frees = o.strain != JAM_STRAIN_NONE;
+  DescentEnd end =
+      minimise(r, o.minimiser, frees ? std::max(o.force_tolerance, before_strain) : o.force_tolerance, false);
+  // A pressure brings overlaps back where the fixed cell has none.
+  if (frees && (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)))
+    end = relax_cell(r, o);
   SoftResult out = measure(state, o.minimiser);
   out.status = status_of(end, monitor, out.report.stop_reason);
   out.report.converged = end == DescentEnd::balanced || end == DescentEnd::no_overlaps;

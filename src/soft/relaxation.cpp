@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jam {
 namespace {
 
-double largest(const std::vector<double> &force, int d, const std::vector<char> *of) {
+double largest(const std::vector<double> &force, size_t n, int d, const std::vector<char> *of) {
   double most = 0.0;
-  for (size_t i = 0; i < force.size() / static_cast<size_t>(d); ++i) {
+  for (size_t i = 0; i < n; ++i) {
     if (of && !(*of)[i]) continue;
     double f2 = 0.0;
     for (int c = 0; c < d; ++c) f2 += force[i * d + c] * force[i * d + c];
@@ -21,7 +22,8 @@ double largest(const std::vector<double> &force, int d, const std::vector<char> 
 
 double Relaxation::residual() const {
   const double mean = sums.mean_force();
-  return mean > 0.0 ? largest(force, state.dim(), nullptr) / mean : 0.0;
+  if (mean > weak_force) return std::max(largest(force, state.n(), state.dim(), nullptr) / mean, sums.stress);
+  return at_rest() || weak_force > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 double Relaxation::stable_residual() const {
@@ -36,8 +38,8 @@ double Relaxation::stable_residual() const {
     sum += contacts.force[k];
     ++count;
   }
-  if (count == 0) return residual();
-  return largest(force, state.dim(), &stable) * static_cast<double>(count) / sum;
+  if (count == 0 || sums.mean_force() <= weak_force) return residual();
+  return std::max(largest(force, state.n(), state.dim(), &stable) * static_cast<double>(count) / sum, sums.stress);
 }
 
 bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {

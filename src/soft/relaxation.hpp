@@ -12,7 +12,7 @@ namespace jam {
 // Why a descent ended.
 enum class DescentEnd {
   balanced,     // max |F_i| over the mean force is below the tolerance
-  no_overlaps,  // the energy is 0
+  no_overlaps,  // the energy is 0, at no pressure
   limit,        // evaluations are used up
   interrupted,  // cancelled, or wall time is over
   stalled       // the method made no progress
@@ -37,9 +37,12 @@ class Relaxation {
   void evaluate() {
     state.moved();
     sums = state.evaluate(force);
+    if (sums.overlap > 0.0) stiffness = sums.stiffness(state.energy().alpha());
     ++effort.evaluations;
   }
-  // Largest |F_i| over the mean force: of all spheres, and of stable ones.
+  // No overlaps, and no pressure that brings some.
+  bool at_rest() const { return sums.energy == 0.0 && !(state.cell().pressure > 0.0); }
+  // Largest |F_i| over the mean force: of all spheres, and of stable ones. In a free cell the stress counts too.
   double residual() const;
   double stable_residual() const;
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
@@ -48,8 +51,10 @@ class Relaxation {
 
   SoftState &state;
   Effort &effort;
-  std::vector<double> force;  // (n, dim)
+  std::vector<double> force;  // (blocks, dim)
   SoftSums sums;
+  double weak_force = 0.0;  // mean force up to which a state counts as balanced
+  double stiffness = 1.0;   // typical one of a contact, when there last was one
 };
 
 // Each minimises until max |F_i| of stable spheres over the mean force is below the tolerance.

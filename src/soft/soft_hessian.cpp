@@ -1,6 +1,9 @@
 #include "soft/soft_hessian.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
+#include <numeric>
 
 namespace jam {
 namespace {
@@ -18,8 +21,17 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
   std::vector<char> stable(state.n(), 0);
   double sum = 0.0;
   int64_t count = 0;
+  strains_ = state.strains();
+  border_.assign(state.spheres() * strains_, 0.0), corner_.assign(strains_ * strains_, 0.0);
+  CellStrain strain;
+  if (strains_ > 0) strain = state.strain();
+  double virial = 0.0;
   for (size_t q = 0; q < contacts.size(); ++q) {
     const int32_t i = state.pairs().i[contacts.pair[q]], j = state.pairs().j[contacts.pair[q]];
+    if (strains_ > 0) {
+      add_border(state, contacts, strain, q);
+      virial += contacts.force[q] * contacts.distance[q];
+    }
     if (i == j) continue;  // an image of itself moves with the sphere
     if (on[q]) stable[i] = stable[j] = 1;
     if (ei_.empty() || ei_.back() != i || ej_.back() != j) {  // images of one pair stand one after the other
@@ -41,12 +53,78 @@ void SoftHessian::assemble(const SoftState &state, const SoftContacts &contacts,
     sum += k;
     ++count;
   }
-  unit_ = count > 0 ? sum / static_cast<double>(count) : 1.0;
+  unit_ = count > 0 ? sum / static_cast<double>(count) : strains_ > 0 && corner_[0] > 0.0 ? corner_[0] : 1.0;
+  if (strains_ > 0) {
+    const FreeCell &cell = state.cell();
+    const double p_v = cell.volume ? cell.pressure * state.base().cell.volume() : virial / d;
+    const std::vector<double> curvature = volume_curvature(cell);
+    for (size_t k = 0; k < corner_.size(); ++k)
+      corner_[k] += p_v * curvature[k] * state.amplitude_unit() * state.amplitude_unit();
+  }
   bool tied = false;
   for (size_t i = 0; i < state.n(); ++i) {
     const double spring = !stable[i] ? rattler_spring : tied ? 0.0 : 1.0;
     tied = tied || stable[i];
     for (int c = 0; c < d; ++c) diag_[i * dd + c * d + c] += spring * unit_;
+  }
+}
+
+// Forces on spheres and strains from strains: with v_k = slope_k r0, the columns H v_k and the numbers v_k . H v_l.
+void SoftHessian::add_border(const SoftState &state, const SoftContacts &contacts, const CellStrain &strain,
+                             size_t contact) {
+  const size_t d = static_cast<size_t>(state.dim()), pair = contacts.pair[contact], spheres = state.spheres();
+  const size_t i = static_cast<size_t>(state.pairs().i[pair]), j = static_cast<size_t>(state.pairs().j[pair]);
+  const double *r0 = state.base_vector(pair), *n = &contacts.normal[contact * d];
+  const double k = state.energy().stiffness(contacts.overlap[contact], contacts.force[contact]),
+               t = contacts.force[contact] / contacts.distance[contact];
+  std::vector<double> v(strains_ * d, 0.0), hv(d);
+  for (size_t m = 0; m < strains_; ++m)
+    for (size_t a = 0; a < d; ++a)
+      for (size_t b = a; b < d; ++b) v[m * d + a] += strain.slope[(m * d + a) * d + b] * r0[b];
+  for (size_t m = 0; m < strains_; ++m) {
+    double along = 0.0;
+    for (size_t c = 0; c < d; ++c) along += n[c] * v[m * d + c];
+    for (size_t c = 0; c < d; ++c) hv[c] = (k + t) * along * n[c] - t * v[m * d + c];
+    for (size_t c = 0; c < d && i != j; ++c)
+      border_[m * spheres + i * d + c] += hv[c], border_[m * spheres + j * d + c] -= hv[c];
+    for (size_t l = 0; l < strains_; ++l)
+      for (size_t c = 0; c < d; ++c) corner_[m * strains_ + l] += hv[c] * v[l * d + c];
+  }
+}
+
+bool SoftHessian::factorise_border(double shift) {
+  if (strains_ == 0) return true;
+  const auto q = static_cast<Eigen::Index>(strains_);
+  const size_t spheres = border_.size() / strains_;
+  border_solved_ = border_;
+  Eigen::MatrixXd s = Eigen::Map<const Eigen::MatrixXd>(corner_.data(), q, q);
+  for (size_t k = 0; k < strains_; ++k) {
+    double *x = &border_solved_[k * spheres];
+    cholesky_.solve(x);
+    for (size_t l = 0; l < strains_; ++l)
+      s(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(k)) -=
+          std::inner_product(x, x + spheres, &border_[l * spheres], 0.0);
+  }
+  s.diagonal().array() += shift;
+  const Eigen::LLT<Eigen::MatrixXd> factor(0.5 * (s + s.transpose()));
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(q, q));
+  schur_.assign(inverse.data(), inverse.data() + inverse.size());
+  return true;
+}
+
+void SoftHessian::solve(std::vector<double> &x) const {
+  cholesky_.solve(x.data());
+  if (strains_ == 0) return;
+  const size_t spheres = border_.size() / strains_;
+  std::vector<double> rest(strains_);
+  for (size_t k = 0; k < strains_; ++k)
+    rest[k] = x[spheres + k] - std::inner_product(x.begin(), x.begin() + spheres, &border_[k * spheres], 0.0);
+  for (size_t k = 0; k < strains_; ++k) {
+    double e = 0.0;
+    for (size_t l = 0; l < strains_; ++l) e += schur_[k * strains_ + l] * rest[l];
+    x[spheres + k] = e;
+    for (size_t c = 0; c < spheres; ++c) x[c] -= e * border_solved_[k * spheres + c];
   }
 }
 
@@ -81,7 +159,7 @@ bool SoftHessian::factorise(const SoftState &state, const SoftContacts &contacts
     for (size_t i = 0; i < state.n(); ++i)
       for (int c = 0; c < d; ++c) shifted[i * d * d + c * d + c] += s * unit_;
     ++factorisations;
-    if (cholesky_.factorise(shifted.data(), off_.data()) == 0) {
+    if (cholesky_.factorise(shifted.data(), off_.data()) == 0 && factorise_border(s * unit_)) {
       shift_ = s;
       return true;
     }

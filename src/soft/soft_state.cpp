@@ -32,24 +32,29 @@ SoftState::SoftState(const Packing &p, const PairEnergy &energy, int32_t precisi
 }
 
 void SoftState::rebase() {
-  for (size_t i = 0; i < base_.n(); ++i) wrap_sphere(i * static_cast<size_t>(base_.dim));
+  std::vector<double> e;
+  if (strains() > 0) e = fold_strain();
+  for (size_t i = 0; i < base_.n(); ++i) wrap_sphere(i * static_cast<size_t>(base_.dim), strains() > 0 ? &e : nullptr);
   diameter_mean_ = jam::diameter_mean(base_);
   try {
     pairs_ = find_pairs(base_, skin_, 1.0);
   } catch (const Cancelled &) {  // back to where the last list was made: it does not hold here
     base_.position = listed_base_, displacement_ = listed_displacement_;
+    base_.cell = listed_cell_, at_ = listed_at_;
     throw;
   }
   listed_base_ = base_.position, listed_displacement_ = displacement_;
+  listed_cell_ = base_.cell, listed_at_ = at_;
   uses_ = 0;
   take_references();
 }
 
 // As Cell::wrap, by whole cell vectors, so that nothing of the low parts is lost.
-void SoftState::wrap_sphere(size_t at) {
+void SoftState::wrap_sphere(size_t at, const std::vector<double> *strain) {
   const Cell &cell = base_.cell;
   std::array<DoubleDouble, JAM_MAX_DIM> x;
   for (int c = 0; c < base_.dim; ++c) x[c] = two_sum(base_.position[at + c], displacement_[at + c]);
+  if (strain) strain_sphere(*strain, &base_.position[at], x.data());
   for (int c = base_.dim - 1; c >= 0; --c) {
     const double edge = cell.edge(c), inside = wrap(x[c].high, edge);
     if (inside == x[c].high) continue;
@@ -92,7 +97,13 @@ bool SoftState::moved() {
     for (int c = 0; c < d; ++c) u2 += displacement_[i * d + c] * displacement_[i * d + c];
     most = std::max(most, u2);
   }
-  if (!(4.0 * most >= skin_ * skin_)) return false;
+  double rest = skin_;  // a strain shortens vectors by its norm times their length at most
+  if (strains() > 0) {
+    double e2 = 0.0;
+    for (const double e : strain().e) e2 += e * e;
+    rest = std::max(0.0, rest - std::sqrt(e2) * (skin_ + contact_distance_max(base_)));
+  }
+  if (!(4.0 * most >= rest * rest)) return false;
   if (uses_ < few_evaluations) skin_ = std::min(1.5 * skin_, longest_skin * diameter_mean_);
   if (uses_ > many_evaluations) skin_ = std::max(0.5 * skin_, shortest_skin * diameter_mean_);
   rebase();
@@ -106,6 +117,7 @@ void SoftState::scale_diameters(double factor) {
 
 Packing SoftState::packing() const {
   Packing p = base_;
+  if (strains() > 0) deform_base(p);
   for (size_t k = 0; k < p.position.size(); ++k) p.position[k] += displacement_[k];
   wrap_positions(p);
   return p;
@@ -114,10 +126,11 @@ Packing SoftState::packing() const {
 // One pair at the present displacements: its overlap (sigma + r), positive where spheres overlap, and r_ij.
 template <int D>
 inline double overlap_square(int dim, const double *r0, double reference, const double *ui, const double *uj,
-                             double *r) {
+                             const double *strain, double *r) {
   double change = 0.0;
   for (int c = 0; c < (D ? D : dim); ++c) {
-    const double du = ui[c] - uj[c];
+    double du = ui[c] - uj[c];
+    for (int b = c; strain && b < (D ? D : dim); ++b) du += strain[c * (D ? D : dim) + b] * r0[b];
     r[c] = r0[c] + du;
     change += du * (r0[c] + r[c]);
   }
@@ -127,10 +140,12 @@ inline double overlap_square(int dim, const double *r0, double reference, const 
 // The same from coordinates rounded to doubles, for comparison alone.
 template <int D>
 inline double overlap_square_plain(int dim, const double *xi, const double *xj, const double *offset, double sigma,
-                                   const double *ui, const double *uj, double *r) {
+                                   const double *ui, const double *uj, const double *r0, const double *strain,
+                                   double *r) {
   double r2 = 0.0;
   for (int c = 0; c < (D ? D : dim); ++c) {
     r[c] = ((xi[c] + ui[c]) - (xj[c] + uj[c])) + offset[c];
+    for (int b = c; strain && b < (D ? D : dim); ++b) r[c] += strain[c * (D ? D : dim) + b] * r0[b];
     r2 += r[c] * r[c];
   }
   const double length = std::sqrt(r2);
@@ -138,19 +153,21 @@ inline double overlap_square_plain(int dim, const double *xi, const double *xj, 
 }
 
 template <int D>
-SoftSums SoftState::evaluate_in(std::vector<double> &force) const {
+SoftSums SoftState::evaluate_in(std::vector<double> &force, const CellStrain *strain) const {
   const int d = D ? D : base_.dim;
   SoftSums sums;
   std::fill(force.begin(), force.end(), 0.0);
   const bool plain = precision_ == JAM_SOFT_DOUBLE;
+  const double *e = strain ? strain->e.data() : nullptr;
+  std::vector<double> stress(strain ? static_cast<size_t>(d) * d : 0, 0.0);  // sum of f n r0
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < reference_.size(); ++k) {
     const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
     const double sigma = sigma_[k];
     const double q =
         plain ? overlap_square_plain<D>(d, &base_.position[i], &base_.position[j], &pairs_.offset[k * d], sigma,
-                                        &displacement_[i], &displacement_[j], r)
-              : overlap_square<D>(d, &vector_[k * d], reference_[k], &displacement_[i], &displacement_[j], r);
+                                        &displacement_[i], &displacement_[j], &vector_[k * d], e, r)
+              : overlap_square<D>(d, &vector_[k * d], reference_[k], &displacement_[i], &displacement_[j], e, r);
     if (!(q > 0.0)) continue;
     double r2 = 0.0;
     for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
@@ -167,27 +184,37 @@ SoftSums SoftState::evaluate_in(std::vector<double> &force) const {
       const double x = push * r[c];
       force[i + c] += x;
       force[j + c] -= x;
+      for (int b = c; e && b < d; ++b) stress[c * d + b] += x * vector_[k * d + b];
     }
   }
+  if (strain) add_cell(sums, *strain, stress, force);
   return sums;
 }
 
 SoftSums SoftState::evaluate(std::vector<double> &force) const {
   force.resize(displacement_.size());
-  return base_.dim == 2 ? evaluate_in<2>(force) : base_.dim == 3 ? evaluate_in<3>(force) : evaluate_in<0>(force);
+  CellStrain at;
+  if (strains() > 0) at = strain();
+  const CellStrain *s = strains() > 0 ? &at : nullptr;
+  return base_.dim == 2   ? evaluate_in<2>(force, s)
+         : base_.dim == 3 ? evaluate_in<3>(force, s)
+                          : evaluate_in<0>(force, s);
 }
 
 SoftContacts SoftState::contacts() const {
   const int d = base_.dim;
   SoftContacts out;
+  CellStrain at;
+  if (strains() > 0) at = strain();
+  const double *e = strains() > 0 ? at.e.data() : nullptr;
   double r[JAM_MAX_DIM];
   for (size_t k = 0; k < reference_.size(); ++k) {
     const size_t i = static_cast<size_t>(pairs_.i[k]) * d, j = static_cast<size_t>(pairs_.j[k]) * d;
     const double q =
         precision_ == JAM_SOFT_DOUBLE
             ? overlap_square_plain<0>(d, &base_.position[i], &base_.position[j], &pairs_.offset[k * d], sigma_[k],
-                                      &displacement_[i], &displacement_[j], r)
-            : overlap_square<0>(d, &vector_[k * d], reference_[k], &displacement_[i], &displacement_[j], r);
+                                      &displacement_[i], &displacement_[j], &vector_[k * d], e, r)
+            : overlap_square<0>(d, &vector_[k * d], reference_[k], &displacement_[i], &displacement_[j], e, r);
     if (!(q > 0.0)) continue;
     double r2 = 0.0;
     for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
@@ -207,7 +234,8 @@ std::vector<char> stable_contacts(const SoftState &state, const SoftContacts &co
   std::vector<char> on;
   for (const size_t k : contacts.pair) {
     list.i.push_back(state.pairs().i[k]), list.j.push_back(state.pairs().j[k]);
-    on.push_back(list.i.back() != list.j.back());  // an image of the same sphere holds nothing
+    // An image of the same sphere holds nothing, but for the cell.
+    on.push_back(state.strains() > 0 || list.i.back() != list.j.back());
   }
   drop_loose(state.dim(), state.n(), list.i, list.j, on);
   return on;

@@ -4,6 +4,8 @@
 // best. Here a sphere stands at base + displacement. Each pair keeps sigma^2 - r^2 of the base positions, taken in
 // double-double, and small displacements change it without cancellation:
 //     sigma^2 - r^2 = reference - du . (2 r0 + du),     overlap = (sigma^2 - r^2) / (sigma + r).
+// In a free cell du also holds E r0 (soft_cell.hpp). Amplitudes of strain stand behind the displacements, as lengths:
+// amplitude = length / (mean diameter sqrt(n)), so that all unknowns are about as stiff.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,6 +13,8 @@
 #include "core/packing.hpp"
 #include "core/pair_energy.hpp"
 #include "core/pairs.hpp"
+#include "linalg/double_double.hpp"
+#include "soft/soft_cell.hpp"
 
 namespace jam {
 
@@ -20,6 +24,9 @@ struct SoftSums {
   double virial = 0.0;   // sum of f r
   double force = 0.0;    // sum of f
   double overlap = 0.0;  // sum of sigma - r
+  double work = 0.0;     // P (V - V at the start), at fixed pressure
+  double stress = 0.0;   // largest stress that a free cell leaves, less the target, over the pressure
+  double enthalpy() const { return energy + work; }
   int64_t contacts = 0;
   double mean_force() const { return contacts > 0 ? force / static_cast<double>(contacts) : 0.0; }
   // Typical d2v / dr2 of a contact.
@@ -50,7 +57,19 @@ class SoftState {
   Packing packing() const;
   double diameter_mean() const { return diameter_mean_; }
 
-  // Forces on all spheres (n, dim) and the sums.
+  // Frees the cell: amplitudes join the displacements, in blocks of dim.
+  void free_cell(const FreeCell &cell);
+  const FreeCell &cell() const { return cell_; }
+  size_t strains() const { return static_cast<size_t>(cell_.count()); }
+  // Displacements of spheres, and blocks of dim with the strains.
+  size_t spheres() const { return base_.position.size(); }
+  size_t blocks() const { return displacement_.size() / static_cast<size_t>(base_.dim); }
+  // At the present amplitudes; slopes are by the lengths behind the displacements.
+  CellStrain strain() const;
+  double amplitude_unit() const { return amplitude_unit_; }
+  const double *base_vector(size_t pair) const { return &vector_[pair * static_cast<size_t>(base_.dim)]; }
+
+  // Forces on all spheres and on the strains (blocks, dim), and the sums.
   SoftSums evaluate(std::vector<double> &force) const;
   SoftContacts contacts() const;
   // Displacements since the last rebase; call moved() after a change.
@@ -65,17 +84,34 @@ class SoftState {
 
  private:
   template <int D>
-  SoftSums evaluate_in(std::vector<double> &force) const;
-  void wrap_sphere(size_t at);
+  SoftSums evaluate_in(std::vector<double> &force, const CellStrain *strain) const;
+  void add_cell(SoftSums &sums, const CellStrain &strain, const std::vector<double> &stress,
+                std::vector<double> &force) const;
+  // Takes the strain into the cell, and returns it (dim, dim); the spheres follow in wrap_sphere.
+  std::vector<double> fold_strain();
+  void strain_sphere(const std::vector<double> &strain, const double *base, DoubleDouble *x) const;
+  void deform_base(Packing &p) const;
+  void wrap_sphere(size_t at, const std::vector<double> *strain);
   void take_references();
 
   Packing base_;
   PairEnergy energy_;
   int32_t precision_;
   double diameter_mean_, skin_;
-  int64_t uses_ = 0;                                       // evaluations since the list was made
-  std::vector<double> displacement_;                       // (n, dim)
-  std::vector<double> listed_base_, listed_displacement_;  // where the list was made
+  int64_t uses_ = 0;                  // evaluations since the list was made
+  std::vector<double> displacement_;  // (n, dim)
+  // Free cell: the rounding of its vectors as a strain (dim, dim), the work up to now, and 1 / (diameter sqrt(n)).
+  struct CellState {
+    std::vector<double> low;
+    double work = 0.0;
+  };
+  FreeCell cell_;
+  CellState at_;
+  double amplitude_unit_ = 0.0;
+  // Where the list was made.
+  std::vector<double> listed_base_, listed_displacement_;
+  Cell listed_cell_;
+  CellState listed_at_;
   PairList pairs_;
   std::vector<double> vector_, reference_, sigma_, inverse_;  // r0 (pairs, dim), sigma^2 - r0^2, sigma, 1 / sigma
 };

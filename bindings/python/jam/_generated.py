@@ -182,11 +182,15 @@ class CrunchMethod(IntEnum):
 
 
 class FreeStrain(IntEnum):
-    """What of the cell jam_crunch may change, at fixed volume. @since 0.1"""
+    """What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1"""
     NONE = 0  # a fixed cell
     EDGES = 1  # the diagonal of the cell: lengths of a brick
     TILTS = 2  # what is off the diagonal
     FREE = 3  # both
+    VOLUME = 4  # the volume; this and the following in jam_relax alone, with a pressure
+    EDGES_VOLUME = 5  # each edge by itself
+    TILTS_VOLUME = 6  # tilts and the volume
+    ALL = 7  # edges, tilts and the volume
 
 
 class StepPhase(IntEnum):
@@ -607,7 +611,7 @@ class RelaxReport:
     """What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
     again and again; stable spheres are the others. @since 0.1
 
-    converged: 1: force_residual is below force_tolerance, or no spheres overlap
+    converged: 1: both residuals are below force_tolerance, or no spheres overlap
     stop_reason: jam_stop_reason
     minimiser: jam_minimiser
     force_residual: max |F_i| of stable spheres over the mean contact force; 0 without contacts
@@ -625,7 +629,8 @@ class RelaxReport:
     rattlers: spheres left out
     evaluations: of the forces
     factorisations: of the Hessian
-    seconds: wall time"""
+    seconds: wall time
+    stress_residual: largest stress that a free cell leaves, less the target, over the pressure"""
     converged: bool
     stop_reason: StopReason
     minimiser: Minimiser
@@ -645,6 +650,7 @@ class RelaxReport:
     evaluations: int
     factorisations: int
     seconds: float
+    stress_residual: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -908,6 +914,9 @@ OPTIONS = {
         "force_tolerance": ("float", 'on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12'),
         "max_evaluations": ("int", 'of the forces, >= 1, default 1e6'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
+        "strain": ("FreeStrain", 'FreeStrain, default NONE: what of the cell is free after the minimum of the fixed one'),
+        "pressure": ("float", "P > 0 with 'volume': U + P V is minimised; else 0, the default"),
+        "components": ("int", 'bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all'),
     },
     "jam_decompress_options": {
         "minimiser": ("Minimiser", 'Minimiser, default NEWTON'),

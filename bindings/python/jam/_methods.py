@@ -344,7 +344,7 @@ class Methods:
         full_lps : bool, optional
             1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that
             gains more than 1e-7 ends at a duality gap of 0.02 of its gain
-        strain : {'none', 'edges', 'tilts', 'free'}, optional
+        strain : {'none', 'edges', 'tilts', 'free', 'volume', 'edges_volume', 'tilts_volume', 'all'}, optional
             FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends
             strictly jammed
 

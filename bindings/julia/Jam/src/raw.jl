@@ -149,11 +149,15 @@ const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
 const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
 const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # LPs alone, as published
 
-# jam_free_strain: What of the cell jam_crunch may change, at fixed volume. @since 0.1
+# jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1
 const JAM_STRAIN_NONE = Int32(0)  # a fixed cell
 const JAM_STRAIN_EDGES = Int32(1)  # the diagonal of the cell: lengths of a brick
 const JAM_STRAIN_TILTS = Int32(2)  # what is off the diagonal
 const JAM_STRAIN_FREE = Int32(3)  # both
+const JAM_STRAIN_VOLUME = Int32(4)  # the volume; this and the following in jam_relax alone, with a pressure
+const JAM_STRAIN_EDGES_VOLUME = Int32(5)  # each edge by itself
+const JAM_STRAIN_TILTS_VOLUME = Int32(6)  # tilts and the volume
+const JAM_STRAIN_ALL = Int32(7)  # edges, tilts and the volume
 
 # jam_step_phase: What kind of step a row of the history is. @since 0.1
 const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path (the first row: all steps that open it)
@@ -597,7 +601,11 @@ mutable struct jam_relax_options
     force_tolerance::Cdouble  # on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12
     max_evaluations::Int64  # of the forces, >= 1, default 1e6
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
-    jam_relax_options() = new(48, 0, 0, 0, 0, 0, 0, 0)
+    strain::Int32  # jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one
+    reserved::Int32  # 0
+    pressure::Cdouble  # P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised; else 0, the default
+    components::Int64  # bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all
+    jam_relax_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -606,7 +614,7 @@ again and again; stable spheres are the others. @since 0.1
 """
 mutable struct jam_relax_report
     struct_size::UInt32  # set by the caller: sizeof(jam_relax_report)
-    converged::Int32  # 1: force_residual is below force_tolerance, or no spheres overlap
+    converged::Int32  # 1: both residuals are below force_tolerance, or no spheres overlap
     stop_reason::Int32  # jam_stop_reason
     minimiser::Int32  # jam_minimiser
     force_residual::Cdouble  # max |F_i| of stable spheres over the mean contact force; 0 without contacts
@@ -625,7 +633,8 @@ mutable struct jam_relax_report
     evaluations::Int64  # of the forces
     factorisations::Int64  # of the Hessian
     seconds::Cdouble  # wall time
-    jam_relax_report() = new(144, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    stress_residual::Cdouble  # largest stress that a free cell leaves, less the target, over the pressure
+    jam_relax_report() = new(152, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1372,11 +1381,11 @@ function jam_relax_options_init(o, size)
 end
 
 """
-Minimises the energy of overlapping spheres at fixed diameters and box. Keeps the contact network with its forces and
-stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. The system must have been
-made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the network holds the digits beyond.
-report may be NULL. Example: examples/c/soft.c
-Status: JAM_OK converged.
+Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
+the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
+contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
+the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
+network holds the digits beyond. report may be NULL. Example: examples/c/soft.c Status: JAM_OK converged.
 JAM_NOT_JAMMED converged to energy 0: no overlaps.
 JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
 JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.

@@ -1,0 +1,118 @@
+// The cell of a soft state: its strains, their forces, and how the cell takes them in without loss of digits.
+#include <algorithm>
+#include <cmath>
+
+#include "soft/soft_state.hpp"
+
+namespace jam {
+namespace {
+
+std::vector<double> rows_of(const Cell &cell) {
+  std::vector<double> rows;
+  for (int c = 0; c < cell.dim(); ++c) rows.insert(rows.end(), cell.row(c), cell.row(c) + cell.dim());
+  return rows;
+}
+
+}  // namespace
+
+void SoftState::free_cell(const FreeCell &cell) {
+  const size_t d = static_cast<size_t>(base_.dim);
+  cell_ = cell;
+  at_.low.assign(d * d, 0.0);
+  amplitude_unit_ = 1.0 / (diameter_mean_ * std::sqrt(static_cast<double>(n())));
+  displacement_.resize(spheres() + (strains() + d - 1) / d * d, 0.0);
+  rebase();
+}
+
+CellStrain SoftState::strain() const {
+  std::vector<double> amplitude(displacement_.begin() + spheres(), displacement_.begin() + spheres() + strains());
+  for (double &a : amplitude) a *= amplitude_unit_;
+  CellStrain s = strain_of(cell_, amplitude.data());
+  for (size_t c = 0; c < s.e.size(); ++c) s.e[c] += at_.low[c];
+  for (double &x : s.slope) x *= amplitude_unit_;
+  return s;
+}
+
+// Forces on strains from the sum of f n r0, and the part of the pressure.
+void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::vector<double> &stress,
+                         std::vector<double> &force) const {
+  const int d = base_.dim;
+  const size_t block = stress.size();
+  const double volume = base_.cell.volume(), p_v = cell_.volume ? cell_.pressure * volume : 0.0;
+  sums.work = at_.work + p_v * std::expm1(strain.log_volume);
+  for (size_t k = 0; k < strains(); ++k) {
+    const double *slope = &strain.slope[k * block];
+    double f = 0.0;
+    for (size_t c = 0; c < block; ++c) f += slope[c] * stress[c];
+    for (int c = 0; cell_.volume && c < d; ++c)
+      f -= p_v * std::exp(strain.log_volume) * slope[c * (d + 1)] / (1.0 + strain.e[c * (d + 1)]);
+    force[spheres() + k] = f;
+    const double most = cell_.volume ? std::max(p_v, sums.virial / d) : sums.virial / d;
+    sums.stress = std::max(sums.stress, most > 0.0 ? std::fabs(f) / (amplitude_unit_ * most) : 0.0);
+  }
+}
+
+// New vectors (1 + E) a are rounded, with three bits to spare, so that their sums in the offsets of pairs are exact.
+// What rounding takes off, as a strain of the rounded vectors, stays in at_.low.
+std::vector<double> SoftState::fold_strain() {
+  const int d = base_.dim;
+  const CellStrain s = strain();
+  if (cell_.volume) at_.work += cell_.pressure * base_.cell.volume() * std::expm1(s.log_volume);
+  std::vector<double> rows = rows_of(base_.cell), rest(rows.size(), 0.0);
+  double widest = 0.0;
+  for (const double x : rows) widest = std::max(widest, std::fabs(x));
+  const double quantum = std::ldexp(1.0, std::ilogb(widest) - 49);
+  for (int c = 0; c < d; ++c) {
+    DoubleDouble x[JAM_MAX_DIM];
+    for (int a = 0; a <= c; ++a) x[a] = rows[c * d + a];
+    for (int a = 0; a <= c; ++a)
+      for (int b = a; b <= c; ++b) x[a] = x[a] + two_product(s.e[a * d + b], rows[c * d + b]);
+    for (int a = 0; a <= c; ++a) {
+      rows[c * d + a] = std::nearbyint(x[a].high / quantum) * quantum;
+      rest[c * d + a] = static_cast<double>(x[a] - rows[c * d + a]);
+    }
+  }
+  std::fill(at_.low.begin(), at_.low.end(), 0.0);
+  for (int c = 0; c < d && precision_ != JAM_SOFT_DOUBLE; ++c)
+    for (int a = 0; a <= c; ++a) {
+      double sum = rest[c * d + a];
+      for (int b = a; b < c; ++b) sum -= at_.low[a * d + b] * rows[c * d + b];
+      at_.low[a * d + c] = sum / rows[c * d + c];
+    }
+  // Long vectors get shorter by whole others, in place: axes stay. Mari-Kurchan shifts belong to these vectors.
+  for (int c = 1; c < d && base_.model != JAM_MODEL_MK; ++c)
+    for (int k = c - 1; k >= 0; --k) {
+      const double m = std::nearbyint(rows[c * d + k] / rows[k * d + k]);
+      for (int a = 0; a <= k; ++a) rows[c * d + a] -= m * rows[k * d + a];
+    }
+  base_.cell = Cell::from_triangle(d, rows.data());
+  std::fill(displacement_.begin() + spheres(), displacement_.end(), 0.0);
+  return s.e;
+}
+
+// x = base + displacement becomes what at_.low leaves of (1 + E) base + displacement.
+void SoftState::strain_sphere(const std::vector<double> &strain, const double *base, DoubleDouble *x) const {
+  const int d = base_.dim;
+  for (int a = 0; a < d; ++a)
+    for (int b = a; b < d; ++b) x[a] = x[a] + two_product(strain[a * d + b], base[b]);
+  for (int a = 0; a < d; ++a)  // ascending: x_b with b >= a are those before, to the digits that at_.low has
+    for (int b = a; b < d; ++b) x[a] = x[a] - two_product(at_.low[a * d + b], x[b].high);
+}
+
+void SoftState::deform_base(Packing &p) const {
+  const int d = p.dim;
+  const std::vector<double> e = strain().e;
+  const auto deform = [&](double *x) {
+    for (int a = 0; a < d; ++a) {
+      double sum = x[a];
+      for (int b = a; b < d; ++b) sum += e[a * d + b] * x[b];
+      x[a] = sum;
+    }
+  };
+  std::vector<double> rows = rows_of(p.cell);
+  for (int c = 0; c < d; ++c) deform(&rows[c * d]);
+  for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
+  p.cell = Cell::from_triangle(d, rows.data());
+}
+
+}  // namespace jam

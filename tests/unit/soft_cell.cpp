@@ -1,0 +1,236 @@
+// Soft spheres in a free cell: forces and stresses against differences of the enthalpy, one minimum by every method,
+// lattices exactly, unjammed starts, bad options, calls that are cut short.
+#include <cmath>
+#include "core/error.hpp"  // before cmocka's macro `fail`
+#include "test.h"
+
+#include "core/cell_reduction.hpp"
+#include "core/rng.hpp"
+#include "soft/decompression.hpp"
+
+using namespace jam;
+
+namespace {
+
+Packing random_packing(int dim, int n, double phi, int64_t seed) {
+  Packing p;
+  p.set_cube(dim, 1.0);
+  p.seed = seed;
+  Rng rng(seed, Stream::rsa_positions);
+  p.position.resize(static_cast<size_t>(n) * dim);
+  for (double &x : p.position) x = rng.uniform();
+  p.diameter.assign(n, 1.0);
+  if (dim == 2)
+    for (int i = 0; i < n; i += 2) p.diameter[i] = 1.4;
+  const double scale = std::pow(phi / packing_fraction(p), 1.0 / dim);
+  for (double &s : p.diameter) s *= scale;
+  p.velocity.assign(p.position.size(), 0.0);
+  return p;
+}
+
+jam_relax_options options(int32_t minimiser, int32_t strain, double pressure) {
+  jam_relax_options o = default_relax_options();
+  o.minimiser = minimiser, o.strain = strain, o.pressure = pressure;
+  o.max_evaluations = 300000;
+  return o;
+}
+
+SoftResult relaxed(const Packing &p, const jam_relax_options &o) {
+  Monitor monitor;
+  monitor.begin();
+  return relax(p, o, monitor);
+}
+
+// At some finite strain, by central differences of 1e-5, whose error is some 1e-9 of the stiffness.
+void forces_are_slopes(void **) {
+  const PairEnergy energy(2.5, JAM_SOFT_RELATIVE);
+  for (int dim = 2; dim <= 4; ++dim)
+    for (const int32_t strain : {3, 4, 5, 7}) {
+      SoftState state(random_packing(dim, 30, dim == 2 ? 0.95 : dim == 3 ? 0.8 : 0.6, dim), energy, JAM_SOFT_REFERENCE);
+      state.free_cell(free_cell_of(dim, strain, -1, strain >= JAM_STRAIN_VOLUME ? 0.3 : 0.0));
+      Rng rng(4, Stream::velocities);
+      const size_t strained = state.spheres() + state.strains();
+      for (size_t k = 0; k < strained; ++k)
+        state.displacement()[k] = (k < state.spheres() ? 1e-3 : 3e-2) * (rng.uniform() - 0.5) * state.diameter_mean();
+      std::vector<double> force, other;
+      const SoftSums sums = state.evaluate(force);
+      const double h = 1e-5 * state.diameter_mean(), size = sums.force;
+      for (const size_t k : {size_t{0}, state.spheres() / 2, state.spheres(), strained - 1}) {
+        double side[2];
+        for (int s = 0; s < 2; ++s) {
+          state.displacement()[k] += s == 0 ? h : -2.0 * h;
+          side[s] = state.evaluate(other).enthalpy();
+        }
+        state.displacement()[k] += h;
+        assert_true(std::fabs(force[k] + (side[0] - side[1]) / (2.0 * h)) < 1e-6 * size);
+      }
+      // Taking the strain into the cell changes neither energy nor enthalpy nor forces on spheres.
+      state.rebase();
+      const SoftSums after = state.evaluate(other);
+      assert_true(std::fabs(after.enthalpy() - sums.enthalpy()) < 1e-13 * (sums.energy + std::fabs(sums.work)));
+      for (size_t k = 0; k < state.spheres(); ++k) assert_true(std::fabs(other[k] - force[k]) < 1e-12 * size);
+    }
+}
+
+// Slope of the energy with a strain of all that a component (a, b) of the stress tensor is, over V.
+double stress(const Packing &p, int a, int b) {
+  const int d = p.dim;
+  double side[2];
+  const double h = 1e-6;
+  for (int s = 0; s < 2; ++s) {
+    std::vector<double> e(static_cast<size_t>(d) * d, 0.0), force;
+    e[a * d + b] = s == 0 ? h : -h;
+    Packing q = p;
+    strain_affinely(q, e.data());
+    side[s] = SoftState(q, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE).evaluate(force).energy;
+  }
+  return -(side[0] - side[1]) / (2.0 * h * p.cell.volume());
+}
+
+// From a minimum that is shaken and sheared a little every method leads back to it. Its stress is P, or at fixed volume
+// isotropic.
+void one_minimum(void **) {
+  for (int dim = 2; dim <= 3; ++dim)
+    for (const int32_t strain : {JAM_STRAIN_FREE, JAM_STRAIN_ALL, JAM_STRAIN_VOLUME}) {
+      const double pressure = strain >= JAM_STRAIN_VOLUME ? 0.02 : 0.0;
+      const SoftResult start =
+          relaxed(random_packing(dim, 60, dim == 2 ? 0.92 : 0.72, 2), options(JAM_MINIMISER_NEWTON, strain, pressure));
+      assert_int_equal(start.status, JAM_OK);
+      assert_true(start.report.force_residual < 1e-12 && start.report.stress_residual < 1e-12);
+      const double p = start.report.pressure;
+      if (pressure > 0.0) assert_true(std::fabs(p / pressure - 1.0) < 1e-11);
+      if (pressure == 0.0) assert_true(std::fabs(start.packing.cell.volume() - 1.0) < 1e-13);
+      assert_true(strain == JAM_STRAIN_VOLUME || start.packing.cell.row(1)[0] != 0.0);
+      for (int a = 0; a < dim && strain != JAM_STRAIN_VOLUME; ++a)
+        for (int b = 0; b < dim; ++b)
+          assert_true(std::fabs(stress(start.packing, a, b) - (a == b ? p : 0.0)) < 1e-4 * p);  // a contact may open
+      Packing shaken = start.packing;
+      Rng rng(9, Stream::velocities);
+      std::vector<double> e(static_cast<size_t>(dim) * dim, 0.0);
+      for (int c = 0; c < dim; ++c) e[c * (dim + 1)] = pressure > 0.0 ? 3e-6 : 0.0;
+      if (strain != JAM_STRAIN_VOLUME) e[1] = 1e-5;
+      for (double &x : shaken.position) x += 1e-6 * (rng.uniform() - 0.5);
+      strain_affinely(shaken, e.data());
+      for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+        const SoftResult end = relaxed(shaken, options(m, strain, pressure));
+        assert_int_equal(end.status, JAM_OK);
+        assert_true(end.report.stress_residual < 1e-12);
+        assert_true(std::fabs(end.report.energy / start.report.energy - 1.0) < 1e-10);
+        assert_true(std::fabs(end.report.packing_fraction / start.report.packing_fraction - 1.0) < 1e-11);
+        assert_int_equal(end.report.contacts, start.report.contacts);
+      }
+    }
+}
+
+// One sphere a cell from a distorted face-centred cubic one, two disks from a distorted rectangle: the close-packed
+// lattices, with P = -dU / dV = z h / (2 sigma dV / dr).
+void lattices_are_exact(void **) {
+  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+    Packing one;
+    const double fcc[] = {1.0, 0.0, 0.0, 0.51, 0.85, 0.0, 0.48, 0.30, 0.83};
+    one.dim = 3, one.cell = Cell::from_triangle(3, fcc);
+    one.position = {0.1, 0.2, 0.3}, one.velocity.assign(3, 0.0), one.diameter = {1.05};
+    const SoftResult a = relaxed(one, options(m, JAM_STRAIN_ALL, 0.1));
+    assert_int_equal(a.status, JAM_OK);
+    assert_int_equal(a.report.contacts, 6);
+    const double r = std::cbrt(a.packing.cell.volume() * std::sqrt(2.0));
+    assert_true(std::fabs(6.0 * (1.0 - r / 1.05) / (1.05 * 3.0 * r * r / std::sqrt(2.0)) / 0.1 - 1.0) < 1e-11);
+    for (size_t k = 0; k < 6; ++k) assert_true(std::fabs(1.05 * (1.0 + a.contacts.gap[k]) / r - 1.0) < 1e-12);
+
+    Packing two;
+    const double rectangle[] = {1.0, 0.0, 0.04, 1.71};
+    two.dim = 2, two.cell = Cell::from_triangle(2, rectangle);
+    two.position = {0.1, 0.1, 0.61, 0.94}, two.velocity.assign(4, 0.0), two.diameter = {1.05, 1.05};
+    const SoftResult b = relaxed(two, options(m, JAM_STRAIN_ALL, 0.1));
+    assert_int_equal(b.status, JAM_OK);
+    assert_int_equal(b.report.contacts, 6);
+    const double s = std::sqrt(b.packing.cell.volume() / std::sqrt(3.0));
+    assert_true(std::fabs(6.0 * (1.0 - s / 1.05) / (1.05 * 2.0 * std::sqrt(3.0) * s) / 0.1 - 1.0) < 1e-11);
+    for (size_t k = 0; k < 6; ++k) assert_true(std::fabs(1.05 * (1.0 + b.contacts.gap[k]) / s - 1.0) < 1e-12);
+  }
+}
+
+// Parts of the strain: what may not change does not, and components choose among them.
+void parts_of_the_strain(void **) {
+  const Packing start = random_packing(3, 40, 0.75, 3);
+  jam_relax_options o = options(JAM_MINIMISER_NEWTON, JAM_STRAIN_VOLUME, 0.05);
+  assert_true(relaxed(start, o).packing.cell.cube());
+  o.strain = JAM_STRAIN_EDGES_VOLUME, o.components = 1 << 4;  // (1, 1): uniaxial
+  const Cell uniaxial = relaxed(start, o).packing.cell;
+  assert_true(std::fabs(uniaxial.edge(0) - 1.0) < 1e-14 && std::fabs(uniaxial.edge(2) - 1.0) < 1e-14);
+  assert_true(std::fabs(uniaxial.edge(1) - 1.0) > 1e-3 && uniaxial.row(1)[0] == 0.0);
+  o = options(JAM_MINIMISER_NEWTON, JAM_STRAIN_TILTS, 0.0), o.components = 1 << 2;  // (0, 2): x along z
+  const Cell sheared = relaxed(start, o).packing.cell;
+  assert_true(sheared.row(2)[0] != 0.0 && sheared.row(1)[0] == 0.0 && sheared.row(2)[1] == 0.0);
+  assert_true(std::fabs(sheared.volume() - 1.0) < 1e-13);
+}
+
+void refused(const jam_relax_options &o) {
+  bool threw = false;
+  try {
+    relaxed(random_packing(3, 10, 0.7, 1), o);
+  } catch (const Error &e) {
+    threw = e.code() == JAM_E_ARGUMENT;
+  }
+  assert_true(threw);
+}
+
+// Unjammed starts are told; a pressure compresses them. Options that do not fit are refused.
+void statuses(void **) {
+  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+    const Packing start = random_packing(3, 60, 0.4, 5);
+    const SoftResult end = relaxed(start, options(m, JAM_STRAIN_FREE, 0.0));
+    assert_int_equal(end.status, JAM_NOT_JAMMED);
+    assert_int_equal(end.report.stop_reason, JAM_STOP_UNJAMMED);
+    assert_true(end.report.energy == 0.0 && end.report.stress_residual == 0.0);
+    const SoftResult pressed = relaxed(start, options(m, JAM_STRAIN_ALL, 0.01));
+    assert_int_equal(pressed.status, JAM_OK);
+    assert_true(std::fabs(pressed.report.pressure / 0.01 - 1.0) < 1e-11 && pressed.report.packing_fraction > 0.55);
+  }
+  refused(options(0, JAM_STRAIN_ALL, 0.0));
+  refused(options(0, JAM_STRAIN_FREE, 0.1));
+  refused(options(0, JAM_STRAIN_NONE, 0.1));
+  refused(options(0, JAM_STRAIN_ALL, -0.1));
+  refused(options(0, JAM_STRAIN_ALL, std::nan("")));
+  refused(options(0, 8, 0.1));
+  jam_relax_options o = options(0, JAM_STRAIN_TILTS, 0.0);
+  o.components = 1;  // an edge
+  refused(o);
+}
+
+// Cut short anywhere, before and after the cell is free, the state is valid and a second call ends as one would.
+void cut_short(void **) {
+  const Packing start = random_packing(2, 60, 0.95, 7);
+  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+    jam_relax_options o = options(m, JAM_STRAIN_ALL, 0.02);
+    const SoftResult whole = relaxed(start, o);
+    assert_int_equal(whole.status, JAM_OK);
+    int freed = 0;
+    for (int part = 1; part < 8; ++part) {
+      o.max_evaluations = whole.report.evaluations * part / 8;
+      const SoftResult cut = relaxed(start, o);
+      assert_int_equal(cut.status, JAM_LIMIT);
+      assert_true(cut.report.converged == 0 && cut.packing.cell.volume() > 0.5);
+      for (const double x : cut.packing.position) assert_true(std::isfinite(x) && x >= 0.0);
+      freed += !cut.packing.cell.cube();
+      o.max_evaluations = 300000;
+      const SoftResult end = relaxed(cut.packing, o);
+      assert_int_equal(end.status, JAM_OK);
+      assert_true(std::fabs(end.report.pressure / 0.02 - 1.0) < 1e-11);
+    }
+    assert_true(freed > 0);
+  }
+  Monitor monitor;
+  monitor.begin();
+  monitor.cancel();
+  assert_int_equal(relax(start, options(0, JAM_STRAIN_ALL, 0.02), monitor).status, JAM_CANCELLED);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(forces_are_slopes),  cmocka_unit_test(one_minimum),
+                              cmocka_unit_test(lattices_are_exact), cmocka_unit_test(parts_of_the_strain),
+                              cmocka_unit_test(statuses),           cmocka_unit_test(cut_short)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -27,7 +27,7 @@ GUESTS = {
     r"Spectra/": ["src/analysis/modes.cpp"],
     r"(cblas|lapacke|openblas|f77blas)\w*": ["src/linalg/"],
     r"[ds]mumps_c\.h": ["src/linalg/"],
-    r"Eigen/": ["src/lp/", "src/network/", "src/analysis/", "src/crunch/"],
+    r"Eigen/": ["src/lp/", "src/network/", "src/analysis/", "src/crunch/", "src/soft/"],
 }
 # A sentence of prose has at most so many words; numbers, symbols and formulas are none, a code span is one.
 MAX_WORDS = 25

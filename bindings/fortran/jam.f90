@@ -766,7 +766,7 @@ module jam
     integer(c_int32_t) :: strain = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
-    ! P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised; else 0, the default
+    ! P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default
     real(c_double) :: pressure = 0
     ! bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all
     integer(c_int64_t) :: components = 0
@@ -1324,7 +1324,8 @@ module jam
 
     ! Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
     ! new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
-    ! Errors: as jam_cell_set. Threads: alone. @since 0.1
+    ! Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
+    ! Threads: alone. @since 0.1
     function jam_strain(sys, strain, strain_len) &
         bind(c, name="jam_strain") result(status)
       import

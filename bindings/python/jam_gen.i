@@ -351,7 +351,8 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
 new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
-Errors: as jam_cell_set. Threads: alone. @since 0.1"
+Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
+Threads: alone. @since 0.1"
 %feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_create_watched "jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.

@@ -290,7 +290,8 @@ JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
 /* Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
  * new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
- * Errors: as jam_cell_set. Threads: alone. @since 0.1 */
+ * Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
+ * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 
 /* ------------------------------------------------------------------ progress, log, cancel */
@@ -950,9 +951,9 @@ typedef struct jam_relax_options {
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, >= 1, default 1e6 */
   double wall_time;        /* limit in seconds, > 0, default infinity */
-  int32_t strain;     /* jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one */
-  int32_t reserved;   /* 0 */
-  double pressure;    /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised; else 0, the default */
+  int32_t strain;   /* jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one */
+  int32_t reserved; /* 0 */
+  double pressure;  /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default */
   int64_t components; /* bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all */
 } jam_relax_options;
 

@@ -162,6 +162,13 @@ void enter_cell(Packing &p, const ReducedCell &reduced) {
   if (!p.position.empty()) wrap_positions(p);
 }
 
+bool keeps_shifts(const Packing &p, const ReducedCell &reduced) {
+  bool same = true;
+  for (int r = 0; r < p.dim; ++r)
+    for (int c = 0; c < p.dim; ++c) same &= reduced.transform[static_cast<size_t>(r) * p.dim + c] == (r == c ? 1 : 0);
+  return same || p.model != JAM_MODEL_MK;
+}
+
 void strain_affinely(Packing &p, const double *strain) {
   const int d = p.dim;
   const auto deform = [&](const double *x, double *y) {
@@ -177,7 +184,10 @@ void strain_affinely(Packing &p, const double *strain) {
     deform(&p.position[i * d], y.data());
     std::copy(y.begin(), y.begin() + d, p.position.begin() + i * d);
   }
-  enter_cell(p, reduce_cell(d, rows.data()));
+  const ReducedCell reduced = reduce_cell(d, rows.data());
+  if (!keeps_shifts(p, reduced))
+    fail(JAM_E_UNSUPPORTED, "so large a strain gives the cell other vectors, and with them other Mari-Kurchan shifts");
+  enter_cell(p, reduced);
 }
 
 }  // namespace jam

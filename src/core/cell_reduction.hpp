@@ -20,7 +20,10 @@ struct ReducedCell {
 ReducedCell reduce_cell(int dim, const double *rows);
 // The spheres of p in that cell: positions and velocities are rotated with it, then wrapped.
 void enter_cell(Packing &p, const ReducedCell &reduced);
-// r -> (1 + strain) r for cell vectors and positions; strain is (dim, dim).
+// Mari-Kurchan shifts are fractions of the cell vectors: with other vectors the system is another one.
+bool keeps_shifts(const Packing &p, const ReducedCell &reduced);
+// r -> (1 + strain) r for cell vectors and positions; strain is (dim, dim). JAM_E_UNSUPPORTED where shifts are not
+// kept.
 void strain_affinely(Packing &p, const double *strain);
 
 }  // namespace jam

@@ -33,9 +33,10 @@ std::vector<double> rows_of(const Cell &cell) {
   return rows;
 }
 
-// r -> r + t (eps r + v) for all vectors r between spheres, then back to the old volume.
-Packing deformed(const Packing &p, const std::vector<double> &v, const std::vector<double> &eps, double t) {
-  Packing q = p;
+// r -> r + t (eps r + v) for all vectors r between spheres, then back to the old volume. False where Mari-Kurchan
+// shifts would change.
+bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, const std::vector<double> &eps, double t) {
+  q = p;
   const int d = p.dim;
   std::vector<double> rows = rows_of(p.cell);
   const auto deform = [&](double *x) {
@@ -47,14 +48,16 @@ Packing deformed(const Packing &p, const std::vector<double> &v, const std::vect
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
   for (size_t k = 0; k < q.position.size(); k += d) deform(&q.position[k]);
   for (size_t k = 0; k < v.size(); ++k) q.position[k] += t * v[k];
-  enter_cell(q, reduce_cell(d, rows.data()));
+  const ReducedCell reduced = reduce_cell(d, rows.data());
+  if (!keeps_shifts(p, reduced)) return false;
+  enter_cell(q, reduced);
   const double back = p.cell.side() / q.cell.side();
   rows = rows_of(q.cell);
   for (double &x : rows) x *= back;
   for (double &x : q.position) x *= back;
   q.cell = Cell::from_triangle(d, rows.data());
   wrap_positions(q);
-  return q;
+  return true;
 }
 
 }  // namespace
@@ -74,8 +77,8 @@ bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict) {
   for (double x : v) largest = std::max(largest, std::fabs(x));
   for (double x : eps) largest = std::max(largest, unit * std::fabs(x));
   for (double t = s.tuning.kick * unit / largest; t * largest > 1e-6 * unit; t *= 0.5) {
-    Packing q = deformed(p, v, eps, t);
-    if (closest_pair(q).gap < -1e-13) continue;
+    Packing q;
+    if (!deform_into(q, p, v, eps, t) || closest_pair(q).gap < -1e-13) continue;
     s.monitor.log(JAM_LOG_INFO, "saddle of the free cell at phi %.12f with %lld flexes: moves %.1e diameters",
                   packing_fraction(p), static_cast<long long>(r.flexes), t * largest / unit);
     p = std::move(q);
@@ -88,6 +91,9 @@ bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict) {
   return false;
 }
 
-void shorten_cell(Packing &p) { enter_cell(p, reduce_cell(p.dim, rows_of(p.cell).data())); }
+void shorten_cell(Packing &p) {
+  const ReducedCell reduced = reduce_cell(p.dim, rows_of(p.cell).data());
+  if (keeps_shifts(p, reduced)) enter_cell(p, reduced);
+}
 
 }  // namespace jam

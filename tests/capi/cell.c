@@ -250,6 +250,38 @@ static void refused(void **state) {
   jam_destroy(sys);
 }
 
+/* Mari-Kurchan shifts are fractions of the cell vectors. A strain that would give the cell other vectors is refused; a
+ * crunch with strains keeps the vectors that it has. */
+static void shifts_are_kept(void **state) {
+  const double small[4] = {0.0, 0.3, 0.0, 0.0}, large[4] = {0.0, 0.7, 0.0, 0.0};
+  double cell[4];
+  jam_create_options o;
+  jam_crunch_options c;
+  jam_crunch_report r;
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = 2, o.n = 32, o.seed = 1, o.model = JAM_MODEL_MK, o.packing_fraction = 1e-3;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_strain(sys, large, 4), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK);
+  assert_true(cell[2] == 0.0);
+  assert_int_equal(jam_strain(sys, small, 4), JAM_OK);
+  assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK);
+  assert_true(fabs(cell[2] - 0.3 * cell[0]) < 1e-15);
+  jam_destroy(sys);
+
+  jam_crunch_options_init(&c, sizeof c);
+  memset(&r, 0, sizeof r), r.struct_size = sizeof r;
+  c.strain = JAM_STRAIN_FREE;
+  o.dim = 3, o.n = 48, o.packing_fraction = 1.5;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_crunch(sys, &c, &r), JAM_OK);
+  assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES && r.max_overlap < 1e-12);
+  assert_true(r.contacts == 3 * (r.stable - 1) + 6); /* isostatic with six components of stress */
+  jam_destroy(sys);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(normal_form),
@@ -259,6 +291,7 @@ int main(void) {
       cmocka_unit_test(strain_is_affine),
       cmocka_unit_test(files),
       cmocka_unit_test(refused),
+      cmocka_unit_test(shifts_are_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

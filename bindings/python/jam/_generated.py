@@ -915,7 +915,7 @@ OPTIONS = {
         "max_evaluations": ("int", 'of the forces, >= 1, default 1e6'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
         "strain": ("FreeStrain", 'FreeStrain, default NONE: what of the cell is free after the minimum of the fixed one'),
-        "pressure": ("float", "P > 0 with 'volume': U + P V is minimised; else 0, the default"),
+        "pressure": ("float", "P > 0 with 'volume': U + P V is minimised, also from no contacts; else 0, the default"),
         "components": ("int", 'bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all'),
     },
     "jam_decompress_options": {

@@ -603,7 +603,7 @@ mutable struct jam_relax_options
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     strain::Int32  # jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one
     reserved::Int32  # 0
-    pressure::Cdouble  # P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised; else 0, the default
+    pressure::Cdouble  # P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default
     components::Int64  # bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all
     jam_relax_options() = new(72, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -983,7 +983,8 @@ end
 """
 Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
 new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
-Errors: as jam_cell_set. Threads: alone. @since 0.1
+Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
+Threads: alone. @since 0.1
 """
 function jam_strain(sys, strain, strain_len)
     return ccall((:jam_strain, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(strain), strain_len)

@@ -42,8 +42,9 @@ def routes_from(n, name):
     large, near = n > 2000, name in CLP_STARTS
     settings = routes.SETTINGS[-2:] if large and not near else routes.SETTINGS
     yield "barrier path", lambda start: routes.crunched(start, settings)
-    if near or not large:
-        yield "sequential LPs", lambda start: routes.crunched(start, method="sequential_lp")
+    if not large or name == "p = 1e7":
+        settings_lps = routes.SETTINGS[-3:] if large else routes.SETTINGS
+        yield "sequential LPs", lambda start: routes.crunched(start, settings_lps, method="sequential_lp")
     if near and not large:
         yield "sequential LPs by Clp", lambda start: routes.crunched(
             start, routes.SETTINGS[1::2], method="sequential_lp", lp_solver="clp"

@@ -1,5 +1,6 @@
 /* Cancel and wall time inside every phase of a crunch: path, LP by either solver, polish. The log callback tells the
  * phase. Each time the status says so, the state is valid, and the next call goes on from it. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -19,6 +20,7 @@ static jam_system *start(int n) {
 
 typedef struct ambush {
   jam_system *sys;
+  const char *armed; /* beginning of a log line that must come before; NULL: none */
   const char *word;  /* beginning of the log line that says what runs */
   int wait;          /* lines of it to let pass */
   double sleep;      /* seconds to sleep there; 0: cancel */
@@ -28,6 +30,10 @@ typedef struct ambush {
 static void spring(int32_t level, const char *line, void *user) {
   ambush *a = user;
   (void)level;
+  if (a->armed) {
+    if (strncmp(line, a->armed, strlen(a->armed)) == 0) a->armed = NULL;
+    return;
+  }
   if (strncmp(line, a->word, strlen(a->word))) return;
   a->after += a->sprung;
   if (a->wait-- > 0 || a->sprung) return;
@@ -161,8 +167,63 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
   jam_destroy(plain);
 }
 
+static double volume(const jam_system *sys) {
+  double cell[9];
+  assert_int_equal(jam_cell_get(sys, cell, 9, NULL), JAM_OK);
+  return cell[0] * cell[4] * cell[8]; /* lower-triangular */
+}
+
+/* The same once the cell is free. The volume stays, and the next call with strains goes on to a strict packing. */
+static void stops_in_a_free_cell(void **state) {
+  const char *words[] = {"path", "ipm", "polish", "path"};
+  jam_crunch_options o;
+  int k;
+  (void)state;
+  for (k = 0; k < 4; ++k) {
+    jam_system *sys = start(64);
+    ambush a;
+    jam_crunch_report r;
+    const int timed = k == 3;
+    jam_crunch_options_init(&o, sizeof o);
+    o.strain = JAM_STRAIN_FREE;
+    if (timed) o.wall_time = 3.0; /* a busy machine gets that far in time */
+    memset(&a, 0, sizeof a);
+    a.sys = sys, a.armed = "fixed cell", a.word = words[k], a.wait = k == 0 ? 3 : 0, a.sleep = timed ? 3.1 : 0.0;
+    assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
+    r = crunch(sys, &o, timed ? JAM_LIMIT : JAM_CANCELLED);
+    if (!a.sprung) fail_msg("no line begins with '%s'", words[k]);
+    assert_true(!r.jammed && r.strictly_jammed != JAM_VERDICT_YES && a.after <= 1);
+    assert_true(r.max_overlap < 1e-12 && r.packing_fraction > 0.5 && fabs(volume(sys) - 1.0) < 1e-12);
+    assert_int_equal(jam_set_log(sys, NULL, 0, NULL), JAM_OK);
+    o.wall_time = INFINITY;
+    r = crunch(sys, &o, JAM_OK);
+    assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES && fabs(volume(sys) - 1.0) < 1e-12);
+    jam_destroy(sys);
+  }
+}
+
+/* Without polish the LP's answer stays: contacts may be too wide for a verdict, but nothing overlaps. */
+static void free_cell_without_polish(void **state) {
+  jam_crunch_options o;
+  jam_crunch_report r;
+  jam_system *sys = start(64);
+  (void)state;
+  jam_crunch_options_init(&o, sizeof o);
+  o.strain = JAM_STRAIN_FREE, o.polish = 0;
+  memset(&r, 0, sizeof r), r.struct_size = sizeof r;
+  assert_true(jam_crunch(sys, &o, &r) >= 0);
+  assert_true(r.max_overlap < 1e-12 && fabs(volume(sys) - 1.0) < 1e-12 && r.force_residual < 1e-6);
+  assert_true(r.max_contact_gap < 1e-6 && r.contacts >= 3 * (r.stable - 1) + 6);
+  o.polish = 1;
+  r = crunch(sys, &o, JAM_OK);
+  assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES);
+  jam_destroy(sys);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(cancel_in_every_phase), cmocka_unit_test(wall_time_inside_an_lp),
-                                     cmocka_unit_test(a_stopped_polish_leaves_the_lp_answer)};
+                                     cmocka_unit_test(a_stopped_polish_leaves_the_lp_answer),
+                                     cmocka_unit_test(stops_in_a_free_cell),
+                                     cmocka_unit_test(free_cell_without_polish)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

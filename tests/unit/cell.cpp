@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
-#include "test.h"
-
+#include "core/cell_reduction.hpp"
 #include "core/create.hpp"
+#include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
+// test.h comes last: it has a macro `fail`.
+#include "test.h"
 
 using namespace jam;
 
@@ -187,6 +190,60 @@ void random_start_in_a_tilted_cell(void **) {
   }
 }
 
+// Rows mixed by whole multiples of each other are another basis of the same lattice, in every dimension. Reduction
+// gives the rows T times those given, turned by Q; the volume and the shortest vector are those of the lattice.
+void reduction_of_long_vectors(void **) {
+  for (int d = 2; d <= JAM_MAX_DIM; ++d)
+    for (uint64_t seed = 1; seed <= 4; ++seed) {
+      const Cell cell = tilted(d, seed);
+      Rng rng(static_cast<int64_t>(100 + seed), Stream::rsa_positions);
+      std::vector<double> rows;
+      for (int c = 0; c < d; ++c) rows.insert(rows.end(), cell.row(c), cell.row(c) + d);
+      for (int round = 0; round < 2 * d; ++round) {
+        const int to = static_cast<int>(rng.uniform() * d),
+                  from = (to + 1 + static_cast<int>(rng.uniform() * (d - 1))) % d;
+        const double times = std::floor(7.0 * rng.uniform()) - 3.0;
+        for (int k = 0; k < d; ++k) rows[to * d + k] += times * rows[from * d + k];
+      }
+      const ReducedCell reduced = reduce_cell(d, rows.data());
+      assert_true(std::fabs(reduced.cell.volume() / cell.volume() - 1.0) < 1e-11);
+      assert_true(std::fabs(reduced.cell.shortest() / cell.shortest() - 1.0) < 1e-9);
+      double longest = 0.0;
+      for (const double x : rows) longest = std::max(longest, std::fabs(x));
+      for (int c = 0; c < d; ++c) {
+        // No pair of short vectors gets shorter by one step of the other.
+        for (int k = 0; k < c; ++k) assert_true(std::fabs(reduced.cell.row(c)[k]) <= 0.5 * reduced.cell.edge(k) + 1e-9);
+        // Lovasz' condition: the next vector is not much shorter where the one before is taken out of both.
+        if (c > 0) {
+          const double *row = reduced.cell.row(c), before = reduced.cell.edge(c - 1);
+          assert_true(row[c] * row[c] + row[c - 1] * row[c - 1] >= 0.7 * before * before * (1.0 - 1e-9));
+        }
+        std::vector<double> wanted(d, 0.0), got(d, 0.0);
+        for (int k = 0; k < d; ++k)
+          for (int b = 0; b < d; ++b) wanted[b] += static_cast<double>(reduced.transform[c * d + k]) * rows[k * d + b];
+        for (int a = 0; a < d; ++a)
+          for (int b = 0; b < d; ++b) got[a] += (reduced.rotated ? reduced.rotation[a * d + b] : a == b) * wanted[b];
+        for (int a = 0; a < d; ++a) assert_true(std::fabs(got[a] - reduced.cell.row(c)[a]) < 1e-11 * longest);
+      }
+    }
+}
+
+// Faces just above the limit are taken, just below it they are refused.
+void flat_cells(void **) {
+  for (int d = 2; d <= JAM_MAX_DIM; ++d)
+    for (const double part : {1.001, 0.999}) {
+      const double height = part * limits::cell_height_min;  // over V^(1/d): the other edges have the rest
+      std::vector<double> rows(static_cast<size_t>(d) * d, 0.0);
+      rows[0] = height;
+      for (int c = 1; c < d; ++c) rows[c * d + c] = std::pow(1.0 / height, 1.0 / (d - 1));
+      try {
+        assert_true(std::fabs(reduce_cell(d, rows.data()).cell.height_min() - height) < 1e-12 && part > 1.0);
+      } catch (const Error &error) {
+        assert_true(error.code() == JAM_E_ARGUMENT && part < 1.0);
+      }
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -196,6 +253,8 @@ int main() {
       cmocka_unit_test(sizes),
       cmocka_unit_test(pairs_do_not_depend_on_the_basis),
       cmocka_unit_test(random_start_in_a_tilted_cell),
+      cmocka_unit_test(reduction_of_long_vectors),
+      cmocka_unit_test(flat_cells),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -48,7 +48,7 @@ static double volume(jam_system *sys, int dim) {
 static double shear_stress(jam_system *sys, int dim) {
   size_t n = 0, len = 0, needed = 0;
   const double *x = NULL, *s = NULL;
-  double stress[9] = {0.0}, trace = 0.0, worst = 0.0;
+  double stress[16] = {0.0}, trace = 0.0, worst = 0.0;
   assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
   assert_int_equal(jam_diameters_view(sys, &s, &n), JAM_OK);
   assert_int_equal(jam_forces(sys, NULL, 0, &needed), JAM_OK);
@@ -75,11 +75,11 @@ static void disordered(void **state) {
   const struct {
     int32_t dim;
     int64_t n, seeds;
-  } cases[] = {{2, 64, 8}, {2, 128, 4}, {3, 64, 4}, {3, 128, 2}};
+  } cases[] = {{2, 64, 8}, {2, 128, 4}, {3, 64, 4}, {3, 128, 2}, {4, 64, 2}};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
     for (int64_t seed = 1; seed <= cases[k].seeds; ++seed) {
       const int32_t d = cases[k].dim;
-      jam_system *sys = start(d, cases[k].n, seed, 1, d == 2 ? 0.5 : 0.3), *fixed = NULL;
+      jam_system *sys = start(d, cases[k].n, seed, 1, d == 2 ? 0.5 : d == 3 ? 0.3 : 0.15), *fixed = NULL;
       assert_int_equal(jam_copy(sys, &fixed), JAM_OK);
       const jam_crunch_report before = crunch(fixed, JAM_STRAIN_NONE, JAM_OK), r = crunch(sys, JAM_STRAIN_FREE, JAM_OK);
       assert_int_equal(before.strictly_jammed, JAM_VERDICT_UNTESTED);

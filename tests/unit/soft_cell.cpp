@@ -7,26 +7,11 @@
 #include "core/cell_reduction.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
+#include "unit/random_packing.hpp"
 
 using namespace jam;
 
 namespace {
-
-Packing random_packing(int dim, int n, double phi, int64_t seed) {
-  Packing p;
-  p.set_cube(dim, 1.0);
-  p.seed = seed;
-  Rng rng(seed, Stream::rsa_positions);
-  p.position.resize(static_cast<size_t>(n) * dim);
-  for (double &x : p.position) x = rng.uniform();
-  p.diameter.assign(n, 1.0);
-  if (dim == 2)
-    for (int i = 0; i < n; i += 2) p.diameter[i] = 1.4;
-  const double scale = std::pow(phi / packing_fraction(p), 1.0 / dim);
-  for (double &s : p.diameter) s *= scale;
-  p.velocity.assign(p.position.size(), 0.0);
-  return p;
-}
 
 jam_relax_options options(int32_t minimiser, int32_t strain, double pressure) {
   jam_relax_options o = default_relax_options();

@@ -6,26 +6,11 @@
 #include "core/rng.hpp"
 #include "linalg/double_double.hpp"
 #include "soft/soft_state.hpp"
+#include "unit/random_packing.hpp"
 
 using namespace jam;
 
 namespace {
-
-Packing random_packing(int dim, int n, double phi, int64_t seed, bool mixture) {
-  Packing p;
-  p.set_cube(dim, 1.0);
-  p.seed = seed;
-  Rng rng(seed, Stream::rsa_positions);
-  p.position.resize(static_cast<size_t>(n) * dim);
-  for (double &x : p.position) x = rng.uniform();
-  p.diameter.assign(n, 1.0);
-  if (mixture)
-    for (int i = 0; i < n; i += 2) p.diameter[i] = 1.4;
-  const double scale = std::pow(phi / packing_fraction(p), 1.0 / dim);
-  for (double &s : p.diameter) s *= scale;
-  p.velocity.assign(p.position.size(), 0.0);
-  return p;
-}
 
 // Two spheres at a known overlap, every scale and exponent by hand; nothing at h = 0 and above.
 void pair_values(void **) {

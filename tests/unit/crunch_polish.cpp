@@ -42,7 +42,8 @@ void polish_refuses(void **) {
   assert_true(try_polish(r.packing, net) == PolishEnd::no_contacts);
 
   const PairList near = find_pairs(r.packing, 0.0, 1.3);
-  int ends[6] = {0, 0, 0, 0, 0, 0};
+  int ends[static_cast<int>(PolishEnd::overlap) + 1] = {};
+  const auto count = [&](PolishEnd end) -> int & { return ends[static_cast<int>(end)]; };
   double v[3];
   for (size_t k = 0; k < near.size(); ++k) {
     const double sigma = r.packing.diameter[near.i[k]],
@@ -58,11 +59,11 @@ void polish_refuses(void **) {
       net.vector[place * 3 + c] = v[c] / (sigma * (1.0 + gap));
       net.pairs.offset[place * 3 + c] = near.offset[k * 3 + c];
     }
-    ++ends[static_cast<int>(try_polish(r.packing, net))];
+    ++count(try_polish(r.packing, net));
   }
-  print_message("done %d, open %d, negative %d, overlap %d\n", ends[0], ends[3], ends[4], ends[5]);
-  assert_true(ends[static_cast<int>(PolishEnd::open_contact)] > 0 &&
-              ends[static_cast<int>(PolishEnd::negative_force)] > 0);
+  print_message("done %d, open %d, negative %d, overlap %d\n", count(PolishEnd::done), count(PolishEnd::open_contact),
+                count(PolishEnd::negative_force), count(PolishEnd::overlap));
+  assert_true(count(PolishEnd::open_contact) > 0 && count(PolishEnd::negative_force) > 0);
 }
 
 // A pair so near to contact that an LP counts it: all cannot close together. When it is open with the others closed it

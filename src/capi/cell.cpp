@@ -23,9 +23,7 @@ extern "C" {
 
 jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
-    const int d = sys->packing.dim;
-    std::vector<double> rows;
-    for (int c = 0; c < d; ++c) rows.insert(rows.end(), sys->packing.cell.row(c), sys->packing.cell.row(c) + d);
+    const std::vector<double> rows = sys->packing.cell.rows();
     return give_array(rows.data(), rows.size(), out, out_len, needed);
   });
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "jam/jam.h"
 
@@ -30,6 +31,12 @@ class Cell {
   double volume() const { return volume_; }
   const double *row(int c) const { return rows_[c].data(); }
   double edge(int c) const { return rows_[c][c]; }
+  // (dim, dim): all vectors, one a row.
+  std::vector<double> rows() const {
+    std::vector<double> all;
+    for (int c = 0; c < dim_; ++c) all.insert(all.end(), row(c), row(c) + dim_);
+    return all;
+  }
   // Distance of the two faces that a_c joins.
   double height(int c) const;
   double height_min() const;

@@ -27,18 +27,12 @@ Phase free_cell(CrunchState &s) {
 
 namespace {
 
-std::vector<double> rows_of(const Cell &cell) {
-  std::vector<double> rows;
-  for (int c = 0; c < cell.dim(); ++c) rows.insert(rows.end(), cell.row(c), cell.row(c) + cell.dim());
-  return rows;
-}
-
 // r -> r + t (eps r + v) for all vectors r between spheres, then back to the old volume. False where Mari-Kurchan
 // shifts would change.
 bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, const std::vector<double> &eps, double t) {
   q = p;
   const int d = p.dim;
-  std::vector<double> rows = rows_of(p.cell);
+  std::vector<double> rows = p.cell.rows();
   const auto deform = [&](double *x) {
     Cell::Vector y{};
     for (int a = 0; a < d; ++a)
@@ -52,7 +46,7 @@ bool deform_into(Packing &q, const Packing &p, const std::vector<double> &v, con
   if (!keeps_shifts(p, reduced)) return false;
   enter_cell(q, reduced);
   const double back = p.cell.side() / q.cell.side();
-  rows = rows_of(q.cell);
+  rows = q.cell.rows();
   for (double &x : rows) x *= back;
   for (double &x : q.position) x *= back;
   q.cell = Cell::from_triangle(d, rows.data());
@@ -92,7 +86,7 @@ bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict) {
 }
 
 void shorten_cell(Packing &p) {
-  const ReducedCell reduced = reduce_cell(p.dim, rows_of(p.cell).data());
+  const ReducedCell reduced = reduce_cell(p.dim, p.cell.rows().data());
   if (keeps_shifts(p, reduced)) enter_cell(p, reduced);
 }
 

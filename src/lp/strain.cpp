@@ -60,8 +60,7 @@ void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<doubl
   };
   for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
   for (size_t k = 0; k < pairs.offset.size(); k += d) deform(&pairs.offset[k]);
-  std::vector<double> rows;
-  for (int c = 0; c < d; ++c) rows.insert(rows.end(), p.cell.row(c), p.cell.row(c) + d);
+  std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
   p.cell = Cell::from_triangle(d, rows.data());
 }

@@ -5,16 +5,6 @@
 #include "soft/soft_state.hpp"
 
 namespace jam {
-namespace {
-
-std::vector<double> rows_of(const Cell &cell) {
-  std::vector<double> rows;
-  for (int c = 0; c < cell.dim(); ++c) rows.insert(rows.end(), cell.row(c), cell.row(c) + cell.dim());
-  return rows;
-}
-
-}  // namespace
-
 void SoftState::free_cell(const FreeCell &cell) {
   const size_t d = static_cast<size_t>(base_.dim);
   cell_ = cell;
@@ -58,7 +48,7 @@ std::vector<double> SoftState::fold_strain() {
   const int d = base_.dim;
   const CellStrain s = strain();
   if (cell_.volume) at_.work += cell_.pressure * base_.cell.volume() * std::expm1(s.log_volume);
-  std::vector<double> rows = rows_of(base_.cell), rest(rows.size(), 0.0);
+  std::vector<double> rows = base_.cell.rows(), rest(rows.size(), 0.0);
   double widest = 0.0;
   for (const double x : rows) widest = std::max(widest, std::fabs(x));
   const double quantum = std::ldexp(1.0, std::ilogb(widest) - 49);
@@ -109,7 +99,7 @@ void SoftState::deform_base(Packing &p) const {
       x[a] = sum;
     }
   };
-  std::vector<double> rows = rows_of(p.cell);
+  std::vector<double> rows = p.cell.rows();
   for (int c = 0; c < d; ++c) deform(&rows[c * d]);
   for (size_t k = 0; k < p.position.size(); k += d) deform(&p.position[k]);
   p.cell = Cell::from_triangle(d, rows.data());

@@ -1386,7 +1386,9 @@ Minimises the energy of overlapping spheres at fixed diameters, and at a fixed c
 the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
 contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
 the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-network holds the digits beyond. report may be NULL. Example: examples/c/soft.c Status: JAM_OK converged.
+network holds the digits beyond. report may be NULL. Example: examples/c/soft.c
+
+Status: JAM_OK converged.
 JAM_NOT_JAMMED converged to energy 0: no overlaps.
 JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
 JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.

@@ -23,11 +23,12 @@ double reach_of(const CrunchState &s) {
 }
 
 // What an answer must fulfil to be used. One that ended early leans on bounds that it has not reached: any feasible
-// point is a safe step.
+// point is a safe step, if it gains no less than staying does.
 bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
   check = check_lp(s.lp, x);
   const double balance = early ? std::numeric_limits<double>::infinity() : 1e-3;  // polish balances forces to rounding
-  return x.solved && check.infeasibility < 1e-9 && check.gamma < 1e-6 && check.balance < balance && std::isfinite(x.g);
+  constexpr double rounding = 1e-9;
+  return x.solved && check.infeasibility < rounding && check.gamma < 1e-6 && check.balance < balance && x.g > -rounding;
 }
 
 // One solver's answer. True when it is kept (`solved`), or when the call was interrupted.

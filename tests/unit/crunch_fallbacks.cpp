@@ -41,11 +41,12 @@ void clp_takes_over(void **) {
       ++clp;
       return;
     }
-    if (ipm % 4 == 0) x.solved = false;
-    if (ipm % 4 == 1) x.g += 1e-6;  // some pair would overlap
-    if (ipm % 4 == 2)
+    if (ipm % 5 == 0) x.solved = false;
+    if (ipm % 5 == 1) x.g += 1e-6;  // some pair would overlap
+    if (ipm % 5 == 2)
       for (double &y : x.y) y *= 1.001;  // |sum y - 1|
-    if (ipm % 4 == 3) x.g = std::nan("");
+    if (ipm % 5 == 3) x.g = std::nan("");
+    if (ipm % 5 == 4) std::fill(x.s.begin(), x.s.end(), 0.0), x.g = -0.5;  // feasible, and all spheres shrink
     ++ipm;
   };
   const CrunchResult r = run(p, o, &hooks);

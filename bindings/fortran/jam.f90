@@ -638,8 +638,8 @@ module jam
     integer(c_int32_t) :: full_lps = 0
     ! jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
     integer(c_int32_t) :: strain = 0
-    ! 0
-    integer(c_int32_t) :: reserved = 0
+    ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Of more steps every second, fourth, ... is kept; so it is beyond 2^24 coordinates in all
+    integer(c_int32_t) :: keep_steps = 0
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
@@ -1437,9 +1437,10 @@ module jam
     end function jam_write_contacts
 
     ! Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
-    ! numbers of each sphere, certificate and distributions. title: its heading, or "". small: 1 for the picture alone, 0
-    ! for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or "".
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1
+    ! numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
+    ! title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
+    ! or NULL; names: k names, one a line, or "". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
+    ! JAM_E_MEMORY. Threads: const. @since 0.1
     function jam_write_page(sys, path, title, small, names, values, values_len) &
         bind(c, name="jam_write_page") result(status)
       import
@@ -1824,9 +1825,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crunch_report_get
 
-    ! One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
-    ! LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-    ! @since 0.1
+    ! One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
+    ! JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
     function jam_crunch_history(sys, column, out, out_len, needed) &
         bind(c, name="jam_crunch_history") result(status)
       import

@@ -151,6 +151,15 @@ TABLE = {
             "the packing to look at in a browser, with forces, certificate and distributions; needs no network",
         ),
         Option(
+            "page-steps",
+            "integer",
+            "K",
+            "--page gets a slider over at most K states of the crunch before its end, each 16 bytes a sphere in d = 3 (0)",
+            0,
+            0,
+            1000,
+        ),
+        Option(
             "contacts",
             "output",
             "FILE",

@@ -380,9 +380,10 @@ Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const.
 %feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_write_page "Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
-numbers of each sphere, certificate and distributions. title: its heading, or \"\". small: 1 for the picture alone, 0
-for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or \"\".
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1"
+numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
+title: its heading, or \"\". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
+or NULL; names: k names, one a line, or \"\". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
+JAM_E_MEMORY. Threads: const. @since 0.1"
 %feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
@@ -472,9 +473,8 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
 JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
 %feature("docstring") jam_crunch_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
-LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-@since 0.1"
+%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
+JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
 %feature("docstring") jam_crunch_step_displacements "Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
 steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
 with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,

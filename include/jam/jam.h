@@ -404,9 +404,10 @@ typedef enum jam_contact_format {
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format);
 /* Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
- * numbers of each sphere, certificate and distributions. title: its heading, or "". small: 1 for the picture alone, 0
- * for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or "".
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1 */
+ * numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
+ * title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
+ * or NULL; names: k names, one a line, or "". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
+ * JAM_E_MEMORY. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
                                   const char *names, const double *values, size_t values_len);
 
@@ -785,7 +786,8 @@ typedef struct jam_crunch_options {
                      * that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
   int32_t strain;   /* jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
                      * optimum; FREE ends strictly jammed */
-  int32_t reserved; /* 0 */
+  int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Of more steps
+                       * every second, fourth, ... is kept; so it is beyond 2^24 coordinates in all */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
@@ -895,9 +897,8 @@ typedef enum jam_history_column {
   JAM_HISTORY_TOTAL_MSD_STABLE = 19 /* LP, polish: TOTAL_MSD over the spheres that are stable now */
 } jam_history_column;
 
-/* One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
- * LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
- * @since 0.1 */
+/* One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
+ * JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
                                       size_t *needed);
 /* Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the

@@ -97,6 +97,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
     sys->has_report = src->has_report;
     sys->history = src->history;
     sys->has_history = src->has_history;
+    sys->kept_steps = src->kept_steps;
     sys->soft_history = src->soft_history;
     sys->memory_limit = src->memory_limit;
     sys->note_diameters();

@@ -50,6 +50,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     sys->report = result.report;
     sys->has_report = true;
     sys->history = std::move(history).rows();
+    sys->kept_steps = std::move(history).kept();
     sys->has_history = true;
     give_struct(sys->report, report);
     if (result.status < 0)

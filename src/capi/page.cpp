@@ -27,6 +27,41 @@ void take_columns(const jam_system *sys, const char *names, const double *values
   for (size_t k = 0; k < name.size(); ++k) content.columns.emplace_back(name[k], values + k * n);
 }
 
+// What the slider tells of the step that led to a state: the start has no row.
+PageStep make_step(int64_t number, const HistoryRow *row) {
+  PageStep step;
+  step.number = number;
+  const char *const kinds[] = {"start", "barrier path", "linear program", "polish"};  // by jam_step_phase
+  step.kind = kinds[row ? static_cast<int>((*row)[JAM_HISTORY_PHASE]) : 0];
+  if (!row) return step;
+  step.numbers = {{"growth of the diameters", (*row)[JAM_HISTORY_GAIN]},
+                  {"duality gap", (*row)[JAM_HISTORY_DUALITY_GAP]},
+                  {"largest displacement", (*row)[JAM_HISTORY_STEP_MAX]},
+                  {"largest displacement since the start", (*row)[JAM_HISTORY_TOTAL_MAX]},
+                  {"contacts", (*row)[JAM_HISTORY_CONTACTS]},
+                  {"rattlers", (*row)[JAM_HISTORY_RATTLERS]}};
+  return step;
+}
+
+void take_steps(const jam_system *sys, PageContent &content) {
+  const std::vector<HistoryRow> &rows = sys->history;
+  for (const HistoryRow &row : rows) content.history.push_back(row[JAM_HISTORY_GAIN]);
+  const int64_t last = static_cast<int64_t>(rows.size());
+  const auto row = [&](int64_t step) { return step ? &rows[static_cast<size_t>(step - 1)] : nullptr; };
+  for (const KeptStep &kept : sys->kept_steps) {
+    if (kept.step == last) break;
+    PageStep step = make_step(kept.step, row(kept.step));
+    step.packing_fraction = kept.fraction;
+    step.growth = kept.diameter / sys->packing.diameter.front();
+    step.cell = &kept.cell;
+    step.position = &kept.position;
+    content.steps.push_back(step);
+  }
+  if (content.steps.empty()) return;
+  content.steps.push_back(make_step(last, row(last)));
+  content.steps.back().packing_fraction = packing_fraction(sys->packing);
+}
+
 }  // namespace
 
 extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
@@ -46,8 +81,7 @@ extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, co
       content.stop_reason = jam_stop_string(sys->report.stop_reason);
       if (!small) content.gaps = find_gaps(sys->packing, &sys->contacts, gap_reach, true).gap;
     }
-    if (sys->has_history)
-      for (const HistoryRow &row : sys->history) content.history.push_back(row[JAM_HISTORY_GAIN]);
+    if (sys->has_history) take_steps(sys, content);
     write_page(content, path);
     return JAM_OK;
   });

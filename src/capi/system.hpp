@@ -21,6 +21,7 @@ struct jam_system {
   bool has_report = false;
   std::vector<jam::HistoryRow> history;  // valid when has_history
   bool has_history = false;
+  std::vector<jam::KeptStep> kept_steps;    // of the same crunch; empty unless asked for
   std::vector<jam::SoftRow> soft_history;   // of the last decompression; empty without one
   const jam::History *crunching = nullptr;  // of the crunch that runs
   bool crunch_paused = false;               // the last change of spheres was a crunch that did not reach its end

@@ -17,6 +17,8 @@ constexpr double non_additivity_max = 1.0;         // and above -1: contact dist
 constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
 constexpr double growth_rate_max = 1e3;            // of molecular dynamics, dimensionless
 constexpr double velocity_max = 1e6;               // of a component, thermal units
+constexpr int keep_steps_max = 1000;               // states of a crunch that are kept
+constexpr int64_t kept_coordinates = 1 << 24;      // of all of them: 64 MiB, and 90 MB in the file of a page
 
 }  // namespace limits
 

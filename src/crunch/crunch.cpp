@@ -24,7 +24,7 @@ CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options
   gain_tolerance = o.gain_tolerance;
   out.contacts.coordination.assign(start.n(), 0);
   out.report.struct_size = sizeof out.report;
-  history.begin(start, o.steps != 0);
+  history.begin(start, o.steps != 0, o.keep_steps);
 }
 
 bool CrunchState::interrupted() {

@@ -38,10 +38,11 @@ Spread spread(const std::vector<double> &x, int dim, double unit, const std::vec
 
 }  // namespace
 
-void History::begin(const Packing &start, bool details) {
+void History::begin(const Packing &start, bool details, int64_t keep) {
   details_ = details;
   rows_.clear();
   rows_.reserve(64);
+  kept_.begin(start, keep);
   reached_ = start;
   total_.assign(start.position.size(), 0.0);
   last_ = total_;
@@ -68,6 +69,7 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
   row[JAM_HISTORY_SECONDS] = seconds - seconds_;
   row[JAM_HISTORY_FACTORISATIONS] = row[JAM_HISTORY_ITERATIONS] = factorisations - factorisations_;
   rows_.push_back(row);
+  kept_.add(now, static_cast<int64_t>(rows_.size()));
   reached_ = now;
   seconds_ = seconds, factorisations_ = factorisations;
   if (details_) {

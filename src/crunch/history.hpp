@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/packing.hpp"
+#include "crunch/kept_steps.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {
@@ -25,8 +26,8 @@ struct CrunchStep {
 
 class History {
  public:
-  // From here on displacements count. details: fill step() too.
-  void begin(const Packing &start, bool details);
+  // From here on displacements count. details: fill step() too. keep: states to keep at most.
+  void begin(const Packing &start, bool details, int64_t keep = 0);
   // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no
   // sphere moved by half a box: then nearest images tell it. seconds, factorisations: totals so far. Unknown columns
   // are NaN.
@@ -48,10 +49,12 @@ class History {
   const CrunchStep &step() const { return step_; }
   const std::vector<HistoryRow> &rows() const & { return rows_; }
   std::vector<HistoryRow> rows() && { return std::move(rows_); }
+  std::vector<KeptStep> kept() && { return std::move(kept_).all(); }
 
  private:
   bool details_ = false;
   std::vector<HistoryRow> rows_;
+  KeptSteps kept_;
   Packing reached_;
   std::vector<double> total_, last_;  // moved since begin(); moved in the last row
   double seconds_ = 0.0;

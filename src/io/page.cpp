@@ -75,8 +75,19 @@ void put_network(OutputFile &file, const ContactNetwork &net) {
   file.text() += "}";
 }
 
+void put_named(std::string &out, const std::vector<std::pair<const char *, double>> &rows) {
+  out += "{";
+  for (const auto &[name, value] : rows) {
+    if (out.back() != '{') out += ", ";
+    put_string(out, name);
+    out += ": ";
+    put_number(out, value);
+  }
+  out += "}";
+}
+
 void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason) {
-  const std::pair<const char *, double> rows[] = {
+  const std::vector<std::pair<const char *, double>> rows = {
       {"contacts", static_cast<double>(r.contacts)},
       {"contacts above isostatic", static_cast<double>(r.excess_contacts)},
       {"rattlers", static_cast<double>(r.rattlers)},
@@ -95,14 +106,9 @@ void put_report(std::string &out, const jam_crunch_report &r, const std::string 
   out += r.jammed ? "true" : "false";
   out += ", \"stop_reason\": ";
   put_string(out, stop_reason);
-  out += ", \"numbers\": {";
-  for (const auto &[name, value] : rows) {
-    if (&name != &rows[0].first && out.back() != '{') out += ", ";
-    put_string(out, name);
-    out += ": ";
-    put_number(out, value);
-  }
-  out += "}}";
+  out += ", \"numbers\": ";
+  put_named(out, rows);
+  out += "}";
 }
 
 // How many gaps are at most as long as each of some, about evenly spaced on a logarithmic axis.
@@ -122,6 +128,41 @@ void put_gaps(std::string &out, const std::vector<double> &gaps) {
   out += "]";
 }
 
+void put_cell(std::string &out, const Cell &cell) {
+  out += "[";
+  for (int row = 0; row < cell.dim(); ++row) {
+    out += row ? ", [" : "[";
+    for (int c = 0; c < cell.dim(); ++c) {
+      if (c) out += ", ";
+      append_number(out, cell.row(row)[c]);
+    }
+    out += "]";
+  }
+  out += "]";
+}
+
+void put_steps(OutputFile &file, const std::vector<PageStep> &steps) {
+  std::string &out = file.text();
+  out += ",\n\"steps\": [";
+  for (const PageStep &s : steps) {
+    out += "{\"number\": " + std::to_string(s.number) + ", \"kind\": ";
+    put_string(out, s.kind);
+    out += ", \"packing_fraction\": ";
+    put_number(out, s.packing_fraction);
+    out += ", \"numbers\": ";
+    put_named(out, s.numbers);
+    if (s.position) {
+      out += ", \"growth\": ";
+      append_number(out, s.growth);
+      out += ", \"cell\": ";
+      put_cell(out, *s.cell);
+      out += ", \"position\": ";
+      put_numbers(file, s.position->data(), s.position->size());
+    }
+    out += &s == &steps.back() ? "}]" : "},\n";
+  }
+}
+
 }  // namespace
 
 void write_page(const PageContent &content, const char *path) {
@@ -137,16 +178,9 @@ void write_page(const PageContent &content, const char *path) {
   append_number(out, p.non_additivity);
   out += ", \"packing_fraction\": ";
   put_number(out, packing_fraction(p));
-  out += ",\n\"cell\": [";
-  for (int row = 0; row < p.dim; ++row) {
-    out += row ? ", [" : "[";
-    for (int c = 0; c < p.dim; ++c) {
-      if (c) out += ", ";
-      append_number(out, c == row ? p.cell.edge(row) : c < row ? p.cell.row(row)[c] : 0.0);
-    }
-    out += "]";
-  }
-  out += "],\n\"position\": ";
+  out += ",\n\"cell\": ";
+  put_cell(out, p.cell);
+  out += ",\n\"position\": ";
   put_numbers(file, p.position.data(), p.position.size());
   out += ",\n\"diameter\": ";
   put_numbers(file, p.diameter.data(), p.diameter.size());
@@ -158,7 +192,9 @@ void write_page(const PageContent &content, const char *path) {
     if (k) out += ", ";
     put_number(out, content.history[k]);
   }
-  out += "],\n\"values\": [";
+  out += "]";
+  if (!content.steps.empty()) put_steps(file, content.steps);
+  out += ",\n\"values\": [";
   for (size_t k = 0; k < content.columns.size(); ++k) {
     out += k ? ", {\"name\": " : "{\"name\": ";
     put_string(out, content.columns[k].first);

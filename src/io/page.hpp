@@ -13,6 +13,18 @@ namespace jam {
 extern const char *const page_head;
 extern const char *const page_tail;
 
+// A state on the way to the packing.
+struct PageStep {
+  int64_t number = 0;  // of the step that led here; 0: the start
+  const char *kind = "";
+  double packing_fraction = 0.0;
+  std::vector<std::pair<const char *, double>> numbers{};  // what is told of the step
+  // Of the last step they are those of the packing.
+  double growth = 1.0;  // diameters over those of the packing
+  const Cell *cell = nullptr;
+  const std::vector<float> *position = nullptr;  // (n, dim)
+};
+
 struct PageContent {
   const Packing &packing;
   const ContactNetwork *network = nullptr;    // NULL before a crunch, like the report
@@ -20,6 +32,7 @@ struct PageContent {
   std::string stop_reason{};
   std::vector<double> gaps{};     // of pairs that are no contacts, ascending
   std::vector<double> history{};  // relative growth of the diameters in each step of the crunch
+  std::vector<PageStep> steps{};  // the slider: the last one is the packing itself; empty: no slider
   std::string title{};
   bool small = false;                                             // the picture alone
   std::vector<std::pair<std::string, const double *>> columns{};  // name and n values that spheres can be coloured by

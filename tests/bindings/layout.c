@@ -174,7 +174,7 @@ CHECK(jam_crunch_options, wall_time, 64, 8);
 CHECK(jam_crunch_options, steps, 72, 4);
 CHECK(jam_crunch_options, full_lps, 76, 4);
 CHECK(jam_crunch_options, strain, 80, 4);
-CHECK(jam_crunch_options, reserved, 84, 4);
+CHECK(jam_crunch_options, keep_steps, 84, 4);
 CHECK_SIZE(jam_crunch_report, 272);
 CHECK(jam_crunch_report, struct_size, 0, 4);
 CHECK(jam_crunch_report, jammed, 4, 4);
@@ -547,7 +547,7 @@ int main(void) {
   SHOW(jam_crunch_options, steps);
   SHOW(jam_crunch_options, full_lps);
   SHOW(jam_crunch_options, strain);
-  SHOW(jam_crunch_options, reserved);
+  SHOW(jam_crunch_options, keep_steps);
   printf("jam_crunch_report sizeof %zu\n", sizeof(jam_crunch_report));
   SHOW(jam_crunch_report, struct_size);
   SHOW(jam_crunch_report, jammed);

@@ -60,17 +60,20 @@ class Page(unittest.TestCase):
         )
         return found
 
-    def test_disks_cover_what_the_packing_fraction_says(self):
-        self.show(self.disks)
-        self.page.run("state.forces = 0; state.images = true; state.box = false; rebuild()")
-        self.page.settle()
+    def covered(self):
+        """The share of the cell's picture that is not background."""
         cell = self.page.run(
             "(() => { const v = viewNow(), a = cell[0][0]; const u = x => 0.5 * canvas.width + (x + v.shift[0]) * v.scale,"
             " w = y => 0.5 * canvas.height - (y + v.shift[1]) * v.scale; return [u(0), w(a), a * v.scale, a * v.scale]; })()"
         )
         image = pixels(self.page, self.path / "a.png", cell)
-        covered = (np.abs(image - BACKGROUND).max(2) > 8).mean()
-        self.assertAlmostEqual(covered, self.disks.packing_fraction, delta=0.01)
+        return (np.abs(image - BACKGROUND).max(2) > 8).mean()
+
+    def test_disks_cover_what_the_packing_fraction_says(self):
+        self.show(self.disks)
+        self.page.run("state.forces = 0; state.images = true; state.box = false; rebuild()")
+        self.page.settle()
+        self.assertAlmostEqual(self.covered(), self.disks.packing_fraction, delta=0.01)
 
     def test_every_disk_has_the_colour_of_its_class(self):
         self.show(self.disks)
@@ -175,6 +178,74 @@ class Page(unittest.TestCase):
         moved = np.linalg.solve(a.T, (where - s.positions).T).T
         np.testing.assert_allclose(moved, np.round(moved), atol=1e-12)
 
+    def test_slider_shows_the_steps_of_the_crunch(self):
+        s = jam.System.random(n=80, dim=2, seed=5, diameters=[1.0] * 40 + [1.4] * 40, packing_fraction=0.5)
+        moved = [np.zeros_like(s.positions)]
+        start, small = s.positions.copy(), s.diameters[0]
+        s.crunch(keep_steps=12, on_step=lambda step: moved.append(moved[-1] + step.displacements))
+        phi, gain = s.history["phi"], s.history["gain"]
+        self.show(s)
+        numbers = self.page.run("data.steps.map(s => s.number)")
+        self.assertEqual((numbers[0], numbers[-1]), (0, len(phi)))
+        self.assertTrue(4 <= len(numbers) <= 13 and len(set(np.diff(numbers[:-1]))) == 1, numbers)
+        self.assertTrue(self.page.run("atEnd()"))
+        self.page.run("parts.step.focus()")
+        for at in range(len(numbers) - 2, -1, -1):
+            self.page.key("ArrowLeft")
+            self.assertEqual(self.page.run("state.step"), at)
+            where = np.array(
+                self.page.run(
+                    "Array.from({length: n}, (_, i) => scene.sphere.slice(4 * i, 4 * i + 2))" ".map(a => Array.from(a))"
+                )
+            )
+            off = where - start - moved[numbers[at]]
+            self.assertLess(np.abs(off - np.round(off)).max(), 1e-6, f"step {numbers[at]}")  # floats in a unit box
+            self.assertTrue((where >= 0).all() and (where <= 1).all())
+            size = small * np.prod(1 + gain[: numbers[at]])
+            self.assertAlmostEqual(self.page.run("2 * scene.sphere[3]") / size, 1, delta=1e-6)
+            shown = self.page.run("document.getElementById('step').innerText")
+            told = 0.5 if at == 0 else phi[numbers[at] - 1]
+            self.assertIn(f"{told:.9f}"[:10], shown)
+            self.assertIn(f"{numbers[at]} of {len(phi)}", self.page.run("parts.stepShown.value"))
+            self.assertIn(f"step {numbers[at]} of {len(phi)}, ", self.page.run("parts.step.ariaValueText"))
+        # the picture follows: at the start the disks cover what they covered then
+        self.page.run("state.images = true; state.box = false; rebuild()")
+        self.page.settle()
+        self.assertAlmostEqual(self.covered(), 0.5, delta=0.01)
+        self.assertEqual(self.page.run("scene.sticks"), 0)  # forces belong to the end
+        self.page.run("canvas.focus()")
+        for _ in numbers:
+            self.page.key(".")
+        self.assertTrue(self.page.run("atEnd()"))
+        self.assertAlmostEqual(self.page.run("Math.max(...distance)"), 0, delta=1e-15)
+        self.assertGreaterEqual(self.page.run("scene.sticks"), 2 * len(s.forces))
+        self.page.key(",")
+        self.assertEqual(self.page.run("state.step"), len(numbers) - 2)
+
+    def test_no_slider_without_steps(self):
+        self.show(self.disks)
+        self.assertIsNone(self.page.run("document.querySelector('input.steps')"))
+        self.assertTrue(self.page.run("document.getElementById('step').parentElement.hidden"))
+        self.page.run("canvas.focus()")
+        self.page.key(",")
+        self.assertTrue(self.page.run("atEnd()"))
+
+    def test_slider_follows_a_free_cell(self):
+        s = jam.System.random(n=40, dim=2, seed=2, diameters=[1.0] * 20 + [1.4] * 20, packing_fraction=0.6)
+        s.crunch(strain="free", keep_steps=50)
+        self.show(s)
+        last = self.page.run("lastStep")
+        cells = np.array(self.page.run("data.steps.map((_, k) => (takeStep(k), cell))"))
+        np.testing.assert_array_equal(cells[0], np.eye(2))
+        np.testing.assert_array_equal(cells[last], s.cell)
+        self.assertGreater(np.abs(cells[last] - cells[0]).max(), 1e-4)
+        np.testing.assert_allclose(np.linalg.det(cells), 1, rtol=1e-12)
+        self.page.run("takeStep(lastStep - 1)")
+        inside = np.linalg.solve(
+            cells[last - 1].T, np.array(self.page.run("Array.from({length: n}, (_, i) => placed(i).slice(0, 2))")).T
+        )
+        self.assertTrue((inside > -1e-6).all() and (inside < 1 + 1e-6).all())
+
     @unittest.skipUnless(os.environ.get("JAM_PACK"), "jam-pack is not built")
     def test_jam_pack_writes_it(self):
         page = self.path / "pack.html"
@@ -189,11 +260,14 @@ class Page(unittest.TestCase):
             "--quiet",
             "--page",
             page,
+            "--page-steps",
+            "5",
         ]
         self.assertIn(subprocess.run(command).returncode, (0, 1))
         self.page.open(page)
         self.assertEqual(self.page.run("scene.count"), 64)
-        self.assertIn("Collectively jammed", self.page.run("document.querySelector('.verdict').innerText"))
+        self.assertIn("Collectively jammed", self.page.run("document.querySelector('#certificate .verdict').innerText"))
+        self.assertTrue(2 <= self.page.run("data.steps.length") <= 6)
 
 
 if __name__ == "__main__":

@@ -147,11 +147,53 @@ static void page_holds_its_data_and_nothing_else(void **state) {
   jam_destroy(sys);
 }
 
+static int states_on_the_page(const jam_system *sys) {
+  size_t size;
+  int count = 0;
+  char *text, *at;
+  assert_int_equal(jam_write_page(sys, in_scratch("s.html"), "", 1, "", NULL, 0), JAM_OK);
+  text = get_bytes(in_scratch("s.html"), &size);
+  for (at = text; (at = strstr(at, "\"kind\": ")); ++at) ++count;
+  free(text);
+  return count;
+}
+
+static void page_shows_the_steps_that_the_crunch_kept(void **state) {
+  jam_system *sys = some_packing(2, 60, 1.4, 1.0), *plain = NULL, *copy = NULL;
+  jam_crunch_options o;
+  int states;
+  (void)state;
+  jam_crunch_options_init(&o, sizeof o);
+  assert_int_equal(jam_copy(sys, &plain), JAM_OK);
+  for (o.keep_steps = -1; o.keep_steps <= 1001; o.keep_steps += 1002)
+    assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
+  o.keep_steps = 3;
+  assert_true(jam_crunch(sys, &o, NULL) >= 0);
+  states = states_on_the_page(sys);
+  assert_in_range(states, 2, 4); /* the start, at most two more, and the end */
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(states_on_the_page(copy), states);
+  assert_true(jam_crunch(plain, NULL, NULL) >= 0);
+  assert_same_bits(sys, plain);
+  assert_int_equal(states_on_the_page(plain), 0);
+  assert_true(jam_crunch(sys, NULL, NULL) >= 0); /* another crunch forgets them, and so does all that moves spheres */
+  assert_int_equal(states_on_the_page(sys), 0);
+  assert_true(jam_run(copy, NULL, NULL) >= 0);
+  assert_int_equal(states_on_the_page(copy), 0);
+  jam_destroy(sys);
+  jam_destroy(plain);
+  jam_destroy(copy);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(lammps_data_keeps_the_bits),           cmocka_unit_test(lammps_writes_it_otherwise),
-      cmocka_unit_test(lammps_data_that_cannot_be_read),      cmocka_unit_test(compressed_files_keep_the_bits),
-      cmocka_unit_test(what_a_format_cannot_hold_is_refused), cmocka_unit_test(page_holds_its_data_and_nothing_else),
+      cmocka_unit_test(lammps_data_keeps_the_bits),
+      cmocka_unit_test(lammps_writes_it_otherwise),
+      cmocka_unit_test(lammps_data_that_cannot_be_read),
+      cmocka_unit_test(compressed_files_keep_the_bits),
+      cmocka_unit_test(what_a_format_cannot_hold_is_refused),
+      cmocka_unit_test(page_holds_its_data_and_nothing_else),
+      cmocka_unit_test(page_shows_the_steps_that_the_crunch_kept),
   };
   return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -309,7 +309,7 @@ class Methods:
         """
         return self.call('isoconf_kept', instant)
 
-    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None) -> Estimate:
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None) -> Estimate:
         """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
         the same at 'info'. Takes as long as a few steps.
 
@@ -347,6 +347,9 @@ class Methods:
         strain : {'none', 'edges', 'tilts', 'free', 'volume', 'edges_volume', 'tilts_volume', 'all'}, optional
             FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends
             strictly jammed
+        keep_steps : int, optional
+            states before the end that are kept for write_page(), 0 .. 1000, default 0. Of more steps every second,
+            fourth, ... is kept; so it is beyond 2^24 coordinates in all
 
         Returns
         -------
@@ -356,12 +359,10 @@ class Methods:
         ------
         ArgumentError, OverlapError, TooFewError, MemoryError
         """
-        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain)
+        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps)
 
     def crunch_history(self, column: int | str) -> Array:
         """One column (HistoryColumn) of the last crunch, a value a step.
-
-        Steps of a path that was given up for sequential LPs from the same start are left out.
 
         Parameters
         ----------

@@ -81,6 +81,9 @@ OPTIONS = (
     ('page', 'output', 'FILE.html', None, (0, 0), (), False,
         'the packing to look at in a browser, with forces, certificate and distributions; needs no '
         'network'),
+    ('page-steps', 'integer', 'K', 0, (0, 1000), (), False,
+        '--page gets a slider over at most K states of the crunch before its end, each 16 bytes a sphere '
+        'in d = 3 (0)'),
     ('contacts', 'output', 'FILE', None, (0, 0), (), True,
         'the contact network: i, j, unit vector, gap, force (mean 1), as .csv (also without an ending), '
         '.dump (LAMMPS dump local) or .vtp (ParaView)'),

@@ -123,8 +123,8 @@ class Verbs(Observing):
         Parameters
         ----------
         on_step : callable(Step), optional
-            Gets every step with its displacements and linear network. Each LP is then solved in full, which is slower.
-            A true answer stops the call.
+            Gets every step with its displacements and linear network, which balances with full_lps=1 only. A true answer
+            stops the call.
         checkpoint : path-like, optional
             Name of a file that gets the packing of the last step while the call runs. After a kill,
             System.from_checkpoint(checkpoint).crunch() goes on from there. It ends jammed, not always with the same bits.

@@ -30,6 +30,7 @@ typedef struct options {
   int no_crunch;
   const char *output;
   const char *page;
+  int64_t page_steps;
   const char *contacts;
   const char *spectrum;
   int64_t modes;
@@ -95,6 +96,7 @@ static const option_row table[] = {
     {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), 0, 0, NULL, 0},
     {"--output", TAKE_OUTPUT, offsetof(options, output), 0, 0, NULL, 0},
     {"--page", TAKE_OUTPUT, offsetof(options, page), 0, 0, NULL, 0},
+    {"--page-steps", TAKE_INTEGER, offsetof(options, page_steps), 0, 1000, NULL, 0},
     {"--contacts", TAKE_OUTPUT, offsetof(options, contacts), 0, 0, NULL, AFTER_CRUNCH | TAKES_STDOUT},
     {"--spectrum", TAKE_OUTPUT, offsetof(options, spectrum), 0, 0, NULL, AFTER_CRUNCH},
     {"--modes", TAKE_INTEGER, offsetof(options, modes), 0, 2147483647, NULL, 0},
@@ -124,6 +126,7 @@ static const options defaults = {
     .strain = 0,
     .lp = 0,
     .threads = 1,
+    .page_steps = 0,
     .modes = NOT_GIVEN,
     .wall_time = INFINITY,
 };
@@ -186,6 +189,8 @@ static const char *const help[] = {
     "                         .txt, none). With .gz behind it the file is compressed",
     "  --page FILE.html       the packing to look at in a browser, with forces, certificate and",
     "                         distributions; needs no network",
+    "  --page-steps K         --page gets a slider over at most K states of the crunch before its",
+    "                         end, each 16 bytes a sphere in d = 3 (0)",
     "  --contacts FILE        the contact network: i, j, unit vector, gap, force (mean 1), as",
     "                         .csv (also without an ending), .dump (LAMMPS dump local) or .vtp",
     "                         (ParaView)",

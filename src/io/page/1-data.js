@@ -7,10 +7,12 @@ function numbers(text, Type) {
   return new Type(bytes.buffer);
 }
 
-const dim = data.dim, n = data.n, cell = data.cell;
-const position = numbers(data.position, Float64Array), diameter = numbers(data.diameter, Float64Array);
-const radius = (i) => 0.5 * diameter[diameter.length > 1 ? i : 0];
-const cube = cell.every((row, r) => row.every((x, c) => (r === c ? x === cell[0][0] : x === 0)));
+const dim = data.dim, n = data.n;
+const endPosition = numbers(data.position, Float64Array), diameter = numbers(data.diameter, Float64Array);
+const isCube = (a) => a.every((row, r) => row.every((x, c) => (r === c ? x === a[0][0] : x === 0)));
+// What is shown: the packing itself, or a state of the crunch that led to it, whose diameters are smaller by one factor.
+let cell = data.cell, cube = isCube(cell), position = endPosition, growth = 1;
+const radius = (i) => 0.5 * growth * diameter[diameter.length > 1 ? i : 0];
 let meanDiameter = 0;
 for (const s of diameter) meanDiameter += s / diameter.length;
 
@@ -42,6 +44,7 @@ const quantities = [{ name: "diameter", of: (i) => 2 * radius(i) }];
 if (network)
   quantities.unshift({ name: "class", of: classOf, classes: true },
     { name: "coordination", of: (i) => coordination[i], whole: true }, { name: "sum of forces", of: (i) => load[i] });
+if (data.steps) quantities.push({ name: "distance to the end", of: (i) => distance[i], range: () => [0, farthest] });
 for (const own of data.values) {
   const list = numbers(own.values, Float64Array);
   quantities.push({ name: own.name, of: (i) => list[i] });

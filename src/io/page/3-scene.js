@@ -4,7 +4,7 @@ const state = {
   hidden: cell.map((row, c) => 0.5 * row[c]), // d > 3: where the slice lies along the others
   whole: false, // d > 3: project all spheres instead of a slice
   colour: 0, size: 1, forces: network && dim === 2 ? 1 : 0, width: 1, threshold: 0, images: false, box: true,
-  names: false, slab: -1, slabAt: 0.5, slabThick: 0.3, hide: new Set(), chosen: -1,
+  names: false, step: data.steps ? data.steps.length - 1 : 0, slab: -1, slabAt: 0.5, slabThick: 0.3, hide: new Set(), chosen: -1,
 };
 const THICK = dim === 2 ? 0.055 : 0.03; // radius of a mean force over the mean diameter
 const MARGIN = 0.15; // of the cell: how far periodic images are drawn beyond it
@@ -60,6 +60,7 @@ function tints() {
     low = Math.min(low, values[i]);
     high = Math.max(high, values[i]);
   }
+  if (q.range) [low, high] = q.range();
   const of = q.classes ? (i) => CLASSES[values[i]].colour : (i) => viridis((values[i] - low) / (high - low || 1));
   return { q, values, low, high, of };
 }
@@ -118,7 +119,7 @@ function buildSticks(renderer, where, visible, moved) {
     stop.push(b[0], b[1], b[2], 0);
     colours.push(...c, 255);
   };
-  for (let k = 0; state.forces && k < contactCount; ++k) {
+  for (let k = 0; state.forces && atEnd() && k < contactCount; ++k) {
     const f = network.force[k];
     if (f < state.threshold) continue;
     const [i, j] = [network.pair[2 * k], network.pair[2 * k + 1]];

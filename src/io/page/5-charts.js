@@ -2,7 +2,7 @@
 const SVG = { width: 368, height: 190, left: 52, right: 10, top: 20, bottom: 34 };
 
 // points: [x, y]; log: which axes are logarithmic; bars: y from 0.
-function chart(name, xName, yName, points, { logX = false, logY = false, bars = false } = {}) {
+function chart(name, xName, yName, points, { logX = false, logY = false, bars = false, mark: pointer = null } = {}) {
   const fx = logX ? Math.log10 : (x) => x, fy = logY ? Math.log10 : (y) => y;
   const shown = points.map(([x, y]) => [fx(x), fy(y)]).filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y));
   if (shown.length < 2) return "";
@@ -30,6 +30,8 @@ function chart(name, xName, yName, points, { logX = false, logY = false, bars = 
     const line = shown.map(([x, y], k) => `${k ? "L" : "M"}${X(x).toFixed(1)} ${Y(y).toFixed(1)}`).join("");
     out += `<path d="${line}" fill="none" stroke="#0072b2" stroke-width="1.8"/>`;
   }
+  if (pointer)
+    out += `<path id="${pointer}" data-scale="${X(0)} ${X(1) - X(0)}" d="" stroke="#d0006f" stroke-width="1.5"/>`;
   out += `<path d="M${SVG.left} ${SVG.top}V${floor}H${SVG.width - SVG.right}" fill="none" stroke="#566070"/>`;
   const middle = [0.5 * (SVG.left + SVG.width - SVG.right), 0.5 * (SVG.top + floor)];
   out += `<text x="${middle[0]}" y="${SVG.height - 4}" text-anchor="middle">${xName}</text>`;
@@ -76,7 +78,7 @@ function showCharts() {
   }
   if (data.history.length > 1)
     out += chart("Way to the jamming point", "step", "growth of the diameters", data.history.map((g, k) => [k + 1, g]),
-      { logY: true });
+      { logY: true, mark: data.steps ? "now" : null });
   if (new Set(diameter).size > 2)
     out += chart("Diameters", "diameter", "share up to it", cumulative(diameter));
   place.innerHTML = out || "<p>They appear after a crunch.</p>";

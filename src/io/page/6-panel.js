@@ -35,6 +35,7 @@ function slider(label, low, high, value, use, title) {
 
 const parts = {};
 function makeControls() {
+  if (data.steps) makeStepSlider();
   parts.colour = choice("Colour", quantities.map((q) => q.name), 0, (k) => (state.colour = k), "C: the next one");
   parts.size = slider("Spheres", 0, 1, state.size, (x) => (state.size = x), "size of the spheres; 0 hides them");
   if (network) {
@@ -125,7 +126,7 @@ function choose(i) {
   const place = document.getElementById("chosen");
   let out = "<p>None. Click a sphere, or press N.</p>";
   if (i >= 0) out = describe(i, 12).map((s) => `<p>${escaped(s)}</p>`).join("");
-  if (i >= 0 && network && coordination[i])
+  if (i >= 0 && network && atEnd() && coordination[i])
     out += "<table><tr><th>touches</th><th>force</th><th>gap</th></tr>" + contacts(i).map((c) =>
       `<tr><td>${c.other}</td><td>${shownNumber(c.force)}</td><td>${shownNumber(c.gap, 3)}</td></tr>`).join("") +
       "</table>";
@@ -152,7 +153,7 @@ const KEYS = { ArrowLeft: () => rotate(-0.1, 0), ArrowRight: () => rotate(0.1, 0
     parts.colour.value = state.colour = (state.colour + 1) % quantities.length;
     rebuild();
   },
-  Escape: () => choose(-1), r: () => (home(), redraw()) };
+  ",": () => takeStep(state.step - 1), ".": () => takeStep(state.step + 1), Escape: () => choose(-1), r: () => (home(), redraw()) };
 const PANS = { ArrowLeft: [-20, 0], ArrowRight: [20, 0], ArrowUp: [0, -20], ArrowDown: [0, 20] };
 canvas.addEventListener("keydown", (e) => {
   if (e.ctrlKey || e.metaKey || e.altKey) return;
@@ -166,9 +167,11 @@ function startPage() {
   document.body.classList.toggle("small", data.small);
   document.getElementById("keys").textContent =
     "With the picture in focus: arrows turn (with Shift: move), + and - zoom, " +
-    "N and P choose the next and the previous sphere, C colour, F forces, I images, L labels, R reset, Esc none.";
+    "N and P choose the next and the previous sphere, C colour, F forces, I images, L labels, R reset, Esc none" +
+    (data.steps ? ", comma and full stop go one step of the crunch back and on." : ".");
   showReport();
   showCharts();
+  if (data.steps) showStep();
   choose(-1);
   if (!renderer) {
     const problem = document.getElementById("problem");

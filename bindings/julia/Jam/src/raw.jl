@@ -524,7 +524,7 @@ mutable struct jam_crunch_options
     steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
     strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
-    reserved::Int32  # 0
+    keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Of more steps every second, fourth, ... is kept; so it is beyond 2^24 coordinates in all
     jam_crunch_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -1066,9 +1066,10 @@ end
 
 """
 Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
-numbers of each sphere, certificate and distributions. title: its heading, or "". small: 1 for the picture alone, 0
-for all. values: numbers to colour spheres by, (k, n), or NULL; names: k names, one a line, or "".
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO, JAM_E_MEMORY. Threads: const. @since 0.1
+numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
+title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
+or NULL; names: k names, one a line, or "". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
+JAM_E_MEMORY. Threads: const. @since 0.1
 """
 function jam_write_page(sys, path, title, small, names, values, values_len)
     return ccall((:jam_write_page, libjam), Int32, (Ptr{Cvoid}, Cstring, Cstring, Int32, Cstring, Ptr{Cdouble}, Csize_t), sys, path, title, small, names, _ptr(values), values_len)
@@ -1332,9 +1333,8 @@ function jam_crunch_report_get(sys, report)
 end
 
 """
-One column (jam_history_column) of the last crunch, a value a step. Steps of a path that was given up for sequential
-LPs from the same start are left out. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-@since 0.1
+One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
+JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
 """
 function jam_crunch_history(sys, column, out, out_len, needed)
     return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))

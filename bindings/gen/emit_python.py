@@ -8,6 +8,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 '''
+REPORT = '''
+
+class Report:
+    """What reports share."""
+
+    status: StatusCode = StatusCode.OK  # > 0: stopped early, and why; the state is valid'''
 
 
 def camel(name):
@@ -75,12 +81,13 @@ def emit(api):
     for e in api.enums:
         out += ["", "", f"class {camel(e.name)}(IntEnum):", _doc(e.doc)]
         out += [f"    {n} = {v}" + (f"  # {d}" if d else "") for n, (_, v, d) in zip(item_names(e), e.items)]
+    out.append(REPORT)
     for s in api.structs:
         if s.name in inits:
             continue
         members = [m for m in s.members if m.name not in ("struct_size", "reserved")]
         notes = "\n".join(f"{m.name}: {m.doc}" for m in members)
-        out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}:", _doc(f"{s.doc}\n\n{notes}\n")]
+        out += ["", "", "@dataclass(frozen=True, repr=False)", f"class {camel(s.name)}(Report):", _doc(f"{s.doc}\n\n{notes}\n")]
         out += [f"    {m.name}: {_enum_of(m, enums) or member_type(m)}" for m in members]
     out += ["", "", "# option structs: {C name: {member: (type, meaning)}}", "OPTIONS = {"]
     for s in api.structs:
@@ -94,7 +101,7 @@ def emit(api):
             out.append("    },")
     out += ["}", "", "# report structs: {C name: dataclass}", "REPORTS = {"]
     out += [f'    "{s.name}": {camel(s.name)},' for s in api.structs if s.name not in inits]
-    out += ["}", "", "# rows: {C name: numpy dtype}, for arrays of structs", "ROWS = {"]
+    out += ["}", "", "# rows: {C name: numpy dtype}, for arrays of structs", "ROWS: dict[str, list[tuple[str, str]]] = {"]
     rows = {a.type.base for f in api.functions for a in f.args if a.role == "array_out" and a.type.base not in TYPES}
     for s in api.structs:
         if s.name in rows:

@@ -20,6 +20,8 @@ report = packing.crunch(step_tolerance=1e-9)
 phi: float = report.packing_fraction
 jammed: bool = report.jammed
 why: jam.StopReason = report.stop_reason
+early: bool = report.status > jam.StatusCode.OK
+place: int = packing.n * packing.dim
 packing.page("x.html", values={"height": packing.positions[:, 1]})
 edges = packing.density_of_states(points=20).edge.max()
 try:

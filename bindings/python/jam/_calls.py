@@ -212,7 +212,9 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     """
     on_system, table = CALLS["jam_" + name]
     given = _take_inputs(name, table, args, named)
-    passed, fills, outputs, asked = [], [], {}, []
+    passed: list[Any] = []
+    outputs: dict[str, Any] = {}
+    fills, asked = [], []
     for arg, role, ctype in table:
         if role == "array_in":
             value = given.get(arg)

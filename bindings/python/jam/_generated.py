@@ -346,8 +346,14 @@ class DosColumn(IntEnum):
     CUMULATIVE_ERROR = 5  # its standard error
 
 
+class Report:
+    """What reports share."""
+
+    status: StatusCode = StatusCode.OK  # > 0: stopped early, and why; the state is valid
+
+
 @dataclass(frozen=True, repr=False)
-class Info:
+class Info(Report):
     """What the system is now. @since 0.1
 
     dim: d
@@ -377,7 +383,7 @@ class Info:
 
 
 @dataclass(frozen=True, repr=False)
-class Progress:
+class Progress(Report):
     """Given to the progress callback; valid during the call only. @since 0.1
 
     phase: jam_phase
@@ -405,7 +411,7 @@ class Progress:
 
 
 @dataclass(frozen=True, repr=False)
-class MdReport:
+class MdReport(Report):
     """What MD did. @since 0.1
 
     stop_reason: jam_stop_reason
@@ -435,7 +441,7 @@ class MdReport:
 
 
 @dataclass(frozen=True, repr=False)
-class Glass:
+class Glass(Report):
     """A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
 
     jammed_fraction: phi_J
@@ -451,7 +457,7 @@ class Glass:
 
 
 @dataclass(frozen=True, repr=False)
-class MonteCarloReport:
+class MonteCarloReport(Report):
     """What Monte Carlo did. @since 0.1
 
     stop_reason: jam_stop_reason; COLLISIONS: all sweeps were made
@@ -483,7 +489,7 @@ class MonteCarloReport:
 
 
 @dataclass(frozen=True, repr=False)
-class IsoconfReport:
+class IsoconfReport(Report):
     """What the runs gave so far. @since 0.1
 
     stop_reason: jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
@@ -509,7 +515,7 @@ class IsoconfReport:
 
 
 @dataclass(frozen=True, repr=False)
-class CrunchReport:
+class CrunchReport(Report):
     """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
 
     jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
@@ -587,7 +593,7 @@ class CrunchReport:
 
 
 @dataclass(frozen=True, repr=False)
-class Estimate:
+class Estimate(Report):
     """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
 
     pairs: of the longest neighbour list
@@ -607,7 +613,7 @@ class Estimate:
 
 
 @dataclass(frozen=True, repr=False)
-class RelaxReport:
+class RelaxReport(Report):
     """What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
     again and again; stable spheres are the others. @since 0.1
 
@@ -654,7 +660,7 @@ class RelaxReport:
 
 
 @dataclass(frozen=True, repr=False)
-class DecompressReport:
+class DecompressReport(Report):
     """What jam_decompress found. @since 0.1
 
     stop_reason: jam_stop_reason
@@ -704,7 +710,7 @@ class DecompressReport:
 
 
 @dataclass(frozen=True, repr=False)
-class GeometryReport:
+class GeometryReport(Report):
     """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
 
     self_contacts: spheres touching their own image; left out of the network
@@ -744,7 +750,7 @@ class GeometryReport:
 
 
 @dataclass(frozen=True, repr=False)
-class RigidityReport:
+class RigidityReport(Report):
     """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
     that they touch, N' their number. @since 0.1
 
@@ -777,7 +783,7 @@ class RigidityReport:
 
 
 @dataclass(frozen=True, repr=False)
-class Moduli:
+class Moduli(Report):
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
 
     bulk: K
@@ -795,7 +801,7 @@ class Moduli:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison:
+class Comparison(Report):
     """What jam_compare found; contacts only when both have a network. @since 0.1
 
     contacts_a:
@@ -977,7 +983,7 @@ REPORTS = {
 }
 
 # rows: {C name: numpy dtype}, for arrays of structs
-ROWS = {
+ROWS: dict[str, list[tuple[str, str]]] = {
 }
 
 # tables: {C name: number of columns}

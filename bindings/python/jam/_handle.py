@@ -8,7 +8,7 @@ from typing import Any, Callable
 from . import _calls, errors, raw
 from ._generated import Info, Progress, StatusCode
 from ._methods import Methods
-from ._progress import reporter
+from ._progress import end, reporter
 
 TRACE_LENGTH = 200_000  # progress records kept by a system
 
@@ -32,7 +32,8 @@ class _Dispatch:
 
     def __call__(self, progress: Any) -> bool:
         target = self._targets.get(threading.get_ident())
-        return target(progress) if target else False
+        found: bool = target(progress) if target else False
+        return found
 
     @contextmanager
     def to(self, target: Callable[..., Any]) -> Any:
@@ -51,7 +52,15 @@ class _Dispatch:
 class Base(Methods):
     """The handle of a system, and the reports of its calls."""
 
-    dim: int  # a property of State
+    @property
+    def n(self) -> int:
+        """Number of spheres."""
+        raise NotImplementedError
+
+    @property
+    def dim(self) -> int:
+        """Dimension d."""
+        raise NotImplementedError
 
     def __init__(self, handle: Any) -> None:
         self._handle: Any = handle
@@ -90,8 +99,7 @@ class Base(Methods):
             try:
                 yield
             finally:
-                if hasattr(user, "close"):
-                    user.close()
+                end(user)
 
     def call(self, name: str, *args: Any, progress: Any = None, **named: Any) -> Any:
         """Calls the C function jam_<name> on this system by the header's conventions.

@@ -31,7 +31,7 @@ class Methods:
         ------
         ArgumentError, BusyError
         """
-        return self.call('set_memory_limit', bytes, progress=progress)
+        self.call('set_memory_limit', bytes, progress=progress)
 
     def checkpoint_write(self, path: str) -> None:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
@@ -50,7 +50,7 @@ class Methods:
         ------
         IoError, MemoryError
         """
-        return self.call('checkpoint_write', path)
+        self.call('checkpoint_write', path)
 
     def observe(self, *, collisions: bool | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
         """From now on run() and compress() record, over all calls, until observe_stop().
@@ -86,7 +86,7 @@ class Methods:
         ------
         ArgumentError, MemoryError, BusyError
         """
-        return self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
+        self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
 
     def observe_stop(self, *, progress: Progressing = None) -> None:
         """Stops recording; what was recorded can still be read.
@@ -100,7 +100,7 @@ class Methods:
         ------
         BusyError
         """
-        return self.call('observe_stop', progress=progress)
+        self.call('observe_stop', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
         """Series of samples: table (samples, 6), columns as SeriesColumn.
@@ -124,7 +124,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('observed_series')
+        answer: ObservedSeriesResult = self.call('observed_series')
+        return answer
 
     def observed_spheres(self) -> ObservedSpheresResult:
         """Of each sphere: collisions (n), displacement (n, d) since observe(), unwrapped.
@@ -138,7 +139,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('observed_spheres')
+        answer: ObservedSpheresResult = self.call('observed_spheres')
+        return answer
 
     def observed_pairs(self) -> ObservedPairsResult:
         """Pairs that have collided: pair (m, 2), collisions (m), and momentum (m), exchanged in units of sqrt(m kT),
@@ -157,7 +159,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('observed_pairs')
+        answer: ObservedPairsResult = self.call('observed_pairs')
+        return answer
 
     def observed_gaps(self) -> ObservedGapsResult:
         """Histogram of gaps h: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error (bins) over
@@ -176,7 +179,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('observed_gaps')
+        answer: ObservedGapsResult = self.call('observed_gaps')
+        return answer
 
     def observed_correlation(self) -> ObservedCorrelationResult:
         """g(r), sampled likewise: middle r of each, mean diameters, and g.
@@ -190,7 +194,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('observed_correlation')
+        answer: ObservedCorrelationResult = self.call('observed_correlation')
+        return answer
 
     def monte_carlo(self, *, resume: bool | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:
         """Metropolis Monte Carlo (J. Chem.
@@ -237,7 +242,8 @@ class Methods:
         ------
         ArgumentError, StateError, UnsupportedError, MemoryError, BusyError
         """
-        return self.call('monte_carlo', resume=resume, energy_unit=energy_unit, alpha=alpha, energy_scale=energy_scale, temperature=temperature, step=step, acceptance=acceptance, swap_share=swap_share, sweeps=sweeps, run=run, first_sweep=first_sweep, wall_time=wall_time, progress=progress)
+        answer: MonteCarloReport = self.call('monte_carlo', resume=resume, energy_unit=energy_unit, alpha=alpha, energy_scale=energy_scale, temperature=temperature, step=step, acceptance=acceptance, swap_share=swap_share, sweeps=sweeps, run=run, first_sweep=first_sweep, wall_time=wall_time, progress=progress)
+        return answer
 
     def isoconf_report(self) -> IsoconfReport:
         """The report of these runs as they are now.
@@ -250,7 +256,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('isoconf_report_get')
+        answer: IsoconfReport = self.call('isoconf_report_get')
+        return answer
 
     def isoconf_sums(self, block: int) -> IsoconfSumsResult:
         """Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants,
@@ -272,7 +279,8 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        return self.call('isoconf_sums', block)
+        answer: IsoconfSumsResult = self.call('isoconf_sums', block)
+        return answer
 
     def isoconf_series(self, block: int, column: int | str) -> Array:
         """One IsoconfColumn of that block (or -1: all), a sum over runs at each instant.
@@ -290,7 +298,8 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        return self.call('isoconf_series', block, column)
+        answer: Array = self.call('isoconf_series', block, column)
+        return answer
 
     def isoconf_kept(self, instant: int) -> Array:
         """Displacements (runs, n, d) at one kept instant, given by its index.
@@ -307,7 +316,8 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        return self.call('isoconf_kept', instant)
+        answer: Array = self.call('isoconf_kept', instant)
+        return answer
 
     def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None) -> Estimate:
         """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
@@ -359,7 +369,8 @@ class Methods:
         ------
         ArgumentError, OverlapError, TooFewError, MemoryError
         """
-        return self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps)
+        answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps)
+        return answer
 
     def crunch_history(self, column: int | str) -> Array:
         """One column (HistoryColumn) of the last crunch, a value a step.
@@ -376,7 +387,8 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        return self.call('crunch_history', column)
+        answer: Array = self.call('crunch_history', column)
+        return answer
 
     def crunch_step_displacements(self) -> Array:
         """Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed.
@@ -392,7 +404,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('crunch_step_displacements')
+        answer: Array = self.call('crunch_step_displacements')
+        return answer
 
     def crunch_step_contacts(self) -> Array:
         """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included.
@@ -407,7 +420,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('crunch_step_contacts')
+        answer: Array = self.call('crunch_step_contacts')
+        return answer
 
     def crunch_step_vectors(self) -> Array:
         """r_ij (m, d) of these pairs before the step, unit of box.
@@ -416,7 +430,8 @@ class Methods:
         -------
         array
         """
-        return self.call('crunch_step_vectors')
+        answer: Array = self.call('crunch_step_vectors')
+        return answer
 
     def crunch_step_duals(self) -> Array:
         """Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum
@@ -426,7 +441,8 @@ class Methods:
         -------
         array
         """
-        return self.call('crunch_step_duals')
+        answer: Array = self.call('crunch_step_duals')
+        return answer
 
     def decompress_history(self, column: int | str) -> Array:
         """One column (SoftColumn) of the last decompression.
@@ -443,7 +459,8 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        return self.call('decompress_history', column)
+        answer: Array = self.call('decompress_history', column)
+        return answer
 
     def contact_vectors(self) -> Array:
         """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair.
@@ -456,7 +473,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('contact_vectors')
+        answer: Array = self.call('contact_vectors')
+        return answer
 
     def contact_gaps(self) -> Array:
         """Gaps h of the contacts, length contacts.
@@ -472,7 +490,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('contact_gaps')
+        answer: Array = self.call('contact_gaps')
+        return answer
 
     def hessian_map(self) -> Array:
         """The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
@@ -485,7 +504,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('hessian_map')
+        answer: Array = self.call('hessian_map')
+        return answer
 
     def contacts_from_geometry(self, *, tolerance: float | None = None, window: float | None = None, progress: Progressing = None) -> GeometryReport:
         """Contact network and forces from positions, diameters and box alone, kept as crunch() keeps its own; no sphere
@@ -515,7 +535,8 @@ class Methods:
         ------
         ArgumentError, SolverError, MemoryError, BusyError
         """
-        return self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
+        answer: GeometryReport = self.call('contacts_from_geometry', tolerance=tolerance, window=window, progress=progress)
+        return answer
 
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
         """Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
@@ -543,7 +564,8 @@ class Methods:
         ------
         ArgumentError
         """
-        return self.call('contact_candidates', window)
+        answer: ContactCandidatesResult = self.call('contact_candidates', window)
+        return answer
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
         """States of self-stress of the network:; force (n_c), mean 1, from the null space of S^T, not from LP duals;
@@ -567,7 +589,8 @@ class Methods:
         ------
         StateError, ArgumentError, MemoryError, SolverError, BusyError
         """
-        return self.call('stress_states', progress=progress)
+        answer: StressStatesResult = self.call('stress_states', progress=progress)
+        return answer
 
     def rigidity(self, kind: int | str, *, progress: Progressing = None) -> RigidityReport:
         """Tests whether the packing is jammed.
@@ -594,7 +617,8 @@ class Methods:
         ------
         ArgumentError, SolverError, MemoryError, BusyError
         """
-        return self.call('rigidity', kind, progress=progress)
+        answer: RigidityReport = self.call('rigidity', kind, progress=progress)
+        return answer
 
     def flex(self, kind: int | str, *, progress: Progressing = None) -> FlexResult:
         """A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for
@@ -618,7 +642,8 @@ class Methods:
         ------
         ArgumentError, SolverError, MemoryError, BusyError, StateError
         """
-        return self.call('flex', kind, progress=progress)
+        answer: FlexResult = self.call('flex', kind, progress=progress)
+        return answer
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
         """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2).
@@ -639,7 +664,8 @@ class Methods:
         ------
         ArgumentError, StateError, MemoryError
         """
-        return self.call('gaps', h_max, stable_only)
+        answer: GapsResult = self.call('gaps', h_max, stable_only)
+        return answer
 
     def contact_classes(self) -> Array:
         """Flags (ContactClass) of every contact, length n_c.
@@ -652,7 +678,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('contact_classes')
+        answer: Array = self.call('contact_classes')
+        return answer
 
     def sphere_structure(self, weighted: int) -> SphereStructureResult:
         """c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij.
@@ -672,7 +699,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('sphere_structure', weighted)
+        answer: SphereStructureResult = self.call('sphere_structure', weighted)
+        return answer
 
     def contact_dots(self, weighted: int) -> ContactDotsResult:
         """n_ij.
@@ -692,7 +720,8 @@ class Methods:
         ------
         StateError
         """
-        return self.call('contact_dots', weighted)
+        answer: ContactDotsResult = self.call('contact_dots', weighted)
+        return answer
 
     def class_values(self, quantity: int | str, which: int | str) -> Array:
         """Values of a Quantity in a Class, in the order of contacts, spheres or contact_dots().
@@ -710,7 +739,8 @@ class Methods:
         ------
         StateError, ArgumentError
         """
-        return self.call('class_values', quantity, which)
+        answer: Array = self.call('class_values', quantity, which)
+        return answer
 
     def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> Array:
         """Histogram of the values of class_values(): density in `bins` equal bins of [low, high), its integral the share
@@ -732,7 +762,8 @@ class Methods:
         ------
         StateError, ArgumentError
         """
-        return self.call('histogram', quantity, which, low, high, bins)
+        answer: Array = self.call('histogram', quantity, which, low, high, bins)
+        return answer
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
         """S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean
@@ -755,7 +786,8 @@ class Methods:
         ------
         ArgumentError, BusyError
         """
-        return self.call('structure_factor', q_max, progress=progress)
+        answer: StructureFactorResult = self.call('structure_factor', q_max, progress=progress)
+        return answer
 
     def bond_order(self, l: int, cutoff: float) -> Array:
         """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff
@@ -776,7 +808,8 @@ class Methods:
         ------
         ArgumentError, MemoryError
         """
-        return self.call('bond_order', l, cutoff)
+        answer: Array = self.call('bond_order', l, cutoff)
+        return answer
 
     def crystal_score(self) -> float:
         """Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal
@@ -788,7 +821,8 @@ class Methods:
         -------
         float
         """
-        return self.call('crystal_score')
+        answer: float = self.call('crystal_score')
+        return answer
 
     def local_fraction(self) -> Array:
         """Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed.
@@ -801,7 +835,8 @@ class Methods:
         ------
         UnsupportedError
         """
-        return self.call('local_fraction')
+        answer: Array = self.call('local_fraction')
+        return answer
 
     def floppy_mode(self, contact: int, *, progress: Progressing = None) -> Array:
         """Floppy mode: displacement (N', d) over s when a contact opens by s.
@@ -824,7 +859,8 @@ class Methods:
         ------
         StateError, ArgumentError, MemoryError, SolverError, BusyError
         """
-        return self.call('floppy_mode', contact, progress=progress)
+        answer: Array = self.call('floppy_mode', contact, progress=progress)
+        return answer
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
         """The floppy mode of every contact, measured: table (n_c, 6), columns as FloppyColumn.
@@ -856,7 +892,8 @@ class Methods:
         ------
         StateError, ArgumentError, MemoryError, SolverError, BusyError
         """
-        return self.call('floppy_modes', progress=progress)
+        answer: FloppyModesResult = self.call('floppy_modes', progress=progress)
+        return answer
 
     def density_of_states(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, moments: int | None = None, vectors: int | None = None, points: int | None = None, seed: int | None = None, progress: Progressing = None) -> DensityOfStatesResult:
         """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed,
@@ -904,7 +941,8 @@ class Methods:
         ------
         StateError, ArgumentError, MemoryError, SolverError, BusyError, TooFewError
         """
-        return self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
+        answer: DensityOfStatesResult = self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
+        return answer
 
     def project(self, vector: Any = None, u: Any = None) -> Array:
         """Projections u.
@@ -925,7 +963,8 @@ class Methods:
         ------
         StateError, ArgumentError, NonfiniteError
         """
-        return self.call('project', vector, u)
+        answer: Array = self.call('project', vector, u)
+        return answer
 
     def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
         """value = u.
@@ -951,7 +990,8 @@ class Methods:
         ------
         StateError, ArgumentError, NonfiniteError
         """
-        return self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
+        answer: float = self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
+        return answer
 
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
         """Elastic moduli.
@@ -978,7 +1018,8 @@ class Methods:
         ------
         StateError, ArgumentError, MemoryError, SolverError, BusyError
         """
-        return self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
+        answer: Moduli = self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
+        return answer
 
     def elastic_tensor(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ElasticTensorResult:
         """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x.
@@ -1008,7 +1049,8 @@ class Methods:
         ------
         StateError, ArgumentError, MemoryError, SolverError, BusyError
         """
-        return self.call('elastic_tensor', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
+        answer: ElasticTensorResult = self.call('elastic_tensor', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
+        return answer
 
     def compare(self, other: Any) -> CompareResult:
         """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from
@@ -1029,7 +1071,8 @@ class Methods:
         ------
         ArgumentError
         """
-        return self.call('compare', other)
+        answer: CompareResult = self.call('compare', other)
+        return answer
 
 
 class ObservedSeriesResult(NamedTuple):
@@ -1195,7 +1238,8 @@ def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: flo
     ------
     ArgumentError, DimensionError, UnsupportedError
     """
-    return _call('eos', form, dim, packing_fraction, jammed_fraction)
+    answer: float = _call('eos', form, dim, packing_fraction, jammed_fraction)
+    return answer
 
 
 def glass_fit(fraction: Any, pressure: Any) -> Glass:
@@ -1214,4 +1258,5 @@ def glass_fit(fraction: Any, pressure: Any) -> Glass:
     ------
     ArgumentError, TooFewError
     """
-    return _call('glass_fit', fraction, pressure)
+    answer: Glass = _call('glass_fit', fraction, pressure)
+    return answer

@@ -20,16 +20,19 @@ class Network(Base):
     def report(self) -> CrunchReport:
         """Result and certificate of the last crunch, a CrunchReport."""
         if self._carried and self._carried[0] is not None:
-            return self._carried[0]
+            found: CrunchReport = self._carried[0]
+            return found
         made = _calls.new_report("jam_crunch_report")
         raw.jam_crunch_report_get(self.handle, made)
-        return _calls.freeze(made, "jam_crunch_report")
+        found = _calls.freeze(made, "jam_crunch_report")
+        return found
 
     @property
     def history(self) -> Array:
         """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
         if self._carried and self._carried[2] is not None:
-            return self._carried[2]
+            found: Array = self._carried[2]
+            return found
         columns = [self.call("crunch_history", c) for c in HistoryColumn]
         rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in HistoryColumn])
         for c, values in zip(HistoryColumn, columns):
@@ -50,7 +53,8 @@ class Network(Base):
         (True, True)
         """
         if self._carried and self._carried[1] is not None:
-            return self._carried[1]
+            found: Contacts = self._carried[1]
+            return found
         return Contacts(
             self.call("contacts"), self.call("contact_vectors"), self.call("contact_gaps"), self.call("forces")
         )
@@ -58,24 +62,30 @@ class Network(Base):
     @property
     def forces(self) -> Array:
         """Contact forces, shape (contacts,), mean 1. Times report.force_scale they are lambda r of the LP."""
-        return self._carried[1].forces if self._carried and self._carried[1] is not None else self.call("forces")
+        found: Array = (
+            self._carried[1].forces if self._carried and self._carried[1] is not None else self.call("forces")
+        )
+        return found
 
     @property
     def coordination(self) -> Array:
         """Number of contacts of each sphere, shape (n,); 0 for rattlers."""
         if self._carried and self._carried[1] is not None:
             return np.bincount(self._carried[1].pairs.reshape(-1), minlength=self.n).astype(np.int32)
-        return self.call("coordination")
+        found: Array = self.call("coordination")
+        return found
 
     @property
     def rattlers(self) -> Array:
         """Which spheres are rattlers: bool, shape (n,)."""
-        return self.coordination == 0
+        found: Array = self.coordination == 0
+        return found
 
     @property
     def bucklers(self) -> Array:
         """Which spheres are bucklers, with exactly d + 1 contacts: bool, shape (n,)."""
-        return self.coordination == self.dim + 1
+        found: Array = self.coordination == self.dim + 1
+        return found
 
     def hessian(self, stiffness: int | str = "harmonic", **options: Any) -> Any:
         """Hessian of the contact network. The unit is the stiffness at the mean force.
@@ -176,7 +186,8 @@ class Network(Base):
         >>> g.shape, (g[:20] == 0).all()
         ((40,), True)
         """
-        return self.call("pair_correlation", kind, a, b, r_max, bins)
+        found: Array = self.call("pair_correlation", kind, a, b, r_max, bins)
+        return found
 
     def stress_states(self, *, progress: Any = None) -> StressStatesResult:
         """States of self-stress, from positions alone.
@@ -211,7 +222,8 @@ class Network(Base):
         RigidityReport
             report.jammed is a Verdict.
         """
-        return self.call("rigidity", kind, progress=progress)
+        found: RigidityReport = self.call("rigidity", kind, progress=progress)
+        return found
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
         """A motion that keeps or opens all contacts, for a packing that is not jammed.

@@ -56,22 +56,26 @@ class Observed:
     @property
     def spheres(self) -> ObservedSpheresResult:
         """collisions (n,) and unwrapped displacement (n, d). Collisions are counted with collisions=1 only."""
-        return self._system.call("observed_spheres")
+        found: ObservedSpheresResult = self._system.call("observed_spheres")
+        return found
 
     @property
     def pairs(self) -> ObservedPairsResult:
         """pair (m, 2), collisions (m,), momentum (m,), and time: momentum over time is the mean force."""
-        return self._system.call("observed_pairs")
+        found: ObservedPairsResult = self._system.call("observed_pairs")
+        return found
 
     @property
     def gaps(self) -> ObservedGapsResult:
         """edge (bins + 1,), density (bins,), error (bins,)."""
-        return self._system.call("observed_gaps")
+        found: ObservedGapsResult = self._system.call("observed_gaps")
+        return found
 
     @property
     def correlation(self) -> ObservedCorrelationResult:
         """r (bins,), g (bins,)."""
-        return self._system.call("observed_correlation")
+        found: ObservedCorrelationResult = self._system.call("observed_correlation")
+        return found
 
 
 class Observing(Base):

@@ -78,6 +78,12 @@ def every_ten_seconds() -> Callable[[Any], bool]:
     return line
 
 
+def end(told: Any) -> None:
+    """Closes a reporter that can be closed."""
+    if hasattr(told, "close"):
+        told.close()
+
+
 def reporter(progress: bool | Callable[..., Any] | None) -> Callable[..., Any] | None:
     if progress is True:
         return Line()

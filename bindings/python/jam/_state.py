@@ -19,23 +19,45 @@ class State(Base):
         """Number, dimension, box, packing fraction, pressure and model, as an Info."""
         made = _calls.new_report("jam_info")
         raw.jam_info_get(self.handle, made)
-        return _calls.freeze(made, "jam_info")
+        found: Info = _calls.freeze(made, "jam_info")
+        return found
 
-    n = property(lambda self: self._constant("n"), doc="Number of spheres.")
-    dim = property(lambda self: self._constant("dim"), doc="Dimension d.")
-    box = property(lambda self: self.info.box, doc="Side of the cube; V^(1/d) of another cell.")
-    seed = property(lambda self: self._constant("seed"), doc="Seed recorded at creation.")
-    packing_fraction = property(
-        lambda self: self.info.packing_fraction, doc="Volume of the spheres over that of the cell."
-    )
-    pressure = property(lambda self: self.info.pressure, doc="Reduced pressure last measured by MD, nan before.")
+    @property
+    def n(self) -> int:
+        """Number of spheres."""
+        return self._constants().n
 
-    def _constant(self, name: str) -> Any:
-        """A value that never changes for a handle, kept because info sums over all spheres each time."""
+    @property
+    def dim(self) -> int:
+        """Dimension d."""
+        return self._constants().dim
+
+    @property
+    def box(self) -> float:
+        """Side of the cube; V^(1/d) of another cell."""
+        return self.info.box
+
+    @property
+    def seed(self) -> int:
+        """Seed recorded at creation."""
+        return self._constants().seed
+
+    @property
+    def packing_fraction(self) -> float:
+        """Volume of the spheres over that of the cell."""
+        return self.info.packing_fraction
+
+    @property
+    def pressure(self) -> float:
+        """Reduced pressure last measured by MD, nan before."""
+        return self.info.pressure
+
+    def _constants(self) -> Info:
+        """Values that never change for a handle, kept because info sums over all spheres each time."""
         self.handle
         if self._first_info is None:
             self._first_info = self.info
-        return getattr(self._first_info, name)
+        return self._first_info
 
     def _show(self, function: Callable[..., Any], flat: bool = False) -> Array:
         handle = self.handle

@@ -11,7 +11,7 @@ from ._types import Array
 from . import _calls, raw
 from ._generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode
 from ._observe import Observing, Step
-from ._progress import reporter
+from ._progress import end, reporter
 
 
 class Verbs(Observing):
@@ -58,13 +58,14 @@ class Verbs(Observing):
         >>> report.collisions >= 20 * 64 / 2, report.max_overlap < 1e-9
         (True, True)
         """
-        return self._verb(
+        found: MdReport = self._verb(
             "jam_run",
             "jam_run_options",
             "jam_md_report",
             progress,
             dict(options, collisions_per_particle=collisions_per_particle),
         )
+        return found
 
     def compress(
         self,
@@ -97,13 +98,17 @@ class Verbs(Observing):
         >>> report.stop_reason.name, report.pressure > 900
         ('PRESSURE', True)
         """
+        report: MdReport | None = None
         if stages is None:
-            return self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
-        report = None
+            report = self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
+            stages = ()
         for stage in stages:
             given = dict(stage) if isinstance(stage, Mapping) else dict(zip(("growth_rate", "pressure"), stage))
-            report = self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, {**options, **given})
-            if report.status > 0:
+            last: MdReport = self._verb(
+                "jam_compress", "jam_compress_options", "jam_md_report", progress, {**options, **given}
+            )
+            report = last
+            if last.status > 0:
                 break
         if report is None:
             raise ValueError("stages is empty")
@@ -151,10 +156,11 @@ class Verbs(Observing):
         if checkpoint is not None:
             told = self._keeper(os.fspath(checkpoint), checkpoint_every, told)
         try:
-            report = self._verb("jam_crunch", "jam_crunch_options", "jam_crunch_report", told, options or None)
+            report: CrunchReport = self._verb(
+                "jam_crunch", "jam_crunch_options", "jam_crunch_report", told, options or None
+            )
         finally:
-            if hasattr(user, "close"):
-                user.close()
+            end(user)
         if checkpoint is not None and report.status in (StatusCode.CANCELLED, StatusCode.LIMIT):
             self.call("checkpoint_write", os.fspath(checkpoint))
         return report
@@ -198,11 +204,9 @@ class Verbs(Observing):
         -------
         near_jamming.Runs
         """
-        from . import near_jamming
+        from .isoconf_runs import run
 
-        return near_jamming.run(
-            self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options
-        )
+        return run(self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options)
 
     def relax(self, *, progress: Any = None, **options: Any) -> RelaxReport:
         """Minimises the energy of overlapping spheres (overlap="allow" at creation). Returns a RelaxReport.
@@ -211,16 +215,18 @@ class Verbs(Observing):
         prestress=1), moduli(...). A report whose status is > 0 did not converge, or says why the minimum is none of a
         jammed packing.
         """
-        return self._verb("jam_relax", "jam_relax_options", "jam_relax_report", progress, options or None)
+        found: RelaxReport = self._verb("jam_relax", "jam_relax_options", "jam_relax_report", progress, options or None)
+        return found
 
     def decompress(self, *, progress: Any = None, **options: Any) -> DecompressReport:
         """From overlapping spheres down to jamming, compared with crunch. Returns a DecompressReport.
 
         The system ends as the jammed packing; with crunch=0 as the soft packing. soft_history has every minimum.
         """
-        return self._verb(
+        found: DecompressReport = self._verb(
             "jam_decompress", "jam_decompress_options", "jam_decompress_report", progress, options or None
         )
+        return found
 
     @property
     def soft_history(self) -> Array:

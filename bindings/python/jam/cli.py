@@ -125,7 +125,8 @@ class _Work:
         self.deadline = time.monotonic() + (math.inf if o.wall_time is None else o.wall_time)
 
     def left(self) -> float:
-        return max(1e-3, self.deadline - time.monotonic())
+        found: float = max(1e-3, self.deadline - time.monotonic())
+        return found
 
     def stage(self, verb: str, **options: Any) -> int:
         """With --checkpoint in slices: they cost nothing, and a killed job goes on from the last one."""
@@ -150,7 +151,9 @@ class _Work:
 
     def stages(self) -> list[tuple[str, dict[str, float]]]:
         o = self.o
-        steps = [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 and not o.resume else []
+        steps: list[tuple[str, dict[str, Any]]] = (
+            [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 and not o.resume else []
+        )
         if not o.no_md and (o.growth or not o.input):
             chosen = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][: 2 if o.pressure > 500 else 1]
             steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in chosen]
@@ -159,7 +162,8 @@ class _Work:
                 return []
             paused = {Phase.RUN: "run", Phase.COMPRESS: "compress"}.get(self.system.info.paused)
             own = {"collisions_per_particle": o.nve} if paused == "run" and o.nve > 0 else {}
-            steps = [(paused, {"resume": 1, **own})] * bool(paused) + steps
+            if paused:
+                steps.insert(0, (paused, {"resume": 1, **own}))
         return steps
 
     def run(self) -> int:

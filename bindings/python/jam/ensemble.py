@@ -24,7 +24,7 @@ import numpy as np
 
 from ._types import Array
 from . import store
-from .ensemble_folder import ROW, Folder, Found
+from .ensemble_folder import FIELDS, Folder, Found
 from .ensemble_pool import LocalPool, WorkerDied
 from .ensemble_protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
 
@@ -125,7 +125,7 @@ class Entry:
         "history": "history",
     }
 
-    def __init__(self, row: Array, path: Path) -> None:
+    def __init__(self, row: Any, path: Path) -> None:
         #: The row of the table
         self.row = row
         #: The file
@@ -141,7 +141,7 @@ class Entry:
     def _get(self, file: Any, name: str) -> Any:
         if name == "positions":
             return file["particles/spheres/position/value"][0]
-        if name in ROW.names and name not in self._PLACES:
+        if name in FIELDS and name not in self._PLACES:
             return self.row[name]
         place = self._PLACES.get(name, "analysis/" + name)
         if place not in file["jam"]:
@@ -150,7 +150,7 @@ class Entry:
         return store._read(file["jam/" + place])
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name not in (*self._PLACES, "positions", *ROW.names):
+        if name.startswith("_") or name not in (*self._PLACES, "positions", *FIELDS):
             raise AttributeError(name)
         return self.read(name)[0]
 
@@ -236,7 +236,7 @@ class Ensemble:
         todo = [s for s in seeds if names[s] not in done and (retry or names[s] not in failed)]
         random.shuffle(todo)  # two campaigns with the same seeds then share the work
         own = executor is None
-        pool = LocalPool(workers) if own else executor
+        pool = LocalPool(workers) if executor is None else executor
         try:
             _Run(self, pool, _bar(progress, len(seeds), len(seeds) - len(todo))).work(todo)
         except BaseException:
@@ -262,7 +262,8 @@ class Ensemble:
 
     def _rows(self, done: dict[str, Found] | None = None) -> Array:
         rows = self.files.rows(done)
-        return rows[rows["protocol"] == self.id.encode()]
+        found: Array = rows[rows["protocol"] == self.id.encode()]
+        return found
 
     def table(self, pandas: bool = False) -> Any:
         """Reports of all packings of this protocol, a row each, by seed.
@@ -278,11 +279,14 @@ class Ensemble:
             return rows
         import pandas as pd
 
-        return pd.DataFrame({k: rows[k].astype(str) if rows[k].dtype.kind == "S" else rows[k] for k in ROW.names})
+        return pd.DataFrame({k: rows[k].astype(str) if rows[k].dtype.kind == "S" else rows[k] for k in FIELDS})
 
     def failures(self) -> list[dict[str, Any]]:
         """Records of the seeds that failed: seed, status, text, machine, time."""
-        return sorted((f for f in self.files.failures() if f["protocol"] == self.id), key=lambda f: f["seed"])
+        found: list[dict[str, Any]] = sorted(
+            (f for f in self.files.failures() if f["protocol"] == self.id), key=lambda f: int(f["seed"])
+        )
+        return found
 
     def __len__(self) -> int:
         return len(self._rows())
@@ -351,7 +355,7 @@ class _Run:
         self.pool, self.bar, self.files = pool, bar, ensemble.files
         self.ensemble, self.protocol = ensemble, to_json(ensemble.protocol)
         self.pending: dict[Future[Any], tuple[int, int]] = {}
-        self.rows: list[tuple[Any, ...]] = []
+        self.rows: list[tuple[str, int, int, bytes]] = []
         self.flushed = time.monotonic()
 
     def work(self, todo: list[int]) -> None:

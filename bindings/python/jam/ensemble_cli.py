@@ -101,7 +101,8 @@ def _run(o: argparse.Namespace) -> Status:
 
             client = stack.enter_context(Client(o.scheduler, set_as_default=False))
             executor = client.get_executor()
-        return ensemble.run(seeds, executor, progress=not o.quiet, retry=o.retry, workers=o.workers)
+        status = ensemble.run(seeds, executor, progress=not o.quiet, retry=o.retry, workers=o.workers)
+    return status
 
 
 def main(arguments: list[str] | None = None) -> int:

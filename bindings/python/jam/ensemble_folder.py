@@ -29,12 +29,16 @@ STALE_SECONDS = (
     86400.0  # an unfinished file of another machine is removed after a day; of this one when its writer is gone
 )
 _REPORT = store._dtype(REPORTS["jam_crunch_report"])
+_REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()
 #: A row of a table: what tells packings apart, the report of the crunch, and the crystal score (nan: not asked for).
 ROW = np.dtype(
-    [("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24"), ("n", "i4"), ("dim", "i4")]
-    + [(k, _REPORT[k]) for k in _REPORT.names]
-    + [("crystal_score", "f8"), ("seconds_made", "f8"), ("written", "f8")]
+    [
+        *[("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24"), ("n", "i4"), ("dim", "i4")],
+        *[(k, _REPORT[k]) for k in _REPORT_FIELDS],
+        *[("crystal_score", "f8"), ("seconds_made", "f8"), ("written", "f8")],
+    ]
 )
+FIELDS: tuple[str, ...] = ROW.names or ()
 
 
 class Found(NamedTuple):
@@ -55,7 +59,7 @@ def row_of(jam: Any, name: str) -> Array:
     made["dim"] = jam.parent["particles/spheres/box"].attrs["dimension"]
     if "report" in jam:
         report = jam["report"][()]
-        for key in set(_REPORT.names) & set(report.dtype.names):
+        for key in set(_REPORT_FIELDS) & set(report.dtype.names):
             made[key] = report[key]
     score = jam.get("analysis/crystal_score")
     made["crystal_score"] = np.nan if score is None or score.dtype.kind != "f" else score[()]

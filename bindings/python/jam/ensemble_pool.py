@@ -102,6 +102,7 @@ class LocalPool(Executor):
         if process is None or process.poll() is not None:
             process = self._begin(k)
         try:
+            assert process.stdin and process.stdout  # both are pipes
             process.stdin.write(call)
             process.stdin.flush()
             done, answer = pickle.load(process.stdout)
@@ -129,6 +130,7 @@ class LocalPool(Executor):
 
 def _end(process: subprocess.Popen[bytes]) -> int:
     """Closes the pipes, waits for the worker and returns its exit status."""
+    assert process.stdin and process.stdout  # both are pipes
     try:
         process.stdin.close()
     except OSError:

@@ -147,7 +147,8 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
         "analysis": {k: _analysis(k, v or {}) for k, v in (given.get("analysis", ANALYSIS) or {}).items()},
     }
     try:
-        return json.loads(to_json(made))
+        found: dict[str, Any] = json.loads(to_json(made))
+        return found
     except (TypeError, ValueError) as error:
         raise ProtocolError(f"the protocol cannot be written as JSON: {error}") from None
 
@@ -192,14 +193,17 @@ def _sizes(law: Any, n: int, seed: int) -> Array | None:
         return np.where(np.arange(n) < round(law["share"] * n), 1.0, law["ratio"])
     width = math.sqrt(math.log1p(law["deviation"] ** 2))
     u = np.array([(_uniform(seed, 2 * k), _uniform(seed, 2 * k + 1)) for k in range(n)])
-    return np.exp(width * np.sqrt(-2.0 * np.log(u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))  # Box and Muller 1958
+    # Box and Muller 1958
+    found: Array = np.exp(width * np.sqrt(-2.0 * np.log(u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))
+    return found
 
 
 def _fcc(n: int, box: float) -> Array:
     m = round((n / 4) ** (1 / 3))
     corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
     basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0
-    return ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
+    found: Array = ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
+    return found
 
 
 def begin(protocol: Mapping[str, Any], seed: int) -> System:

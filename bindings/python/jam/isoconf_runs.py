@@ -60,7 +60,8 @@ class Runs:
             out = np.zeros_like(values[0])
             for one in values:  # in order, as the library adds them
                 out = out + one
-            return out
+            found: Array = out
+            return found
         return np.tensordot(np.asarray(weights, float), values, 1)
 
     def mean(self, name: str, weights: Any = None) -> Array:
@@ -69,7 +70,8 @@ class Runs:
 
     def variance(self, weights: Any = None) -> Array:
         """Var[dr_c] over runs (m, n, d)."""
-        return self.mean("square", weights) - self.mean("displacement", weights) ** 2
+        found: Array = self.mean("square", weights) - self.mean("displacement", weights) ** 2
+        return found
 
     @property
     def msd(self) -> Array:
@@ -84,7 +86,8 @@ class Runs:
     def deviation(self, name: str) -> Array:
         """Standard deviation over runs of time, msd, scattering, overlap or energy at each instant (m,)."""
         square = {"time": "time2"}.get(name, name + "2")
-        return np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
+        found: Array = np.sqrt(np.maximum(0.0, self.mean(square) - self.mean(name) ** 2))
+        return found
 
     def chi4(self, name: str = "overlap") -> Array:
         """chi_4(t) = N (<Q^2> - <Q>^2) of 'overlap' or 'scattering' (m,), over runs from this one configuration."""
@@ -159,7 +162,8 @@ def take_runs(system: Any) -> Runs:
     """The runs that a system holds, also after System.from_checkpoint; instants are then those of the first call."""
     report = system.isoconf_report()
     m, n, d = report.instants, system.n, system.dim
-    sums, counts = {name: [] for name in _SUMS}, []
+    sums: dict[str, list[Array]] = {name: [] for name in _SUMS}
+    counts: list[int] = []
     for block in range(report.blocks):
         one = system.isoconf_sums(block)
         counts.append(one.runs)
@@ -170,10 +174,11 @@ def take_runs(system: Any) -> Runs:
         c.name.lower(): np.array([system.isoconf_series(b, c) for b in range(report.blocks)]).reshape(-1, m)
         for c in IsoconfColumn
     }
+    filled: dict[str, Any] = {name: np.array(v) if v else np.empty(shape[name]) for name, v in sums.items()}
     return Runs(
         instants=np.full(m, np.nan),
         counts=np.array(counts, dtype=np.int64),
-        **{name: np.array(v) if v else np.empty(shape[name]) for name, v in sums.items()},
+        **filled,
         series=series,
         first_run=report.first_run,
         status=system.status,

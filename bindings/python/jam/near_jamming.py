@@ -169,7 +169,8 @@ def _fill(weights: Array, blocks: int) -> Array:
 
 def is_caged(runs: Runs, system: Any, limit: float = 0.1) -> Array:
     """Whether the root of the MSD is below `limit` mean diameters (m,): beyond it the packing's network says nothing any more."""
-    return np.sqrt(runs.msd) < limit * system.diameters.mean()
+    found: Array = np.sqrt(runs.msd) < limit * system.diameters.mean()
+    return found
 
 
 # ---- modes
@@ -205,12 +206,14 @@ def mode_weights(
 
 def self_scattering(displacements: Any, q: float) -> Array:
     """F_s(q): mean of cos(q dr_c) over spheres and axes, of sets (..., n, d)."""
-    return np.cos(q * np.asarray(displacements)).mean((-2, -1))
+    found: Array = np.cos(q * np.asarray(displacements)).mean((-2, -1))
+    return found
 
 
 def overlap(displacements: Any, length: float) -> Array:
     """Q: share of spheres that moved less than `length`, of sets (..., n, d)."""
-    return ((np.asarray(displacements) ** 2).sum(-1) < length**2).mean(-1)
+    found: Array = ((np.asarray(displacements) ** 2).sum(-1) < length**2).mean(-1)
+    return found
 
 
 def propensity(runs: Runs) -> Array:
@@ -221,9 +224,11 @@ def propensity(runs: Runs) -> Array:
 def clone_overlap(a: Any, b: Any) -> Array:
     """Overlap of the displacements of two clones (..., n, d): sum a.b over the root of sum a.a sum b.b."""
     a, b = np.asarray(a), np.asarray(b)
-    return (a * b).sum((-2, -1)) / np.sqrt((a * a).sum((-2, -1)) * (b * b).sum((-2, -1)))
+    found: Array = (a * b).sum((-2, -1)) / np.sqrt((a * a).sum((-2, -1)) * (b * b).sum((-2, -1)))
+    return found
 
 
 def clone_distance(a: Any, b: Any) -> Array:
     """Mean square distance between clones, (1/N) sum |r_i^A - r_i^B|^2, of their displacements (..., n, d)."""
-    return ((np.asarray(a) - np.asarray(b)) ** 2).sum(-1).mean(-1)
+    found: Array = ((np.asarray(a) - np.asarray(b)) ** 2).sum(-1).mean(-1)
+    return found

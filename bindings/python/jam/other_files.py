@@ -58,7 +58,8 @@ def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
 def _centred(x: Array, cell: Array) -> Array:
     """In the cell around the origin, as HOOMD wants them."""
     s = np.linalg.solve(cell.T, np.asarray(x).T).T - 0.5
-    return (s - np.floor(s + 0.5)) @ cell
+    found: Array = (s - np.floor(s + 0.5)) @ cell
+    return found
 
 
 def read_gsd(path: str | os.PathLike[str], frame: int = -1, **options: Any) -> System:

@@ -105,7 +105,8 @@ def _frame(ax: Any, edges: Array) -> None:
 def _drawable(system: System) -> int:
     if system.dim not in (2, 3):
         raise ValueError(f"only d = 2 and d = 3 can be drawn, this system has d = {system.dim}")
-    return system.dim
+    found: int = system.dim
+    return found
 
 
 def _legend(ax: Any, system: System) -> None:
@@ -261,6 +262,9 @@ def trace(system: System | Iterable[Any], ax: Any = None, **style: Any) -> Any:
 def convergence(system: System | Iterable[Any], ax: Any = None, **style: Any) -> Any:
     """Crunch: gain sqrt(Gamma) - 1 and largest step against factorisations; from the history of a system's last crunch, or from
     progress records (at most one every 0.05 s)."""
+    at: Any
+    gains: Any
+    steps: Any
     if isinstance(system, System):
         try:
             h = system.history

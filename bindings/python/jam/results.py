@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 
 from ._types import Array
-from . import _calls, _methods
-from ._generated import StatusCode
+from . import _methods
+from ._generated import REPORTS, StatusCode
 
 
 def _text(value: Any) -> str:
     if hasattr(value, "name"):
-        return value.name.lower()
+        found: str = value.name.lower()
+        return found
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
@@ -25,9 +26,8 @@ def _repr(self: Any) -> str:
     return "\n".join([head] + lines)
 
 
-for _class in set(_calls.REPORTS.values()):
-    _class.__repr__ = _repr  # reports print as a table
-    _class.status = StatusCode.OK  # > 0: stopped early, and why; the state is valid
+for _class in set(REPORTS.values()):
+    setattr(_class, "__repr__", _repr)  # reports print as a table
 
 
 def _short(self: Any) -> str:
@@ -41,7 +41,7 @@ def _short(self: Any) -> str:
 
 for _class in vars(_methods).values():
     if isinstance(_class, type) and issubclass(_class, tuple):
-        _class.__repr__ = _short
+        setattr(_class, "__repr__", _short)
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,8 @@ class Modes:
     @property
     def frequencies(self) -> Array:
         """(m,): omega, with round-off below zero taken as zero."""
-        return np.sqrt(np.maximum(self.values, 0.0))
+        found: Array = np.sqrt(np.maximum(self.values, 0.0))
+        return found
 
     def __len__(self) -> int:
         return len(self.values)

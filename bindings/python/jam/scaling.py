@@ -41,7 +41,7 @@ class Exponent(NamedTuple):
 
     value: float
     error: float
-    count: int
+    count: int  # type: ignore[assignment]  # hides tuple.count, which a triple of numbers does not need
 
 
 class Collapse(NamedTuple):
@@ -127,7 +127,8 @@ def _solve(mean: Array, span: float) -> Array:
         expected = span * (-1.0 / np.expm1(-t) - 1.0 / t)
         high = np.where(expected > mean, b, high)
         low = np.where(expected > mean, low, b)
-    return 0.5 * (low + high)
+    found: Array = 0.5 * (low + high)
+    return found
 
 
 def fit_power(
@@ -237,7 +238,7 @@ def collapse(
     rows = {n: np.array([np.searchsorted(np.sort(s), grids[n], "right") / len(s) for s in samples[n]]) for n in samples}
     errors = {n: r.std(axis=0, ddof=1) / np.sqrt(len(r)) for n, r in rows.items()}
 
-    def best(picked: dict[int, Array], first: Sequence[float]) -> tuple[Array, float]:
+    def best(picked: dict[int, Array], first: Sequence[float] | Array) -> tuple[Array, float]:
         nan = {n: np.full(len(g), np.nan) for n, g in grids.items()}
         curves = [(n, Cdf(grids[n], picked[n].mean(axis=0), nan[n], errors[n])) for n in picked]
         found = minimize(lambda p: quality(curves, *scaling(p)), first, method="Nelder-Mead", options={"xatol": 1e-4})
@@ -260,7 +261,8 @@ def collapse(
 def crossover(x: Array, a: float, b: float, q: float, exponent: float) -> Array:
     """F(x) = [(a x)^q + (b x^(1+exponent))^q]^(1/q): linear for small x, a power law for large (thesis, section 4.4)."""
     x = np.asarray(x, float)
-    return np.exp(np.logaddexp(q * np.log(a * x), q * (np.log(b) + (1.0 + exponent) * np.log(x))) / q)
+    found: Array = np.exp(np.logaddexp(q * np.log(a * x), q * (np.log(b) + (1.0 + exponent) * np.log(x))) / q)
+    return found
 
 
 def fit_crossover(
@@ -276,7 +278,8 @@ def fit_crossover(
     lc, weight = np.log(c[use]), c[use] / error[use]
 
     def residual(p: Array) -> Array:
-        return weight * (np.log(crossover(x[use], np.exp(p[0]), np.exp(p[1]), p[2], exponent)) - lc)
+        found: Array = weight * (np.log(crossover(x[use], np.exp(p[0]), np.exp(p[1]), p[2], exponent)) - lc)
+        return found
 
     found = least_squares(
         residual, [np.log(start[0]), np.log(start[1]), start[2]], bounds=([-8, -8, -10], [8, 8, -0.1])

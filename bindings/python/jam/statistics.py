@@ -98,9 +98,13 @@ def collapse_estimate(
     curves: Callable[[Array], tuple[Any, ...]], blocks: int, control: Any, times: int = 40, **options: Any
 ) -> Estimate:
     """collapse() of curves(weights) -> (x, y), with the standard error from resampled blocks of runs."""
-    value = collapse(*curves(np.ones(blocks)), control, **options)
-    made = bootstrap(lambda w: collapse(*curves(w), control, **options), blocks, times)
-    return Estimate(value, float(np.std(made, ddof=1)))
+
+    def fit(weights: Array) -> float:
+        x, y = curves(weights)
+        return collapse(x, y, control, **options)
+
+    value = fit(np.ones(blocks))
+    return Estimate(value, float(np.std(bootstrap(fit, blocks, times), ddof=1)))
 
 
 def velocity_spectrum(time: Any, correlation: Any, omega: Iterable[float]) -> Array:

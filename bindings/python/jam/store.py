@@ -54,7 +54,7 @@ class StoreError(OSError):
 # ---- compound values
 def _dtype(cls: type) -> np.dtype[Any]:
     kinds = {"int": "i8", "bool": "i8", "float": "f8"}
-    return np.dtype([(f.name, kinds.get(f.type, "i4")) for f in fields(cls)])
+    return np.dtype([(f.name, kinds.get(str(f.type), "i4")) for f in fields(cls)])
 
 
 def pack(report: Any) -> Array:
@@ -69,12 +69,12 @@ def unpack(value: Array, cls: type) -> Any:
     """A report of a class from a compound value; what an older file does not hold is nan or 0."""
     given: dict[str, Any] = {}
     for f in fields(cls):
-        known = f.name in value.dtype.names
-        number = value[f.name].item() if known else float("nan") if f.type == "float" else 0
-        enum = getattr(_generated, f.type, None) if f.type not in ("int", "bool", "float") else None
+        known, kind = f.name in (value.dtype.names or ()), str(f.type)
+        number = value[f.name].item() if known else float("nan") if kind == "float" else 0
+        enum = getattr(_generated, kind, None) if kind not in ("int", "bool", "float") else None
         if isinstance(enum, type) and issubclass(enum, IntEnum) and number in set(enum):
             number = enum(number)
-        given[f.name] = bool(number) if f.type == "bool" else number
+        given[f.name] = bool(number) if kind == "bool" else number
     return cls(**given)
 
 
@@ -294,7 +294,8 @@ def _read(node: Any) -> Any:
 
 def analysis_of(jam: Any) -> dict[str, Any]:
     """Results of the analysis in a group `jam`: named tuples come back as dicts."""
-    return _read(jam["analysis"]) if "analysis" in jam else {}
+    found: dict[str, Any] = _read(jam["analysis"]) if "analysis" in jam else {}
+    return found
 
 
 __all__ = ["StoreError", "load", "save", "provenance"]

@@ -12,7 +12,7 @@ import numpy as np
 from . import _calls, errors, raw
 from ._generated import JAM_MAX_DIM
 from ._network import Network
-from ._progress import reporter
+from ._progress import end, reporter
 from ._state import State
 from ._verbs import Verbs
 from .results import Contacts, Modes
@@ -179,15 +179,17 @@ class System(State, Verbs, Network):
         if vectors is not None and vectors.shape != (options["dim"],) * 2:
             raise ValueError(f"cell must have shape ({options['dim']}, {options['dim']}), not {vectors.shape}")
         told = reporter(progress)
+
+        def on_progress(p: Any) -> bool:
+            return bool(told(_calls.freeze(p, "jam_progress"))) if told else False
+
         try:
-            on_progress = told and (lambda p: bool(told(_calls.freeze(p, "jam_progress"))))
             if vectors is None:
-                status, handle = raw.create_watched(made, positions, diameters, on_progress)
+                status, handle = raw.create_watched(made, positions, diameters, told and on_progress)
             else:
                 status, handle = raw.jam_create_in_cell(made, vectors.reshape(-1), positions, diameters)
         finally:
-            if hasattr(told, "close"):
-                told.close()
+            end(told)
         if status != 0:
             raise errors.StoppedError(f"no system was made: {raw.jam_status_string(status)}")
         return cls(handle)
@@ -237,7 +239,8 @@ class System(State, Verbs, Network):
         return f"System(n={i.n}, dim={i.dim}, packing_fraction={i.packing_fraction:.8g}, box={i.box:g}, seed={i.seed})"
 
     def __len__(self) -> int:
-        return self.n
+        found: int = self.n
+        return found
 
     # ---- files
     def write(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:

@@ -1,4 +1,7 @@
-"""The page in a real browser: it draws what the packing holds, without a word on the console. Skipped without Chromium."""
+"""The page in a real browser: it draws what the packing holds, without a word on the console. Skipped without Chromium.
+
+`test_page.py --store` draws the picture page.png anew, which one test compares with. Look at it before you keep it.
+"""
 import os
 import subprocess
 import sys
@@ -13,6 +16,11 @@ import browser
 import jam
 
 BACKGROUND = (246, 247, 249)
+STORED = Path(__file__).with_name("page.png")
+WIDTH, HEIGHT, BLOCK = 300, 200, 10  # of the stored picture and of the squares whose mean colours are compared, pixels
+# Root mean square difference of the squares' colours, of 255. Renderers differ at edges: 3.4 without antialiasing, 3.1
+# half a pixel aside. Wrong scenes: 4.7 with radii 5 % too large, 8.8 turned by 0.05 radians, 18 without lights.
+TOLERANCE = 4.0
 
 
 def pixels(page, path, area=None):
@@ -29,6 +37,44 @@ def disks(n=120):
     s.compress(growth_rate=3e-2, pressure=1e4)
     s.crunch()
     return s
+
+
+def rock_salt():
+    """Seven spheres of two sizes, one of the cell's corner missing. Their contacts follow from geometry: no quench decides."""
+    large = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2
+    small, size = (large + [0.5, 0, 0]) % 1, 1 / np.sqrt(2)
+    x = np.concatenate([large[:3], small]) + 0.25
+    s = jam.System.from_arrays(x % 1, np.repeat([size, 1 - size], [3, 4]) * (1 - 1e-13))
+    s.contacts_from_geometry()
+    return s
+
+
+def fixed_scene(page, folder):
+    """The picture of rock salt with forces, WIDTH by HEIGHT, on a part of the page without text."""
+    s = rock_salt()
+    s.page(folder / "salt.html", values={"height": s.positions[:, 2]})
+    page.open(folder / "salt.html")
+    page.run(
+        "Object.assign(document.getElementById('scene').style, {position: 'fixed', inset: '0 auto auto 0',"
+        f" width: '{WIDTH}px', height: '{HEIGHT}px'}}); document.getElementById('legend').style.display = 'none';"
+        "state.forces = 1; state.size = 0.6; state.width = 1.5; state.colour = quantities.length - 1;"
+        "camera.zoom = 1.5; rebuild()"
+    )
+    page.settle()
+    return pixels(page, folder / "salt.png", (0, 0, WIDTH, HEIGHT))
+
+
+def squares(image):
+    return image.reshape(HEIGHT // BLOCK, BLOCK, WIDTH // BLOCK, BLOCK, 3).mean((1, 3))
+
+
+def store():
+    page = browser.Browser(600, 400)
+    with tempfile.TemporaryDirectory() as folder:
+        image = fixed_scene(page, Path(folder))
+    page.close()
+    Image.fromarray(image.astype(np.uint8)).quantize(64).save(STORED, optimize=True)
+    print(f"{STORED}: {STORED.stat().st_size} bytes. Look at it.")
 
 
 class Page(unittest.TestCase):
@@ -86,6 +132,12 @@ class Page(unittest.TestCase):
             u, v, _ = self.spot(i)
             found = np.abs(colours - image[int(v), int(u)]).sum(1).argmin()
             self.assertEqual(found, want[i], f"sphere {i}")
+
+    def test_picture_is_the_stored_one(self):
+        stored = np.asarray(Image.open(STORED).convert("RGB")).astype(int)
+        image = fixed_scene(self.page, self.path)
+        off = np.sqrt(((squares(image) - squares(stored)) ** 2).mean())
+        self.assertLess(off, TOLERANCE)
 
     def test_spheres_in_front_hide_those_behind(self):
         s = jam.System.random(n=200, dim=3, seed=2, packing_fraction=0.3)
@@ -182,12 +234,12 @@ class Page(unittest.TestCase):
         s = jam.System.random(n=80, dim=2, seed=5, diameters=[1.0] * 40 + [1.4] * 40, packing_fraction=0.5)
         moved = [np.zeros_like(s.positions)]
         start, small = s.positions.copy(), s.diameters[0]
-        s.crunch(keep_steps=12, on_step=lambda step: moved.append(moved[-1] + step.displacements))
+        s.crunch(keep_steps=5, on_step=lambda step: moved.append(moved[-1] + step.displacements))
         phi, gain = s.history["phi"], s.history["gain"]
         self.show(s)
         numbers = self.page.run("data.steps.map(s => s.number)")
         self.assertEqual((numbers[0], numbers[-1]), (0, len(phi)))
-        self.assertTrue(4 <= len(numbers) <= 13 and len(set(np.diff(numbers[:-1]))) == 1, numbers)
+        self.assertTrue(3 <= len(numbers) <= 6 and len(set(np.diff(numbers[:-1]))) == 1, numbers)
         self.assertTrue(self.page.run("atEnd()"))
         self.page.run("parts.step.focus()")
         for at in range(len(numbers) - 2, -1, -1):
@@ -274,4 +326,7 @@ if __name__ == "__main__":
     if browser.find() is None:
         print("Chromium is not installed (Debian: chromium): the page was not looked at")
         sys.exit(77)
-    unittest.main()
+    if "--store" in sys.argv:
+        store()
+    else:
+        unittest.main()

@@ -464,7 +464,9 @@ jam_isoconf_sums. @since 0.1"
 %feature("docstring") jam_crunch_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
 106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
-packing: call it again to continue. report may be NULL.
+packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
+then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
+from the last call. report may be NULL.
 Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),

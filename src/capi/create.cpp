@@ -22,7 +22,7 @@ void jam_system::note_diameters() noexcept {
 void jam_system::commit(const Packing &result) noexcept {
   show(result);
   paused.reset();
-  crunch_paused = false;
+  crunch_paused.reset();
 }
 
 void jam_system::show(const Packing &result) noexcept {

@@ -41,11 +41,12 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
       ~Show() { shown = nullptr; }
     } show{sys->crunching};
     sys->crunching = &history;
+    if (sys->crunch_paused) history.stage = *sys->crunch_paused;
     CrunchResult result = crunch(sys->packing, full, sys->monitor, &history);
     check_packing(result.packing, JAM_E_SOLVER);  // else all stays as before
     // Also after a failure: the state reached is valid and nothing is lost.
     sys->commit(result.packing);
-    sys->crunch_paused = result.status == JAM_CANCELLED || result.status == JAM_LIMIT;
+    if (result.status == JAM_CANCELLED || result.status == JAM_LIMIT) sys->crunch_paused = history.stage;
     sys->contacts = std::move(result.contacts);
     sys->report = result.report;
     sys->has_report = true;

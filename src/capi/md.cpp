@@ -120,11 +120,13 @@ jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
     need(path, "path");
     const Dynamics *kept = sys->paused ? sys->paused.get() : sys->runs.get();
     if (sys->crunching)
-      write_checkpoint(sys->crunching->reached(), {"", true}, path);
+      write_checkpoint(sys->crunching->reached(), {sys->crunching->stage.bytes(), true}, path);
     else if (sys->live)
       write_checkpoint(sys->live->current(), {write_dynamics(*sys->live), false}, path);
+    else if (sys->crunch_paused)
+      write_checkpoint(sys->packing, {sys->crunch_paused->bytes(), true}, path);
     else
-      write_checkpoint(sys->packing, {kept ? write_dynamics(*kept) : std::string(), sys->crunch_paused}, path);
+      write_checkpoint(sys->packing, {kept ? write_dynamics(*kept) : std::string(), false}, path);
     return JAM_OK;
   });
 }
@@ -138,8 +140,10 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     sys->packing = read_checkpoint(path, work);
     settle_overlaps(sys->packing, sys->packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->note_diameters();
-    sys->crunch_paused = work.crunch;
-    if (!work.stage.empty()) sys->paused = read_dynamics(sys->packing, std::move(work.stage));
+    if (work.crunch)
+      sys->crunch_paused = CrunchStage::of(work.stage);
+    else if (!work.stage.empty())
+      sys->paused = read_dynamics(sys->packing, std::move(work.stage));
     if (sys->paused && sys->paused->phase() == JAM_PHASE_ISOCONFIGURATIONAL)  // results, and perhaps more to make
       sys->runs.reset(static_cast<Isoconfigurational *>(sys->paused.release()));
     *out = sys.release();

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include "capi/call_gate.hpp"
 #include "core/call_scope.hpp"
 #include "core/monitor.hpp"
@@ -21,10 +22,10 @@ struct jam_system {
   bool has_report = false;
   std::vector<jam::HistoryRow> history;  // valid when has_history
   bool has_history = false;
-  std::vector<jam::KeptStep> kept_steps;    // of the same crunch; empty unless asked for
-  std::vector<jam::SoftRow> soft_history;   // of the last decompression; empty without one
-  const jam::History *crunching = nullptr;  // of the crunch that runs
-  bool crunch_paused = false;               // the last change of spheres was a crunch that did not reach its end
+  std::vector<jam::KeptStep> kept_steps;          // of the same crunch; empty unless asked for
+  std::vector<jam::SoftRow> soft_history;         // of the last decompression; empty without one
+  const jam::History *crunching = nullptr;        // of the crunch that runs
+  std::optional<jam::CrunchStage> crunch_paused;  // the last change of spheres was a crunch that did not reach its end
   jam::Monitor monitor;
   double memory_limit = jam::default_memory_limit();  // bytes that one call may take
   mutable jam::CallGate gate;

@@ -36,7 +36,7 @@ class BarrierPath {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
       out.increases = schedule_.increases();
-      if (control_.on_step) control_.on_step(gap_, b_.pairs.size());
+      if (control_.on_step) control_.on_step(gap_, b_.pairs.size(), {b_.mu, first_mu_});
       monitor_.log(JAM_LOG_DEBUG,
                    "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu near %zu correctors %d steps "
                    "%.2f %.2f moved %.1e",
@@ -46,7 +46,7 @@ class BarrierPath {
       const bool crystal =
           out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
       if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
-          report(out.factorisations) || !newton())
+          report() || !newton())
         break;
     }
     out.multipliers = {std::move(b_.pairs), std::move(b_.y)};
@@ -54,11 +54,22 @@ class BarrierPath {
   }
 
  private:
-  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs at
-  // least.
   void open() {
     b_.unit = diameter_mean(p_);
     reach_ = b_.unit * (t_.least_reach + t_.reach_per_spacing * free_spacing(p_));
+    const bool anew = !(control_.from.mu > 0.0);
+    if (anew) open_gaps();
+    list_pairs();
+    b_.y.assign(b_.pairs.size(), 0.0);
+    b_.mu = first_mu_ = centre_multipliers(b_.y, b_.lp.c, static_cast<double>(p_.position.size()));
+    if (anew) return;
+    b_.mu = control_.from.mu, first_mu_ = control_.from.first_mu;
+    for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] = b_.mu / b_.lp.c[k];
+  }
+
+  // Slacks must be strictly positive: open the closest pair by a tenth of the median gap of the d n nearest pairs at
+  // least.
+  void open_gaps() {
     std::vector<double> gaps = make_lp(p_, find_pairs(p_, reach_, 1.0), b_.unit).c;
     if (!gaps.empty()) {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
@@ -68,9 +79,6 @@ class BarrierPath {
       if (smallest < opening)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + opening));
     }
-    list_pairs();
-    b_.y.assign(b_.pairs.size(), 0.0);
-    b_.mu = first_mu_ = centre_multipliers(b_.y, b_.lp.c, static_cast<double>(p_.position.size()));
   }
 
   // Multipliers of pairs that stay are kept, new ones start on the central path.
@@ -207,14 +215,15 @@ class BarrierPath {
     }
   }
 
-  bool report(int factorisations) {
+  bool report() {
     jam_progress progress{};
     progress.phase = JAM_PHASE_CRUNCH;
     progress.packing_fraction = packing_fraction(p_);
     progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
     progress.gain = gap_;
     progress.max_step = last_step_;
-    progress.factorisations = factorisations;
+    progress.steps = control_.lps;
+    progress.factorisations = system_.factorisations;
     return monitor_.report(progress);
   }
 

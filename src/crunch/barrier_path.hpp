@@ -7,6 +7,7 @@
 
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
+#include "crunch/stage.hpp"
 #include "crunch/tuning.hpp"
 #include "lp/newton_system.hpp"
 #include "lp/packing_lp.hpp"
@@ -16,9 +17,11 @@ namespace jam {
 struct BarrierPathControl {
   Tuning tuning;
   StrainBasis strain;    // that the path chooses; empty: a fixed cell
-  double opening = 0.0;  // the closest pair is opened to this relative gap at least
+  PathPoint from;        // where a path that was stopped goes on; mu 0: a new one
+  double opening = 0.0;  // of a new one: the closest pair is opened to this relative gap at least
   int threads = 1;
-  std::function<void(double gap, size_t pairs)> on_step;  // after every move; may be empty
+  int64_t lps = 0;                                                             // solved before, for the progress
+  std::function<void(double gap, size_t pairs, const PathPoint &at)> on_step;  // after every move; may be empty
 };
 
 struct BarrierPathResult {

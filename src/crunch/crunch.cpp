@@ -48,6 +48,17 @@ bool CrunchState::show(jam_phase phase, double gain, double step, bool finished)
   return stopped;
 }
 
+// Where the stage of a crunch that was stopped leads. Options that ask for another way begin anew.
+static Phase first_phase(CrunchState &s) {
+  CrunchStage &stage = s.history.stage;
+  const bool path = s.o.method == JAM_CRUNCH_BARRIER_PATH;
+  if (!path || (stage.cell_free && s.o.strain == JAM_STRAIN_NONE)) stage = CrunchStage();
+  const CrunchStage from = stage;
+  if (from.cell_free) free_cell(s);
+  s.path_taken = stage.path_taken = from.path_taken;
+  return from.path.mu > 0.0 ? Phase::barrier_path : Phase::approach;
+}
+
 // Searches for pairs may throw Cancelled here.
 static void run_phases(CrunchState &s) {
   jam_progress begun{};
@@ -57,7 +68,7 @@ static void run_phases(CrunchState &s) {
   s.monitor.expect(begun);
   const LeavingScope scope(CallScope::memory_limit(), &s.monitor);
   s.bound = first_bound(s);
-  for (Phase phase = Phase::approach; phase != Phase::done;) {
+  for (Phase phase = first_phase(s); phase != Phase::done;) {
     switch (phase) {
       case Phase::approach:
         phase = approach(s);

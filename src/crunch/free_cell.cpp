@@ -21,7 +21,8 @@ Phase free_cell(CrunchState &s) {
   s.bound = s.tuning.first_bound;
   s.moved = 1.0;
   s.stalled = 0;
-  s.exact = s.path_taken = false;
+  s.exact = s.path_taken = s.history.stage.path_taken = false;
+  s.history.stage.cell_free = true;
   return Phase::approach;
 }
 

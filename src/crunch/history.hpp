@@ -8,6 +8,7 @@
 
 #include "core/packing.hpp"
 #include "crunch/kept_steps.hpp"
+#include "crunch/stage.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {
@@ -37,6 +38,8 @@ class History {
   void over_stable(const std::vector<int32_t> &coordination, int dim, double unit);
   // The packing at the last row: valid also while a step is being made.
   const Packing &reached() const { return reached_; }
+  // How a crunch goes on from there.
+  CrunchStage stage;
   // Did any sphere move, or grow, since the last row?
   bool behind(const Packing &now) const {
     return now.position != reached_.position || now.diameter.front() != reached_.diameter.front();

@@ -1,6 +1,7 @@
 // Phase 2: when LPs hand over to the barrier path, and where LPs go on after it.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "crunch/barrier_path.hpp"
 #include "crunch/state.hpp"
@@ -8,7 +9,8 @@
 namespace jam {
 namespace {
 
-void add_history_row(CrunchState &s, double gap, size_t pairs) {
+void add_history_row(CrunchState &s, double gap, size_t pairs, const PathPoint &at) {
+  s.history.stage.path = at;
   HistoryRow &row = s.history.moved(s.out.packing, JAM_STEP_PATH, s.monitor.seconds(), s.system.factorisations);
   row[JAM_HISTORY_DUALITY_GAP] = gap;
   row[JAM_HISTORY_PAIRS] = static_cast<double>(pairs);
@@ -27,7 +29,7 @@ bool path_is_shorter(const CrunchState &s, double gain, double step) {
 }
 
 Phase follow_path(CrunchState &s) {
-  s.path_taken = true;
+  s.path_taken = s.history.stage.path_taken = true;
   s.active = ActiveSet();  // of the state before: an interrupted path leaves no contacts
   BarrierPathControl control;
   control.tuning = s.tuning;
@@ -38,10 +40,13 @@ Phase follow_path(CrunchState &s) {
   if (frees_cell(s)) control.tuning.target_gap = s.tuning.free_gap;
   if (s.strain.count() > 0) control.opening = s.tuning.free_opening;
   control.threads = s.o.threads;
-  control.on_step = [&s](double gap, size_t pairs) { add_history_row(s, gap, pairs); };
+  control.lps = s.out.report.lp_solves;
+  control.from = std::exchange(s.history.stage.path, PathPoint());
+  control.on_step = [&s](double gap, size_t pairs, const PathPoint &at) { add_history_row(s, gap, pairs, at); };
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
-  if (s.history.behind(s.out.packing)) add_history_row(s, path.gap, 0);
+  if (s.history.behind(s.out.packing)) add_history_row(s, path.gap, 0, PathPoint());
   if (s.interrupted()) return Phase::identify;
+  s.history.stage.path = PathPoint();
   s.monitor.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, %d saddles, phi %.12f",
                 path.reached ? "reached" : "stopped at", path.gap, path.factorisations, path.increases,
                 packing_fraction(s.out.packing));

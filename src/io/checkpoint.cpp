@@ -16,7 +16,7 @@
 namespace jam {
 namespace {
 
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '4'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '5'};
 
 struct Header {
   char magic[8];
@@ -136,7 +136,7 @@ Packing read_checkpoint(const char *path, Unfinished &work) {
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0) &&
-              !(work.crunch && h.stage > 0);
+              work.crunch <= (h.stage > 0);
   for (int r = 0; r < h.dim; ++r) {
     good = good && h.cell[r * (h.dim + 1)] > 0.0;
     for (int c = r + 1; c < h.dim; ++c) good = good && h.cell[r * h.dim + c] == 0.0;

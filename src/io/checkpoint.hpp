@@ -6,10 +6,10 @@
 
 namespace jam {
 
-// What was under way: one of them, or nothing.
+// What was under way.
 struct Unfinished {
-  std::string stage;    // bytes of a paused stage of dynamics
-  bool crunch = false;  // the packing is a state that a crunch went through
+  std::string stage;    // bytes of a paused stage; empty: nothing
+  bool crunch = false;  // it is one of a crunch, not of dynamics
 };
 void write_checkpoint(const Packing &p, const Unfinished &work, const char *path);
 Packing read_checkpoint(const char *path, Unfinished &work);

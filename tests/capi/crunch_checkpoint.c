@@ -1,4 +1,5 @@
 /* Checkpoints that the callback of a crunch writes: each is a valid packing, and a crunch goes on from each. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -115,7 +116,55 @@ static void a_stopped_crunch_is_known(void **state) {
   jam_destroy(sys);
 }
 
+static double history(const jam_system *sys, int32_t column, int last) {
+  double rows[200];
+  size_t count;
+  assert_int_equal(jam_crunch_history(sys, column, rows, 200, &count), JAM_OK);
+  assert_true(count > 0);
+  return rows[last ? count - 1 : 0];
+}
+
+typedef struct lps {
+  int64_t made, factorisations;
+} lps;
+
+/* Further from the last LP than an LP is long. */
+static int32_t stop_on_path(const jam_progress *p, void *user) {
+  lps *last = user;
+  if (p->steps > last->made) last->made = p->steps, last->factorisations = p->factorisations;
+  return last->made > 0 && p->factorisations > last->factorisations + 15;
+}
+
+/* A path that was stopped goes on where it was: no LP comes first, and the duality gap is that of the stop, for which
+ * mu stands. An LP would close it, a new path would begin at the first mu. By LPs alone it begins with one. */
+static void a_path_goes_on(void **state) {
+  jam_system *sys = start(0.0), *again = NULL, *by_lps = NULL;
+  jam_crunch_options o;
+  lps last = {0, 0};
+  double gap;
+  (void)state;
+  assert_int_equal(jam_set_progress(sys, stop_on_path, &last), JAM_OK);
+  crunch(sys, 0, JAM_CANCELLED);
+  assert_true(history(sys, JAM_HISTORY_PHASE, 1) == JAM_STEP_PATH);
+  gap = history(sys, JAM_HISTORY_DUALITY_GAP, 1);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &by_lps), JAM_OK);
+  remove(path);
+  assert_true(crunch(again, 0, JAM_OK).jammed);
+  assert_true(history(again, JAM_HISTORY_PHASE, 0) == JAM_STEP_PATH);
+  assert_true(fabs(history(again, JAM_HISTORY_DUALITY_GAP, 0) / gap - 1.0) < 0.5); /* forces are those of the centre */
+  jam_crunch_options_init(&o, sizeof o);
+  o.method = JAM_CRUNCH_SEQUENTIAL_LP;
+  assert_int_equal(jam_crunch(by_lps, &o, NULL), JAM_OK);
+  assert_true(history(by_lps, JAM_HISTORY_PHASE, 0) == JAM_STEP_LP);
+  jam_destroy(by_lps);
+  jam_destroy(again);
+  jam_destroy(sys);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(each_one_goes_on), cmocka_unit_test(a_stopped_crunch_is_known)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_one_goes_on), cmocka_unit_test(a_stopped_crunch_is_known),
+                                     cmocka_unit_test(a_path_goes_on)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

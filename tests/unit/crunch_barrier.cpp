@@ -147,7 +147,9 @@ PathRun follow(Packing &p, BarrierPathControl control) {
   Monitor monitor;
   monitor.begin();
   PathRun run;
-  control.on_step = [&](double gap, size_t) { run.gaps.push_back(gap), run.phi.push_back(packing_fraction(p)); };
+  control.on_step = [&](double gap, size_t, const PathPoint &) {
+    run.gaps.push_back(gap), run.phi.push_back(packing_fraction(p));
+  };
   run.end = follow_barrier_path(p, control, system, monitor);
   return run;
 }

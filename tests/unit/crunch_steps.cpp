@@ -73,7 +73,7 @@ void path_from_low_density(void **) {
     control.tuning.max_path_factorisations = 150;
     int steps = 0;
     double worst = 1.0;
-    control.on_step = [&](double, size_t) {
+    control.on_step = [&](double, size_t, const PathPoint &) {
       ++steps;
       worst = std::min(worst, closest_pair(p).gap);
     };

@@ -131,7 +131,7 @@ class Verbs(Observing):
             Gets every step with its displacements and linear network, which balances with full_lps=1 only. A true answer
             stops the call.
         checkpoint : path-like, optional
-            Name of a file that gets the packing of the last step while the call runs. After a kill,
+            Name of a file that gets the last step while the call runs. After a kill,
             System.from_checkpoint(checkpoint).crunch() goes on from there. It ends jammed, not always with the same bits.
         checkpoint_every : float
             Seconds between checkpoints. Default 60.

@@ -273,6 +273,10 @@ class Page(unittest.TestCase):
         self.assertGreaterEqual(self.page.run("scene.sticks"), 2 * len(s.forces))
         self.page.key(",")
         self.assertEqual(self.page.run("state.step"), len(numbers) - 2)
+        self.page.resize(400, 700)  # a telephone: nothing is wider than the screen
+        wide = self.page.run("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+        self.page.resize(1200, 800)
+        self.assertEqual(wide, 0)
 
     def test_no_slider_without_steps(self):
         self.show(self.disks)

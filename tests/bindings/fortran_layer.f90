@@ -98,7 +98,7 @@ program fortran_layer
   call expect(status == JAM_E_DIMENSION .and. index(jam_message(), '9') > 0, 'error text')
   options%struct_size = 0
   call jam_destroy(c_null_ptr)
-  deallocate (force, normal, pairs)  ! a main program's would stay to the end, which looks like a leak
+  deallocate (force, normal, pairs, again, wide)  ! a main program's would stay to the end, which looks like a leak
   if (failures > 0) error stop 1
   print '(a)', 'fortran layer: all as expected'
 

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include "fuzz.h"
 
-#define BASES 6
+#define BASES 7
 #define LARGEST (1 << 16)
 static uint8_t base[BASES][LARGEST];
 static size_t base_size[BASES];
@@ -40,14 +40,21 @@ static int32_t stop_at_once(const jam_progress *progress, void *user) {
   return 1;
 }
 
-/* 0: created. 1: Mari-Kurchan. 2: a run, 3: a compression, 4: Monte Carlo, 5: runs from one configuration; all of these
- * were stopped and go on. */
+/* A few factorisations after the first LP, where a crunch follows the barrier path. */
+static int32_t stop_on_path(const jam_progress *progress, void *user) {
+  int64_t *first = user;
+  if (progress->steps == 1 && *first == 0) *first = progress->factorisations;
+  return *first > 0 && progress->factorisations > *first + 3;
+}
+
+/* 0: created. 1: Mari-Kurchan. 2: a run, 3: a compression, 4: Monte Carlo, 5: runs from one configuration, 6: a crunch;
+ * the last five were stopped and go on. */
 static jam_system *make(int kind) {
   jam_create_options o;
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
-  o.dim = kind == 3 ? 3 : 2;
-  o.n = 8;
+  o.dim = kind == 3 || kind == 6 ? 3 : 2;
+  o.n = kind == 6 ? 16 : 8;
   if (kind == 1) o.model = JAM_MODEL_MK, o.packing_fraction = 1.0;
   demand(jam_create(&o, NULL, 0, NULL, 0, &sys) == JAM_OK, "create");
   jam_set_progress(sys, stop_at_once, NULL);
@@ -59,6 +66,11 @@ static jam_system *make(int kind) {
     jam_isoconf_options runs;
     jam_isoconf_options_init(&runs, sizeof runs);
     demand(jam_isoconfigurational(sys, &runs, NULL, instant, 2, NULL, 0, NULL) == JAM_CANCELLED, "runs");
+  }
+  if (kind == 6) {
+    int64_t first = 0;
+    jam_set_progress(sys, stop_on_path, &first);
+    demand(jam_crunch(sys, NULL, NULL) == JAM_CANCELLED, "crunch");
   }
   jam_set_progress(sys, NULL, NULL);
   return sys;
@@ -157,6 +169,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *input, size_t size) {
   run.collisions_per_particle = compress.collisions_per_particle = 5.0;
   sweeps.sweeps = 5;
   run.wall_time = compress.wall_time = sweeps.wall_time = 0.05;
+  if (kind == 6) {
+    jam_crunch_options crunch;
+    jam_crunch_options_init(&crunch, sizeof crunch);
+    crunch.wall_time = 0.05;
+    check_status(jam_crunch(sys, &crunch, NULL));
+    check_state(sys);
+  }
   check_status(jam_run(sys, &run, NULL));
   check_state(sys);
   check_status(jam_compress(sys, &compress, NULL));

@@ -69,8 +69,11 @@ static jam_system *make(int kind) {
   }
   if (kind == 6) {
     int64_t first = 0;
+    jam_crunch_options crunch;
+    jam_crunch_options_init(&crunch, sizeof crunch);
+    crunch.steps = 1; /* the callback hears of each */
     jam_set_progress(sys, stop_on_path, &first);
-    demand(jam_crunch(sys, NULL, NULL) == JAM_CANCELLED, "crunch");
+    demand(jam_crunch(sys, &crunch, NULL) == JAM_CANCELLED, "crunch");
   }
   jam_set_progress(sys, NULL, NULL);
   return sys;

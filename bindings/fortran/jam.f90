@@ -638,7 +638,7 @@ module jam
     integer(c_int32_t) :: full_lps = 0
     ! jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
     integer(c_int32_t) :: strain = 0
-    ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Of more steps every second, fourth, ... is kept; so it is beyond 2^24 coordinates in all
+    ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
     integer(c_int32_t) :: keep_steps = 0
   end type jam_crunch_options
 

@@ -786,8 +786,8 @@ typedef struct jam_crunch_options {
                      * that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
   int32_t strain;   /* jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
                      * optimum; FREE ends strictly jammed */
-  int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Of more steps
-                       * every second, fourth, ... is kept; so it is beyond 2^24 coordinates in all */
+  int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there
+                       * are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */

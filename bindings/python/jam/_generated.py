@@ -911,7 +911,7 @@ OPTIONS = {
         "steps": ("bool", '1: the callback hears of every step and may call crunch_step_*. 0, the default'),
         "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
         "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"),
-        "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0. Of more steps every second, fourth, ... is kept; so it is beyond 2^24 coordinates in all'),
+        "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept'),
     },
     "jam_relax_options": {
         "minimiser": ("Minimiser", 'Minimiser, default NEWTON'),

@@ -358,8 +358,8 @@ class Methods:
             FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends
             strictly jammed
         keep_steps : int, optional
-            states before the end that are kept for write_page(), 0 .. 1000, default 0. Of more steps every second,
-            fourth, ... is kept; so it is beyond 2^24 coordinates in all
+            states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more
+            than 2^24 coordinates in all, every second, fourth, ... is kept
 
         Returns
         -------

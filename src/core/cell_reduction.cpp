@@ -78,7 +78,12 @@ class Reduction {
     // Half an edge either way is the same lattice: only more than that is taken off.
     if (std::fabs(g.mu[k * d_ + j]) <= 0.5 + 1e-12) return;
     const double m = std::nearbyint(g.mu[k * d_ + j]);
-    if (std::fabs(m) > 1e15) fail(JAM_E_ARGUMENT, "the cell is flat: its vectors are nearly parallel");
+    constexpr double largest = 1e15;  // integers of that size and their sums are exact in doubles
+    for (int c = 0; c < d_; ++c) {
+      const double entry = static_cast<double>(t_[k * d_ + c]) - m * static_cast<double>(t_[j * d_ + c]);
+      if (!(std::fabs(entry) <= largest))
+        fail(JAM_E_ARGUMENT, "the cell is flat: its vectors are nearly parallel, %g times one is taken off another", m);
+    }
     for (int c = 0; c < d_; ++c) {
       b_[k * d_ + c] -= m * b_[j * d_ + c];
       t_[k * d_ + c] -= static_cast<int64_t>(m) * t_[j * d_ + c];

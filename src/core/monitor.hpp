@@ -49,7 +49,7 @@ class Monitor {
   // In a long loop between reports: repeats the last one after a silence, so that Ctrl-C is heard. Returns true when
   // the call must stop.
   bool look() {
-    constexpr double longest_silence = 0.15;  // seconds; callers are told one of 0.2 at most, between two looks
+    constexpr double longest_silence = 0.1;  // seconds; callers are told one of 0.2 at most, between two looks
     if (interrupted()) return true;
     if (now_seconds() - std::max(last_, start_) < longest_silence) return false;
     jam_progress again = last_report_;

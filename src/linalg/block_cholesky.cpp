@@ -17,12 +17,14 @@ namespace {
 constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
 // Numbers of a panel that take some 0.1 ms to read: the callback is told between such panels.
 constexpr size_t worth_a_look = 100000;
+constexpr size_t columns_between_looks = 64;
 
 }  // namespace
 
 void BlockCholesky::assemble(const Supernode &s, const double *diag, const double *off) {
   const size_t front = columns(s) + below(s), block = static_cast<size_t>(dim_) * dim_;
   for (size_t c = 0; c < columns(s); ++c) {  // what lies above the diagonal blocks is never read
+    if (c % columns_between_looks == columns_between_looks - 1) CallScope::tell();  // new pages come at 1 GB a second
     const size_t top = c / dim_ * dim_;
     std::memset(&values_[s.value_start + c * front + top], 0, (front - top) * sizeof(double));
   }
@@ -67,6 +69,7 @@ void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t sta
 
 void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
   const size_t mc = below(supernodes_[child]);
+  if (mc * mc > worth_a_look) CallScope::tell();
   const auto add = [&](size_t start, size_t stride) {
     switch (dim_) {
       case 1:
@@ -185,7 +188,7 @@ void BlockCholesky::solve_many(double *x, int nrhs) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;
   const bool two = !lists_[0].empty();
   const auto both = [&](const auto &work) {
-    if (values_.size() > worth_a_reader) return on_two_threads(work);
+    if (value_count_ > worth_a_reader) return on_two_threads(work);
     work(0), work(1);
   };
   std::vector<double> y(unknowns * nrhs), other(two ? y.size() : 0), below_rows(two ? 2 * room : room);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linalg/ordering.hpp"
+#include "linalg/scratch_buffer.hpp"
 
 namespace jam {
 
@@ -40,7 +41,7 @@ class BlockCholesky {
 
   double flops() const { return flops_; }
   size_t bytes() const;
-  size_t factor_nonzeros() const { return values_.size(); }
+  size_t factor_nonzeros() const { return value_count_; }
   size_t supernodes() const { return supernodes_.size(); }
 
  private:
@@ -59,7 +60,7 @@ class BlockCholesky {
     bool transposed;
   };
   struct Stack {
-    std::vector<double> memory[2];  // of even and odd depth in the tree
+    ScratchBuffer memory[2];  // of even and odd depth in the tree
     size_t top[2] = {0, 0};
   };
   static constexpr size_t on_stack = static_cast<size_t>(-1);  // in kept_at_
@@ -92,10 +93,11 @@ class BlockCholesky {
   std::vector<Supernode> supernodes_;
   std::vector<int32_t> rows_, places_;  // below a supernode; where in its parent's front they are
   std::vector<Entry> entries_;
-  std::vector<double> values_, original_diagonal_;
+  ScratchBuffer values_;
+  std::vector<double> original_diagonal_;
   std::vector<double *> update_;  // Schur complement of each supernode while it is needed
   std::vector<size_t> kept_at_;   // where in kept_ that of a subtree's root is, which outlives its thread's stack
-  std::vector<double> kept_;
+  ScratchBuffer kept_;
   std::vector<int32_t> lists_[3];  // supernodes of thread 0, thread 1, and the top of the tree
   Stack stacks_[2];
   size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "linalg/block_cholesky.hpp"
-#include "linalg/scratch_buffer.hpp"
 
 namespace jam {
 
@@ -68,7 +67,7 @@ void BlockCholesky::keep(const std::vector<int32_t> &roots) {
     kept_at_[r] = stack_count_;
     stack_count_ += below(supernodes_[r]) * below(supernodes_[r]);
   }
-  if (!dry_) grow(kept_, stack_count_);
+  if (!dry_) kept_.need(stack_count_);
 }
 
 // Children lie on one stack while their parent's Schur complement is built on the other.
@@ -83,7 +82,7 @@ void BlockCholesky::lay_stacks(int list) {
   }
   for (int side = 0; side < 2; ++side) {
     stack_count_ += most[side];
-    if (!dry_) grow(stacks_[list % 2].memory[side], most[side]);
+    if (!dry_) stacks_[list % 2].memory[side].need(most[side]);
   }
 }
 

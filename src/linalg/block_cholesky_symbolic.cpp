@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/ordering.hpp"
-#include "linalg/scratch_buffer.hpp"
 
 namespace jam {
 namespace {
@@ -55,7 +55,7 @@ std::vector<int32_t> postorder(const std::vector<int32_t> &parent) {
   return out;
 }
 
-// Rows of each column of L below the diagonal, sorted.
+// Rows of each column of L below the diagonal, in no order: most are not kept.
 std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::vector<int32_t> &order,
                                                    const std::vector<int32_t> &place,
                                                    const std::vector<int32_t> &parent) {
@@ -67,6 +67,7 @@ std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::ve
     if (parent[k] >= 0) children[parent[k]].push_back(k);
   for (int32_t k = 0; k < n; ++k) {
     mark[k] = k;
+    if (k % 256 == 0) CallScope::tell();
     const auto take = [&](int32_t r) {
       if (r > k && mark[r] != k) mark[r] = k, rows[k].push_back(r);
     };
@@ -74,7 +75,6 @@ std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::ve
     for (int32_t e = g.start[v]; e < g.start[v + 1]; ++e) take(place[g.adjacency[e]]);
     for (const int32_t c : children[k])
       for (const int32_t r : rows[c]) take(r);
-    std::sort(rows[k].begin(), rows[k].end());
   }
   return rows;
 }
@@ -103,6 +103,8 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     int32_t end = k + 1;
     while (end < n_ && parent[end - 1] == end && structure[end].size() + 1 == structure[end - 1].size()) ++end;
     Draft now{k, end, std::move(structure[end - 1]), 0.0};
+    std::sort(now.rows.begin(), now.rows.end());
+    CallScope::tell();
     while (!drafts.empty() && !drafts.back().rows.empty() && drafts.back().rows.front() < now.last) {
       const Draft &child = drafts.back();
       const double nc = child.last - child.first, np = now.last - now.first,
@@ -132,11 +134,7 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     supernodes_.push_back(std::move(s));
   }
   value_count_ = values;
-  if (!dry_) {
-    reserve_scratch(values_, values);
-    values_.clear();
-    grow(values_, values);
-  }
+  if (!dry_) values_.need(values);
   places_.clear();
   places_.reserve(rows_.size());
   for (size_t k = 0; k < supernodes_.size(); ++k) {
@@ -166,6 +164,12 @@ void BlockCholesky::place_entries(const int32_t *ei, const int32_t *ej, size_t e
     for (int32_t k = supernodes_[s].first; k < supernodes_[s].last; ++k) owner[k] = static_cast<int32_t>(s);
   std::vector<std::pair<int32_t, Entry>> all;
   all.reserve(n_ + edges);
+  const auto add = [&](int32_t s, const Entry &entry) {
+    if (all.size() % 4096 == 0) CallScope::tell();
+    ++supernodes_[s].entry_count;
+    all.push_back({s, entry});
+  };
+  for (auto &s : supernodes_) s.entry_count = 0;
   const auto target = [&](const Supernode &s, int32_t row, int32_t column) {
     size_t place = row - s.first;
     if (row >= s.last) {
@@ -177,19 +181,16 @@ void BlockCholesky::place_entries(const int32_t *ei, const int32_t *ej, size_t e
   };
   for (int32_t v = 0; v < n_; ++v) {
     const int32_t k = position_[v];
-    all.push_back({owner[k], {-1 - static_cast<int64_t>(v), target(supernodes_[owner[k]], k, k), false}});
+    add(owner[k], {-1 - static_cast<int64_t>(v), target(supernodes_[owner[k]], k, k), false});
   }
   for (size_t e = 0; e < edges; ++e) {
     const int32_t a = position_[ei[e]], b = position_[ej[e]], low = std::min(a, b), high = std::max(a, b);
-    all.push_back({owner[low], {static_cast<int64_t>(e), target(supernodes_[owner[low]], high, low), a == low}});
+    add(owner[low], {static_cast<int64_t>(e), target(supernodes_[owner[low]], high, low), a == low});
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto &x, const auto &y) { return x.first < y.first; });
-  entries_.clear();
-  for (auto &s : supernodes_) s.entry_count = 0;
-  for (const auto &[s, entry] : all) {
-    if (supernodes_[s].entry_count++ == 0) supernodes_[s].entry_start = entries_.size();
-    entries_.push_back(entry);
-  }
+  size_t start = 0;
+  for (auto &s : supernodes_) s.entry_start = start, start += s.entry_count, s.entry_count = 0;
+  entries_.resize(all.size());
+  for (const auto &[s, entry] : all) entries_[supernodes_[s].entry_start + supernodes_[s].entry_count++] = entry;
 }
 
 void BlockCholesky::analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads,

@@ -1,30 +1,31 @@
 // Room for numbers whose old values are not needed.
 #pragma once
-#include <algorithm>
 #include <cstddef>
-#include <vector>
-
-#include "core/call_scope.hpp"
+#include <memory>
 
 namespace jam {
 
-// Room for at least `size` numbers: never the old and the new block at a time, and a little more than asked, so that
-// lists that change by a few pairs do not break up the heap. Pages beyond size stay untouched.
-inline void reserve_scratch(std::vector<double> &v, size_t size) {
-  if (size <= v.capacity()) return;
-  std::vector<double>().swap(v);
-  v.reserve(size + size / 8);
-}
-
-inline void grow(std::vector<double> &v, size_t size) {
-  if (v.size() >= size) return;
-  reserve_scratch(v, size);
-  constexpr size_t at_once =
-      size_t{1} << 21;  // doubles: clearing gigabytes takes seconds, in which callers hear nothing
-  while (v.size() < size) {
-    v.resize(std::min(size, v.size() + at_once));
-    CallScope::tell();
+// Numbers that are written before they are read: nothing is cleared, since gigabytes take seconds. It holds never the
+// old and the new block at a time, and takes a little more than asked, so that lists that change by a few pairs do not
+// break up the heap. Pages beyond what was asked for stay untouched.
+class ScratchBuffer {
+ public:
+  void need(size_t size) {
+    if (size <= capacity_) return;
+    memory_.reset();
+    capacity_ = 0;
+    memory_.reset(new double[size + size / 8]);
+    capacity_ = size + size / 8;
   }
-}
+  double *data() { return memory_.get(); }
+  const double *data() const { return memory_.get(); }
+  double &operator[](size_t k) { return memory_[k]; }
+  const double &operator[](size_t k) const { return memory_[k]; }
+  size_t capacity() const { return capacity_; }
+
+ private:
+  std::unique_ptr<double[]> memory_;
+  size_t capacity_ = 0;
+};
 
 }  // namespace jam

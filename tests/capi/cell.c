@@ -215,6 +215,22 @@ static void files(void **state) {
   remove(path), remove(check);
 }
 
+/* This cell is the unit cube, by vectors that no transform of 64-bit integers brings to it. Smaller multiples do. */
+static void huge_multiples(void **state) {
+  (void)state;
+  for (int much = 0; much < 2; ++much) {
+    const double m = much ? 1e12 : 1e6, rows[9] = {1, 0, 0, m, 1, 0, 0, m, 1}, x[3] = {0}, sigma = 0.1;
+    jam_create_options o = options(3, 1);
+    jam_system *sys = NULL;
+    double cell[9];
+    assert_int_equal(jam_create_in_cell(&o, rows, 9, x, 3, &sigma, 1, &sys), much ? JAM_E_ARGUMENT : JAM_OK);
+    if (much) break;
+    assert_int_equal(jam_cell_get(sys, cell, 9, NULL), JAM_OK);
+    for (int k = 0; k < 9; ++k) assert_true(cell[k] == (k % 4 == 0));
+    jam_destroy(sys);
+  }
+}
+
 static void refused(void **state) {
   (void)state;
   const double left[4] = {1, 0, 0, -1}, singular[4] = {1, 2, 2, 4}, flat[4] = {1, 0, 0, 1e-7},
@@ -290,6 +306,7 @@ int main(void) {
       cmocka_unit_test(shear_and_back),
       cmocka_unit_test(strain_is_affine),
       cmocka_unit_test(files),
+      cmocka_unit_test(huge_multiples),
       cmocka_unit_test(refused),
       cmocka_unit_test(shifts_are_kept),
   };

@@ -1,5 +1,5 @@
-"""Other programs' readers open our files: VTK's own (ParaView's), ASE's, HOOMD's GSD and LAMMPS. Those that are not
-installed are named and left out, for they are large; without any of them the test is skipped.
+"""Other programs' readers open our files: VTK's own (ParaView's), ASE's, HOOMD's GSD, MDAnalysis and LAMMPS. Those that
+are not installed are named and left out, for they are large; without any of them the test is skipped.
 
 usage: readers.py FOLDER   writes the files there unless they are there already (so that another machine may read them).
 """
@@ -167,6 +167,30 @@ def check_ase_both_ways(folder):
         raise AssertionError("no diameters were asked for")
 
 
+def check_mdanalysis(mda, folder):
+    """MDAnalysis keeps positions in single precision, and the cell as lengths and angles."""
+    import jam
+
+    s = tilted(3)
+    s.save(folder / "m.h5")
+    s.write(folder / "m.data")
+    s.write(folder / "m.gsd")
+    s.write(folder / "m.xyz")
+    h5md = mda.Universe.empty(s.n, trajectory=True)
+    h5md.load_new(str(folder / "m.h5"), format="H5MD", convert_units=False)
+    columns = "id type diameter density x y z"
+    data = mda.Universe(str(folder / "m.data"), topology_format="DATA", format="DATA", atom_style=columns)
+    gsd, xyz = mda.Universe(str(folder / "m.gsd")), mda.Universe(str(folder / "m.xyz"))
+    for atoms in (u.atoms for u in (h5md, data, gsd, xyz)):
+        assert len(atoms) == s.n
+        shift = np.linalg.solve(np.array(s.cell).T, (atoms.positions - s.positions).T).T
+        shift -= shift[0]  # GSD: the cell lies around the origin
+        assert np.abs(shift - np.round(shift)).max() < 1e-6
+    for atoms in (h5md.atoms, data.atoms):  # of GSD it takes tilt factors for angles, of xyz it takes no cell
+        theirs = mda.lib.mdamath.triclinic_vectors(atoms.dimensions)
+        assert np.allclose(theirs, s.cell, atol=1e-6)
+
+
 def main():
     folder = Path(sys.argv[1])
     if not (folder / "want.npz").exists():
@@ -176,6 +200,7 @@ def main():
         ("VTK", available("vtk"), lambda vtk: check_vtk(vtk, folder, want)),
         ("ASE", available("ase"), lambda ase: (check_ase(folder, want), check_ase_both_ways(folder))),
         ("GSD", available("gsd.hoomd"), lambda gsd: check_gsd(gsd, folder, want)),
+        ("MDAnalysis", available("MDAnalysis"), lambda mda: check_mdanalysis(mda, folder)),
         ("LAMMPS", shutil.which("lmp"), lambda lmp: check_lammps(lmp, folder, want)),
     ):
         if found:

@@ -847,7 +847,7 @@ module jam
     integer(c_int32_t) :: max_steps = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
-    ! of the forces, in one step, >= 1, default 1e6
+    ! of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept steps took, if that is less
     integer(c_int64_t) :: max_evaluations = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
@@ -1305,7 +1305,8 @@ module jam
 
     ! Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
     ! crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
-    ! x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+    ! x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
+    ! cell vectors, so with other vectors the system is another one.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
     ! JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) &

@@ -346,7 +346,8 @@ Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat c
 %feature("docstring") jam_cell_get "Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1"
 %feature("docstring") jam_cell_set "Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
 crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
-x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
+cell vectors, so with other vectors the system is another one.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The

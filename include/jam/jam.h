@@ -283,7 +283,8 @@ JAM_API jam_status jam_create_in_cell(const jam_create_options *o, const double 
 JAM_API jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
  * crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
- * x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+ * x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
+ * cell vectors, so with other vectors the system is another one.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
@@ -1019,7 +1020,8 @@ typedef struct jam_decompress_options {
                          * the system ends as that jammed packing. 0: it ends as the soft packing */
   int32_t max_steps;    /* >= 1, default 1000 */
   int32_t reserved;     /* 0 */
-  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6 */
+  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept
+                            * steps took, if that is less */
   double wall_time;        /* limit in seconds, > 0, default infinity */
 } jam_decompress_options;
 

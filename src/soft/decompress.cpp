@@ -11,6 +11,9 @@ namespace {
 
 // A step that failed is tried again with the square root of its factor, up to this one.
 constexpr double last_factor = 0.95;
+// So many times the evaluations of all minima so far a step may take. Beyond, spheres slide along a valley whose slope
+// is the weaker the smaller the overlaps: a shorter step does the same at larger ones.
+constexpr int64_t work_share = 4;
 
 // Contacts of one state of self-stress that hold all stable spheres: the Hessian has d zero modes and no negative one.
 bool is_isostatic(const SoftState &state, const SoftResult &at, int64_t &factorisations) {
@@ -153,10 +156,10 @@ class Decompression {
   DescentEnd find_minimum(bool near_minimum, SoftResult &now, SoftRow &row) {
     const Effort spent = effort_;
     const double seconds = monitor_.seconds();
-    effort_.max_evaluations = effort_.evaluations + o_.max_evaluations;
+    const int64_t most = kept_evaluations_ > 0 ? work_share * kept_evaluations_ : o_.max_evaluations;
+    effort_.max_evaluations = effort_.evaluations + std::min(most, o_.max_evaluations);
     Relaxation r(state_, effort_);
-    const DescentEnd end = minimise(r, o_.minimiser, o_.force_tolerance, near_minimum);
-    now = measure(state_, o_.minimiser);
+    const DescentEnd end = minimise_and_measure(r, o_.minimiser, o_.force_tolerance, near_minimum, now);
     row = row_of(now, spent, effort_, monitor_.seconds() - seconds);
     monitor_.log(JAM_LOG_INFO,
                  "decompress: step %lld phi %.9f distance %.3e excess %lld residual %.1e, %lld evaluations",
@@ -208,6 +211,7 @@ class Decompression {
   // Notes a minimum; true when it is the end.
   bool keep(const SoftRow &row) {
     out_.history.push_back(row);
+    kept_evaluations_ += static_cast<int64_t>(row[JAM_SOFT_EVALUATIONS]);
     before_ = state_;
     const jam_relax_report &at = out_.soft.report;
     effort_.packing_fraction = at.packing_fraction, effort_.pressure = at.pressure;
@@ -258,6 +262,7 @@ class Decompression {
   SoftState state_, before_;  // now, and at the last minimum
   double factor_;             // of the energy in the next step
   Effort effort_;
+  int64_t kept_evaluations_ = 0;  // in steps that were not taken back
   DecompressionResult out_;
   jam_decompress_report report_{};
 };

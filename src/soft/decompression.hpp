@@ -56,6 +56,8 @@ SoftResult measure(SoftState &state, int32_t minimiser);
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision);
 // Minimises by a jam_minimiser. near_minimum: Newton's method is tried before first-order descent.
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum);
+// The same, and measures what is handed out: balanced means that its residuals are below the tolerance.
+DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, SoftResult &out);
 // Status and stop reason of a minimum.
 jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reason);
 // Overlaps, relative to the contact distance, that the rounding of positions hides.

@@ -11,6 +11,9 @@ namespace jam {
 // The minimum of a fixed cell is found to this residual before the cell is free. Mean forces below the part weak_part
 // of what the pressure makes of one contact a sphere are none.
 constexpr double before_strain = 1e-6, weak_part = 1e-3;
+// The state that is handed out has positions rounded anew. Where they do not balance, the descent goes on so many
+// times.
+constexpr int most_roundings = 4;
 
 jam_relax_options default_relax_options() {
   jam_relax_options o{};
@@ -71,6 +74,19 @@ DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool nea
   }
 }
 
+DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum,
+                                SoftResult &out) {
+  DescentEnd end = minimise(r, minimiser, tolerance, near_minimum);
+  for (int attempt = 0;; ++attempt) {
+    out = measure(r.state, minimiser);
+    if (end != DescentEnd::balanced) return end;
+    if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) return end;
+    if (attempt == most_roundings) return DescentEnd::stalled;
+    r.evaluate();
+    end = minimise(r, minimiser, tolerance, true);
+  }
+}
+
 jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reason) {
   switch (end) {
     case DescentEnd::balanced:
@@ -98,7 +114,7 @@ double overlap_resolution(const Packing &p) {
 }
 
 // The minimum with the cell free, from the minimum of the fixed one.
-static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o) {
+static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResult &out) {
   const FreeCell cell = free_cell_of(r.state.dim(), o.strain, o.components, o.pressure);
   const LeavingScope scope;
   try {
@@ -106,9 +122,10 @@ static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o) {
     r.state.free_cell(cell);
     r.evaluate();
   } catch (const Cancelled &) {  // in a search for pairs
+    out = measure(r.state, o.minimiser);
     return DescentEnd::interrupted;
   }
-  return minimise(r, o.minimiser, o.force_tolerance, false);
+  return minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
 }
 
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
@@ -128,12 +145,14 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   r.weak_force =
       weak_part * o.pressure * start.cell.volume() / (state.diameter_mean() * static_cast<double>(state.n()));
   const bool frees = o.strain != JAM_STRAIN_NONE;
-  DescentEnd end =
-      minimise(r, o.minimiser, frees ? std::max(o.force_tolerance, before_strain) : o.force_tolerance, false);
+  SoftResult out;
+  DescentEnd end = frees ? minimise(r, o.minimiser, std::max(o.force_tolerance, before_strain), false)
+                         : minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
   // A pressure brings overlaps back where the fixed cell has none.
   if (frees && (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)))
-    end = relax_cell(r, o);
-  SoftResult out = measure(state, o.minimiser);
+    end = relax_cell(r, o, out);
+  else if (frees)
+    out = measure(state, o.minimiser);
   out.status = status_of(end, monitor, out.report.stop_reason);
   out.report.converged = end == DescentEnd::balanced || end == DescentEnd::no_overlaps;
   if (end == DescentEnd::balanced && out.report.mean_overlap < overlap_resolution(out.packing)) {

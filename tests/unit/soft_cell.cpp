@@ -205,6 +205,18 @@ void cut_short(void **) {
     }
     assert_true(freed > 0);
   }
+  // Wherever the time ends, the state is one to go on from.
+  for (const double seconds : {1e-9, 1e-4, 3e-4, 1e-3, 3e-3}) {
+    jam_relax_options o = options(JAM_MINIMISER_FIRE, JAM_STRAIN_ALL, 0.02);
+    o.wall_time = seconds;
+    const SoftResult cut = relaxed(start, o);
+    assert_true(cut.status == JAM_LIMIT || (cut.status == JAM_OK && seconds > 1e-9));
+    assert_int_equal(cut.report.converged, cut.status == JAM_OK);
+    assert_int_equal(cut.report.stop_reason, cut.status == JAM_OK ? JAM_STOP_CONVERGED : JAM_STOP_WALL_TIME);
+    const SoftResult end = relaxed(cut.packing, options(JAM_MINIMISER_NEWTON, JAM_STRAIN_ALL, 0.02));
+    assert_int_equal(end.status, JAM_OK);
+    assert_true(std::fabs(end.report.pressure / 0.02 - 1.0) < 1e-11);
+  }
   Monitor monitor;
   monitor.begin();
   monitor.cancel();

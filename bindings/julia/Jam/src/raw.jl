@@ -654,7 +654,7 @@ mutable struct jam_decompress_options
     crunch::Int32  # 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
     max_steps::Int32  # >= 1, default 1000
     reserved::Int32  # 0
-    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6
+    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept steps took, if that is less
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     jam_decompress_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -972,7 +972,8 @@ end
 """
 Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
 crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
-x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0.
+x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
+cell vectors, so with other vectors the system is another one.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
 JAM_E_BUSY. Threads: alone. @since 0.1
 """

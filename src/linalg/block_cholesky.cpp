@@ -17,7 +17,7 @@ namespace {
 constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
 // Numbers of a panel that take some 0.1 ms to read: the callback is told between such panels.
 constexpr size_t worth_a_look = 100000;
-constexpr size_t columns_between_looks = 64;
+constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
 
 }  // namespace
 
@@ -54,6 +54,7 @@ void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t sta
   const size_t ld = update ? below(p) : columns(p) + below(p), shift = update ? static_cast<size_t>(own) : 0;
   double *into = update ? update : &values_[p.value_start];
   for (size_t b = (update ? split : 0) + start; b < (update ? c.row_count : split); b += stride) {
+    if (b % blocks_between_looks == blocks_between_looks - 1) CallScope::tell();
     const double *from = update_[child] + b * D * mc;
     double *to = into + (place[b] - shift) * D * ld;
     for (size_t column = 0; column < D; ++column)
@@ -69,7 +70,6 @@ void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t sta
 
 void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
   const size_t mc = below(supernodes_[child]);
-  if (mc * mc > worth_a_look) CallScope::tell();
   const auto add = [&](size_t start, size_t stride) {
     switch (dim_) {
       case 1:

@@ -15,10 +15,11 @@ constexpr double diameter_min = 1e-9;              // over the box: coordinates 
 constexpr double size_ratio_max = 1e4;             // largest diameter over smallest
 constexpr double non_additivity_max = 1.0;         // and above -1: contact distances are positive
 constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
-constexpr double growth_rate_max = 1e3;            // of molecular dynamics, dimensionless
-constexpr double velocity_max = 1e6;               // of a component, thermal units
-constexpr int keep_steps_max = 1000;               // states of a crunch that are kept
-constexpr int64_t kept_coordinates = 1 << 24;      // of all of them: 64 MiB, and 90 MB in the file of a page
+constexpr double images_max = 1e6;       // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
+constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
+constexpr double velocity_max = 1e6;     // of a component, thermal units
+constexpr int keep_steps_max = 1000;     // states of a crunch that are kept
+constexpr int64_t kept_coordinates = 1 << 24;  // of all of them: 64 MiB, and 90 MB in the file of a page
 
 }  // namespace limits
 

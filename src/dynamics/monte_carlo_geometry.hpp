@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/cell.hpp"
+#include "core/error.hpp"
+#include "core/limits.hpp"
 
 namespace jam {
 
@@ -30,6 +32,7 @@ class MonteCarloGeometry {
       for (int k = 0; k <= c; ++k) row_[c][k] = cell.row(c)[k] / cell.side();
     if (Cube || contact_max <= fullest * widest_) return;
     widest_ = beyond * contact_max;
+    check_images();
     add_images(D - 1, {});
   }
 
@@ -121,12 +124,20 @@ class MonteCarloGeometry {
     return r2;
   }
   // A difference has no coefficient beyond 1/2. A vector shorter than widest_ has none beyond widest_ / height.
+  double most_cells(int c) const { return std::floor(widest_ * cell_.side() / cell_.height(c) + 0.5); }
+  void check_images() const {
+    double images = 1.0;
+    for (int c = 0; c < D; ++c) images *= 2.0 * most_cells(c) + 1.0;
+    if (!(images <= limits::images_max))
+      fail(JAM_E_UNSUPPORTED, "each pair has %.3g images in reach in this cell, Monte Carlo looks at %g", images,
+           limits::images_max);
+  }
   void add_images(int c, const std::array<double, D> &above) {
     if (c < 0) {
       image_.push_back(above);
       return;
     }
-    const double most = std::floor(widest_ * cell_.side() / cell_.height(c) + 0.5);
+    const double most = most_cells(c);
     for (double m = -most; m <= most; ++m) {
       std::array<double, D> image = above;
       for (int k = 0; k <= c; ++k) image[k] += m * row_[c][k];

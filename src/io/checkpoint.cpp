@@ -17,8 +17,8 @@
 namespace jam {
 namespace {
 
-// Off the diagonal over the edge: reduced cells have 1/2, and a crunch lets its cell drift by its strain. In cells far
-// from that, coordinates lose their digits.
+// Largest tilt of a cell vector, over the edge along which it leans. Reduced cells have 1/2 at most, and a crunch adds
+// strains of order one. Coordinates lose digits where the tilt is large.
 constexpr double tilt_max = 16.0;
 
 constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '5'};

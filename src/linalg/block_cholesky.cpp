@@ -24,7 +24,7 @@ constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
 void BlockCholesky::assemble(const Supernode &s, const double *diag, const double *off) {
   const size_t front = columns(s) + below(s), block = static_cast<size_t>(dim_) * dim_;
   for (size_t c = 0; c < columns(s); ++c) {  // what lies above the diagonal blocks is never read
-    if (c % columns_between_looks == columns_between_looks - 1) CallScope::tell();  // new pages come at 1 GB a second
+    if (c % columns_between_looks == columns_between_looks - 1) CallScope::tell();  // the system clears new pages
     const size_t top = c / dim_ * dim_;
     std::memset(&values_[s.value_start + c * front + top], 0, (front - top) * sizeof(double));
   }

@@ -5,9 +5,9 @@
 
 namespace jam {
 
-// Numbers that are written before they are read: nothing is cleared, since gigabytes take seconds. It holds never the
-// old and the new block at a time, and takes a little more than asked, so that lists that change by a few pairs do not
-// break up the heap. Pages beyond what was asked for stay untouched.
+// Numbers that are written before they are read. Nothing is cleared, since gigabytes take seconds. The old block goes
+// before the new one comes. A new one is an eighth larger than asked, so that a list with a few pairs more fits into
+// it. Pages beyond what was asked for stay untouched.
 class ScratchBuffer {
  public:
   void need(size_t size) {

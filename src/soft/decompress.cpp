@@ -11,8 +11,8 @@ namespace {
 
 // A step that failed is tried again with the square root of its factor, up to this one.
 constexpr double last_factor = 0.95;
-// So many times the evaluations of all minima so far a step may take. Beyond, spheres slide along a valley whose slope
-// is the weaker the smaller the overlaps: a shorter step does the same at larger ones.
+// A step may take this many times the evaluations of all steps kept so far. A step that takes more follows a weak
+// instability, whose forces fall with the overlaps. A shorter step does the same at larger overlaps.
 constexpr int64_t work_share = 4;
 
 // Contacts of one state of self-stress that hold all stable spheres: the Hessian has d zero modes and no negative one.

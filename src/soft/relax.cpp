@@ -11,8 +11,8 @@ namespace jam {
 // The minimum of a fixed cell is found to this residual before the cell is free. Mean forces below the part weak_part
 // of what the pressure makes of one contact a sphere are none.
 constexpr double before_strain = 1e-6, weak_part = 1e-3;
-// The state that is handed out has positions rounded anew. Where they do not balance, the descent goes on so many
-// times.
+// The state that is handed out has rounded positions. Where they do not balance, the descent goes on, at most this
+// many times.
 constexpr int most_roundings = 4;
 
 jam_relax_options default_relax_options() {

@@ -215,7 +215,8 @@ static void files(void **state) {
   remove(path), remove(check);
 }
 
-/* This cell is the unit cube, by vectors that no transform of 64-bit integers brings to it. Smaller multiples do. */
+/* Vectors of the lattice of the unit cube. With m = 1e6 they are reduced to it; with 1e12 the transform has m^2 = 1e24,
+ * which 64-bit integers do not hold. */
 static void huge_multiples(void **state) {
   (void)state;
   for (int much = 0; much < 2; ++much) {

@@ -30,16 +30,17 @@ int calls_during(double seconds, Step &&step) {
 }
 
 void silence_is_short(void **) {
-  // 0.1 s between two calls: 12 in 1.2 s, fewer on a busy machine; 0.5 s would be 2
-  assert_in_range(calls_during(1.2, [](Monitor &monitor) { monitor.look(); }), 4, 12);
-  assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::look(); }), 4, 12);
-  assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::tell(); }), 4, 12);
+  // 0.1 s between two calls: 12 in 1.2 s, fewer on a busy machine, more where the last step takes longer; 0.5 s would
+  // be 2, and a call at each look would be millions
+  assert_in_range(calls_during(1.2, [](Monitor &monitor) { monitor.look(); }), 4, 20);
+  assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::look(); }), 4, 20);
+  assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::tell(); }), 4, 20);
 }
 
 // Work that asks nobody: its end comes before that of the call, and nothing is told without a callback.
 void work_on_another_thread_tells(void **) {
   const auto nap = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); };
-  assert_in_range(calls_during(1.0, [&](Monitor &) { while_telling(nap); }), 4, 12);
+  assert_in_range(calls_during(1.0, [&](Monitor &) { while_telling(nap); }), 4, 20);
   std::thread::id worker;
   while_telling([&] { worker = std::this_thread::get_id(); });
   assert_true(worker == std::this_thread::get_id());
@@ -66,7 +67,7 @@ void symbolic_analysis_tells(void **) {
   BlockCholesky factor;
   factor.analyse(3, n, ei.data(), ej.data(), ei.size());
   const auto again = [&](Monitor &) { factor.analyse_keep_order(3, n, ei.data(), ej.data(), ei.size()); };
-  assert_in_range(calls_during(1.2, again), 4, 12);
+  assert_in_range(calls_during(1.2, again), 4, 20);
 }
 
 // A cancellation waits behind tell(), also where look() would leave the work.

@@ -24,7 +24,7 @@ class BarrierPath {
         monitor_(monitor),
         t_(control.tuning),
         schedule_(control.tuning),
-        matrix_(system, control.threads) {
+        matrix_(system, control.threads, control.tuning) {
     b_.strain = control.strain;
   }
 
@@ -128,11 +128,12 @@ class BarrierPath {
   bool direct() {
     // The proximal term fixes translations and lets no sphere run far for a gain below the gap.
     matrix_.weigh(p_, b_, gap_ / static_cast<double>(p_.n()));
-    return matrix_.factorise() && aim();
+    return matrix_.factorise(gap_) && aim();
   }
 
-  // Direction for changes target_ of the products y c that also takes the force balance and sum y = 1 up.
-  void solve(BarrierStep &out) {
+  // Direction for changes target_ of the products y c that also takes the force balance and sum y = 1 up. False when
+  // not found.
+  bool solve(BarrierStep &out) {
     double h = rest_;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       row_[k] = target_[k] / b_.lp.c[k];
@@ -140,12 +141,13 @@ class BarrierPath {
     }
     transpose_times(b_.lp, row_.data(), rhs_.data());
     for (size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += unbalanced_[k];
-    matrix_.solve(rhs_.data(), h, out.s.data(), &out.g);
+    if (!matrix_.solve(rhs_.data(), h, out.s.data(), &out.g)) return false;
     rows_times(b_.lp, out.s.data(), out.w.data());
     for (size_t k = 0; k < b_.y.size(); ++k) {
       out.w[k] -= out.g;
       out.y[k] = row_[k] - matrix_.weight()[k] * out.w[k];
     }
+    return true;
   }
 
   // The direction at this mu, or where that is centred at the next. False when not found.
@@ -153,7 +155,7 @@ class BarrierPath {
     const double rows = static_cast<double>(b_.y.size());
     for (bool colder = false;; colder = true) {
       for (size_t k = 0; k < b_.y.size(); ++k) target_[k] = b_.mu - b_.y[k] * b_.lp.c[k];
-      solve(main_);
+      if (!solve(main_)) return false;
       decrement_ = b_.decrement(main_);
       if (colder || !schedule_.centred(decrement_, rows)) break;
       b_.mu *= t_.reduction;

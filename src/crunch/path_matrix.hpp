@@ -4,21 +4,25 @@
 
 #include "core/packing.hpp"
 #include "crunch/barrier.hpp"
+#include "crunch/tuning.hpp"
 #include "lp/newton_system.hpp"
 
 namespace jam {
 
 class PathMatrix {
  public:
-  PathMatrix(NewtonSystem &system, int threads) : system_(system), threads_(threads) {}
+  PathMatrix(NewtonSystem &system, int threads, const Tuning &tuning)
+      : system_(system), threads_(threads), t_(tuning) {}
 
   // Call this when the pair list changes.
   void reset(size_t rows, size_t unknowns);
   // The numbers of the matrix at the present rows, with `proximal` on its diagonal.
   void weigh(const Packing &p, const Barrier &b, double proximal);
-  bool factorise() { return system_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data()); }
-  // Changes ds, dg for the right-hand sides rhs, h.
-  void solve(const double *rhs, double h, double *ds, double *dg) { system_.solve(rhs, h, ds, dg, 1); }
+  // In single precision where that is faster and was good enough so far.
+  bool factorise(double gap);
+  // Changes ds, dg for the right-hand sides rhs, h. Where single precision does not do, the matrix is factorised again;
+  // false when that fails.
+  bool solve(const double *rhs, double h, double *ds, double *dg);
 
   // y / c of every row.
   const std::vector<double> &weight() const { return weight_; }
@@ -26,9 +30,13 @@ class PathMatrix {
 
  private:
   void choose_near(const Packing &p, const Barrier &b);
+  bool factorise_fully();
 
   NewtonSystem &system_;
   const int threads_;
+  const Tuning t_;
+  double gap_ = 0.0, failed_at_ = 0.0;  // duality gaps: of the matrix at hand, and where single precision failed last
+  bool single_ = false;
   std::vector<size_t> near_;  // rows in the matrix, ascending
   PairList near_pairs_;
   std::vector<double> near_a_, near_strain_, near_weight_, weight_, diagonal_;

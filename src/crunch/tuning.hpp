@@ -37,6 +37,11 @@ struct Tuning {
   double corrector_band = 10.0, corrector_ahead = 0.3;
   double whole_step = 0.95;  // longer steps need no corrector
 
+  // ---- factors in single precision, on the path alone (tests/bench/README.md, "Factors in single precision")
+  double single_work = 2e9;       // flops of a factorisation; below, solves eat up what the factor wins
+  double single_accuracy = 1e-2;  // relative error of a direction in the norm of the matrix
+  int max_single_products = 5;    // of conjugate gradients for it; past them a factor in doubles takes over
+
   // ---- schedule of mu
   double reduction = 0.2;       // of mu at its maximum
   double centred = 0.005;       // squared Newton decrement a row that counts as the maximum

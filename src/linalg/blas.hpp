@@ -15,7 +15,38 @@ void dgemv_(const char *trans, const int *m, const int *n, const double *alpha, 
             const double *x, const int *incx, const double *beta, double *y, const int *incy);
 void dtrsv_(const char *uplo, const char *trans, const char *diag, const int *n, const double *a, const int *lda,
             double *x, const int *incx);
+void strsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
+            const float *alpha, const float *a, const int *lda, float *b, const int *ldb);
+void ssyrk_(const char *uplo, const char *trans, const int *n, const int *k, const float *alpha, const float *a,
+            const int *lda, const float *beta, float *c, const int *ldc);
+void sgemm_(const char *ta, const char *tb, const int *m, const int *n, const int *k, const float *alpha,
+            const float *a, const int *lda, const float *b, const int *ldb, const float *beta, float *c,
+            const int *ldc);
+void sgemv_(const char *trans, const int *m, const int *n, const float *alpha, const float *a, const int *lda,
+            const float *x, const int *incx, const float *beta, float *y, const int *incy);
+void strsv_(const char *uplo, const char *trans, const char *diag, const int *n, const float *a, const int *lda,
+            float *x, const int *incx);
 }
+
+// The same routines by the type of their numbers.
+template <class Real>
+struct Blas;
+template <>
+struct Blas<double> {
+  static constexpr auto trsm = dtrsm_;
+  static constexpr auto syrk = dsyrk_;
+  static constexpr auto gemm = dgemm_;
+  static constexpr auto gemv = dgemv_;
+  static constexpr auto trsv = dtrsv_;
+};
+template <>
+struct Blas<float> {
+  static constexpr auto trsm = strsm_;
+  static constexpr auto syrk = ssyrk_;
+  static constexpr auto gemm = sgemm_;
+  static constexpr auto gemv = sgemv_;
+  static constexpr auto trsv = strsv_;
+};
 
 // Name of the kernel in use: the bits of sums depend on it.
 const char *blas_kernel();

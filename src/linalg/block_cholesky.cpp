@@ -21,54 +21,59 @@ constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
 
 }  // namespace
 
+template <class Real>
 void BlockCholesky::assemble(const Supernode &s, const double *diag, const double *off) {
   const size_t front = columns(s) + below(s), block = static_cast<size_t>(dim_) * dim_;
+  Real *values = values_.as<Real>(), *original = original_diagonal_.as<Real>();
   for (size_t c = 0; c < columns(s); ++c) {  // what lies above the diagonal blocks is never read
     if (c % columns_between_looks == columns_between_looks - 1) CallScope::tell();  // the system clears new pages
     const size_t top = c / dim_ * dim_;
-    std::memset(&values_[s.value_start + c * front + top], 0, (front - top) * sizeof(double));
+    std::memset(&values[s.value_start + c * front + top], 0, (front - top) * sizeof(Real));
   }
   for (size_t k = s.entry_start; k < s.entry_start + s.entry_count; ++k) {
     const Entry &e = entries_[k];
-    double *to = &values_[e.target];
+    Real *to = &values[e.target];
     const double *from =
         e.edge >= 0 ? off + static_cast<size_t>(e.edge) * block : diag + static_cast<size_t>(-1 - e.edge) * block;
     // from is row-major: element (row p, column q) at p * dim + q; the panel is column-major.
     for (int q = 0; q < dim_; ++q)
-      for (int p = 0; p < dim_; ++p) to[q * front + p] = e.transposed ? from[q * dim_ + p] : from[p * dim_ + q];
+      for (int p = 0; p < dim_; ++p)
+        to[q * front + p] = static_cast<Real>(e.transposed ? from[q * dim_ + p] : from[p * dim_ + q]);
   }
   for (int32_t k = s.first; k < s.last; ++k)
     for (int q = 0; q < dim_; ++q) {
       const size_t c = static_cast<size_t>(k - s.first) * dim_ + q;
-      original_diagonal_[static_cast<size_t>(k) * dim_ + q] = values_[s.value_start + c * front + c];
+      original[static_cast<size_t>(k) * dim_ + q] = values[s.value_start + c * front + c];
     }
 }
 
 // Adds every `stride`-th block column of a child's Schur complement to the parent: to its panel when `update` is NULL
 // (before the panel is factored), else to its Schur complement (after that was written, so that it needs no clearing).
-template <int D>
-void BlockCholesky::extend_add_columns(int32_t child, double *update, size_t start, size_t stride) {
+template <int D, class Real>
+void BlockCholesky::extend_add_columns(int32_t child, Real *update, size_t start, size_t stride) {
   const Supernode &c = supernodes_[child], &p = supernodes_[c.parent];
   const int32_t *place = &places_[c.row_start], own = p.last - p.first;
   const size_t mc = below(c), split = std::lower_bound(place, place + c.row_count, own) - place;
   const size_t ld = update ? below(p) : columns(p) + below(p), shift = update ? static_cast<size_t>(own) : 0;
-  double *into = update ? update : &values_[p.value_start];
+  const Real *schur = static_cast<const Real *>(update_[child]);
+  Real *into = update ? update : values_.as<Real>() + p.value_start;
   for (size_t b = (update ? split : 0) + start; b < (update ? c.row_count : split); b += stride) {
     if (b % blocks_between_looks == blocks_between_looks - 1) CallScope::tell();
-    const double *from = update_[child] + b * D * mc;
-    double *to = into + (place[b] - shift) * D * ld;
+    const Real *from = schur + b * D * mc;
+    Real *to = into + (place[b] - shift) * D * ld;
     for (size_t column = 0; column < D; ++column)
       for (size_t q = column; q < D; ++q) to[column * ld + (place[b] - shift) * D + q] += from[column * mc + b * D + q];
     for (size_t a = b + 1; a < c.row_count; ++a) {
-      const double *x = from + a * D;
-      double *y = to + (place[a] - shift) * D;
+      const Real *x = from + a * D;
+      Real *y = to + (place[a] - shift) * D;
       for (size_t column = 0; column < D; ++column)
         for (size_t q = 0; q < D; ++q) y[column * ld + q] += x[column * mc + q];
     }
   }
 }
 
-void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
+template <class Real>
+void BlockCholesky::extend_add(int32_t child, Real *update, int threads) {
   const size_t mc = below(supernodes_[child]);
   const auto add = [&](size_t start, size_t stride) {
     switch (dim_) {
@@ -98,19 +103,21 @@ void BlockCholesky::extend_add(int32_t child, double *update, int threads) {
 
 // A parent's Schur complement goes on the other of two stacks than its children's, which are dropped from the top of
 // theirs when it is done: nothing is ever moved.
+template <class Real>
 void BlockCholesky::eliminate(int32_t index, const double *diag, const double *off, Stack &stack, int threads,
                               int &replaced) {
   const Supernode &s = supernodes_[index];
   const size_t m = below(s);
   const int front = static_cast<int>(columns(s) + m), width = static_cast<int>(columns(s)), rows = static_cast<int>(m);
-  double *panel = &values_[s.value_start];
-  assemble(s, diag, off);
-  for (const int32_t c : s.children) extend_add(c, nullptr, threads);
-  replaced += factor_panel(panel, front, front, width, &original_diagonal_[static_cast<size_t>(s.first) * dim_],
-                           {relative_, floor_}, threads);
+  Real *panel = values_.as<Real>() + s.value_start;
+  assemble<Real>(s, diag, off);
+  for (const int32_t c : s.children) extend_add<Real>(c, nullptr, threads);
+  replaced +=
+      factor_panel(panel, front, front, width, original_diagonal_.as<Real>() + static_cast<size_t>(s.first) * dim_,
+                   {relative_, floor_}, threads);
   const int side = s.side;
   const bool stacked = kept_at_[index] == on_stack;
-  double *update = stacked ? stack.memory[side].data() + stack.top[side] : kept_.data() + kept_at_[index];
+  Real *update = stacked ? stack.memory[side].as<Real>() + stack.top[side] : kept_.as<Real>() + kept_at_[index];
   minus_square(update, rows, panel + width, front, width, threads);
   for (const int32_t c : s.children) {
     if (m) extend_add(c, update, threads);
@@ -120,42 +127,49 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   update_[index] = update;
 }
 
+template <class Real>
 void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack,
                              int threads, int &replaced) {
   stack.top[0] = stack.top[1] = 0;
   for (const int32_t s : list) {
-    eliminate(s, diag, off, stack, threads, replaced);
+    eliminate<Real>(s, diag, off, stack, threads, replaced);
     CallScope::tell();
   }
 }
 
-int BlockCholesky::factorise(const double *diag, const double *off) {
-  const BlasSingleThread single;
+int BlockCholesky::factorise(const double *diag, const double *off, Precision precision) {
+  const BlasSingleThread alone;
+  precision_ = precision;
+  return precision == Precision::single ? factorise_as<float>(diag, off) : factorise_as<double>(diag, off);
+}
+
+template <class Real>
+int BlockCholesky::factorise_as(const double *diag, const double *off) {
   int replaced[3] = {0, 0, 0};
   if (!lists_[1].empty()) {
-    on_two_threads([&](int t) { run_list(lists_[t], diag, off, stacks_[t], 1, replaced[t]); });
+    on_two_threads([&](int t) { run_list<Real>(lists_[t], diag, off, stacks_[t], 1, replaced[t]); });
   } else {
-    run_list(lists_[0], diag, off, stacks_[0], 1, replaced[0]);
+    run_list<Real>(lists_[0], diag, off, stacks_[0], 1, replaced[0]);
   }
-  run_list(lists_[2], diag, off, stacks_[0], threads_, replaced[2]);
+  run_list<Real>(lists_[2], diag, off, stacks_[0], threads_, replaced[2]);
   for (const Supernode &s : supernodes_) {
     const size_t front = columns(s) + below(s);
     for (size_t c = 0; c < columns(s); ++c)
-      if (!std::isfinite(values_[s.value_start + c * front + c])) return -1;
+      if (!std::isfinite(values_.as<Real>()[s.value_start + c * front + c])) return -1;
   }
   return replaced[0] + replaced[1] + replaced[2];
 }
 
 // Supernode by supernode for all right-hand sides at once, so that a panel is read once. below: room for the rows of
 // one supernode.
-void BlockCholesky::forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs,
-                            int threads) const {
+template <class Real>
+void BlockCholesky::forward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
   for (const int32_t index : list) {
     const Supernode &s = supernodes_[index];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
     if (static_cast<size_t>(front) * width > worth_a_look) CallScope::tell();
-    panel_forward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d,
+    panel_forward(values_.as<Real>() + s.value_start, front, rows, width, y + static_cast<size_t>(s.first) * d,
                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
     for (int r = 0; r < nrhs; ++r)
       for (size_t k = 0; k < s.row_count; ++k)
@@ -165,8 +179,8 @@ void BlockCholesky::forward(const std::vector<int32_t> &list, double *y, double 
   }
 }
 
-void BlockCholesky::backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs,
-                             int threads) const {
+template <class Real>
+void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d;
   for (size_t at = list.size(); at-- > 0;) {
     const Supernode &s = supernodes_[list[at]];
@@ -177,26 +191,31 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, double *y, double
         for (size_t c = 0; c < d; ++c)
           below_rows[r * largest_below_ + k * d + c] =
               y[r * unknowns + static_cast<size_t>(rows_[s.row_start + k]) * d + c];
-    panel_backward(&values_[s.value_start], front, rows, width, y + static_cast<size_t>(s.first) * d,
+    panel_backward(values_.as<Real>() + s.value_start, front, rows, width, y + static_cast<size_t>(s.first) * d,
                    static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
   }
 }
 
 // Both threads subtract from the top of the tree, so the second one has its own vector until the two are done.
-void BlockCholesky::solve_many(double *x, int nrhs) const {
-  const BlasSingleThread single;
+template <class Real>
+void BlockCholesky::solve_as(double *x, int nrhs) const {
   const size_t d = dim_, unknowns = static_cast<size_t>(n_) * d, room = largest_below_ * nrhs;
   const bool two = !lists_[0].empty();
   const auto both = [&](const auto &work) {
     if (value_count_ > worth_a_reader) return on_two_threads(work);
     work(0), work(1);
   };
-  std::vector<double> y(unknowns * nrhs), other(two ? y.size() : 0), below_rows(two ? 2 * room : room);
+  std::vector<Real> y(unknowns * nrhs), other(two ? y.size() : 0), below_rows(two ? 2 * room : room);
   const auto permute = [&](bool back) {
     for (int r = 0; r < nrhs; ++r)
       for (int32_t k = 0; k < n_; ++k) {
-        double *mine = &y[r * unknowns + static_cast<size_t>(position_[k]) * d], *theirs = x + r * unknowns + k * d;
-        for (size_t c = 0; c < d; ++c) back ? theirs[c] = mine[c] : mine[c] = theirs[c];
+        Real *mine = &y[r * unknowns + static_cast<size_t>(position_[k]) * d];
+        double *theirs = x + r * unknowns + k * d;
+        for (size_t c = 0; c < d; ++c)
+          if (back)
+            theirs[c] = mine[c];
+          else
+            mine[c] = static_cast<Real>(theirs[c]);
       }
   };
   // Entries of y that belong to the supernodes of a list.
@@ -216,6 +235,11 @@ void BlockCholesky::solve_many(double *x, int nrhs) const {
   backward(lists_[2], y.data(), below_rows.data(), nrhs, threads_);
   if (two) both([&](int t) { backward(lists_[t], y.data(), below_rows.data() + t * room, nrhs, 1); });
   permute(true);
+}
+
+void BlockCholesky::solve_many(double *x, int nrhs) const {
+  const BlasSingleThread alone;
+  precision_ == Precision::single ? solve_as<float>(x, nrhs) : solve_as<double>(x, nrhs);
 }
 
 }  // namespace jam

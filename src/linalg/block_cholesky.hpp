@@ -11,6 +11,8 @@
 
 namespace jam {
 
+enum class Precision { full, single };  // doubles or floats
+
 class BlockCholesky {
  public:
   // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees
@@ -24,8 +26,9 @@ class BlockCholesky {
   // Numeric part, allocates nothing. diag: n blocks of dim * dim, full and symmetric; off: one block an edge,
   // row-major, rows of ei and columns of ej. A pivot lost to rounding is replaced by a huge number, which fixes that
   // component of the solution at 0 (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, ch. 11). Returns how
-  // many were; -1: the result is not finite.
-  int factorise(const double *diag, const double *off);
+  // many were; -1: the result is not finite. In single precision it takes some half of the time, and solutions have six
+  // digits over the condition number; matrix and solutions stay doubles.
+  int factorise(const double *diag, const double *off, Precision precision = Precision::full);
   // x := A^-1 x, n * dim. May run on several x at once from different threads.
   void solve(double *x) const { solve_many(x, 1); }
   // The same for nrhs vectors one after the other in x.
@@ -73,16 +76,26 @@ class BlockCholesky {
   std::vector<int32_t> share_out(const std::vector<double> &work);
   void keep(const std::vector<int32_t> &roots);
   void lay_stacks(int list);
+  template <class Real>
+  int factorise_as(const double *diag, const double *off);
+  template <class Real>
   void eliminate(int32_t s, const double *diag, const double *off, Stack &stack, int threads, int &replaced);
+  template <class Real>
   void assemble(const Supernode &s, const double *diag, const double *off);
-  void extend_add(int32_t child, double *update, int threads);
-  template <int D>
-  void extend_add_columns(int32_t child, double *update, size_t start, size_t stride);
+  template <class Real>
+  void extend_add(int32_t child, Real *update, int threads);
+  template <int D, class Real>
+  void extend_add_columns(int32_t child, Real *update, size_t start, size_t stride);
+  template <class Real>
   void run_list(const std::vector<int32_t> &list, const double *diag, const double *off, Stack &stack, int threads,
                 int &replaced);
 
-  void forward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const;
-  void backward(const std::vector<int32_t> &list, double *y, double *below_rows, int nrhs, int threads) const;
+  template <class Real>
+  void solve_as(double *x, int nrhs) const;
+  template <class Real>
+  void forward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const;
+  template <class Real>
+  void backward(const std::vector<int32_t> &list, Real *y, Real *below_rows, int nrhs, int threads) const;
 
   int dim_ = 0, threads_ = 1;
   bool dry_ = false;  // sizes only
@@ -94,9 +107,10 @@ class BlockCholesky {
   std::vector<int32_t> rows_, places_;  // below a supernode; where in its parent's front they are
   std::vector<Entry> entries_;
   ScratchBuffer values_;
-  std::vector<double> original_diagonal_;
-  std::vector<double *> update_;  // Schur complement of each supernode while it is needed
-  std::vector<size_t> kept_at_;   // where in kept_ that of a subtree's root is, which outlives its thread's stack
+  ScratchBuffer original_diagonal_;
+  Precision precision_ = Precision::full;
+  std::vector<void *> update_;   // Schur complement of each supernode while it is needed
+  std::vector<size_t> kept_at_;  // where in kept_ that of a subtree's root is, which outlives its thread's stack
   ScratchBuffer kept_;
   std::vector<int32_t> lists_[3];  // supernodes of thread 0, thread 1, and the top of the tree
   Stack stacks_[2];

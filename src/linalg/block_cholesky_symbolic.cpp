@@ -222,7 +222,7 @@ void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, co
   find_supernodes(parent, structure);
   place_entries(ei, ej, edges);
   plan();
-  original_diagonal_.assign(static_cast<size_t>(n) * dim, 0.0);
+  if (!dry_) original_diagonal_.need(static_cast<size_t>(n) * dim);
 }
 
 BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges,

@@ -11,10 +11,16 @@
 namespace jam {
 namespace {
 
-constexpr double one = 1.0, minus_one = -1.0, zero = 0.0;
+template <class Real>
+constexpr Real one = 1;
+template <class Real>
+constexpr Real minus_one = -1;
+template <class Real>
+constexpr Real zero = 0;
 constexpr int inc = 1;
-constexpr double huge_pivot = 1e64;  // the square root of what replaces it
-constexpr int narrow = 48;           // columns that are factored without splitting them
+template <class Real>
+constexpr Real huge_pivot = Real(sizeof(Real) == sizeof(double) ? 1e64 : 1e15);  // the square root of what replaces it
+constexpr int narrow = 48;  // columns that are factored without splitting them
 // Fewer multiplications than this are done before a second thread has started; a product of a vector is as slow as
 // memory.
 constexpr double worth_a_thread = 1e7, worth_a_reader = 1e6;
@@ -22,23 +28,24 @@ constexpr double worth_a_thread = 1e7, worth_a_reader = 1e6;
 constexpr double worth_telling = 2e9;
 
 // Unblocked Cholesky of the leading columns of a small block; returns the number of replaced pivots.
-int factor_small(double *a, int lda, int columns, const double *original, const PivotRule &rule) {
+template <class Real>
+int factor_small(Real *a, int lda, int columns, const Real *original, const PivotRule &rule) {
   int replaced = 0;
   for (int j = 0; j < columns; ++j) {
-    double *cj = a + static_cast<size_t>(j) * lda;
-    double pivot = cj[j];
+    Real *cj = a + static_cast<size_t>(j) * lda;
+    Real pivot = cj[j];
     if (pivot > std::max(rule.relative * original[j], rule.floor)) {
       pivot = std::sqrt(pivot);
     } else if (std::isfinite(pivot)) {  // else it stays and factorise() finds it
-      pivot = huge_pivot;
+      pivot = huge_pivot<Real>;
       ++replaced;
     }
     cj[j] = pivot;
-    const double inverse = 1.0 / pivot;
+    const Real inverse = 1 / pivot;
     for (int i = j + 1; i < columns; ++i) cj[i] *= inverse;
     for (int k = j + 1; k < columns; ++k) {
-      double *ck = a + static_cast<size_t>(k) * lda;
-      const double f = cj[k];
+      Real *ck = a + static_cast<size_t>(k) * lda;
+      const Real f = cj[k];
       for (int i = k; i < columns; ++i) ck[i] -= f * cj[i];
     }
   }
@@ -46,18 +53,22 @@ int factor_small(double *a, int lda, int columns, const double *original, const 
 }
 
 // C = beta C - B B_top^T on and below the diagonal of the first `columns` columns of C; B has as many rows as C.
-void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b, int ldb, int k, const double &beta) {
+template <class Real>
+void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, const Real &beta) {
   if (columns == 0) return;
-  dsyrk_("L", "N", &columns, &k, &minus_one, b, &ldb, &beta, c, &ldc);
+  Blas<Real>::syrk("L", "N", &columns, &k, &minus_one<Real>, b, &ldb, &beta, c, &ldc);
   const int rest = rows - columns;
-  if (rest > 0) dgemm_("N", "T", &rest, &columns, &k, &minus_one, b + columns, &ldb, b, &ldb, &beta, c + columns, &ldc);
+  if (rest > 0)
+    Blas<Real>::gemm("N", "T", &rest, &columns, &k, &minus_one<Real>, b + columns, &ldb, b, &ldb, &beta, c + columns,
+                     &ldc);
 }
 
 double area_of(int rows, int columns) { return columns * (rows - 0.5 * columns); }
 
 // The same, on two threads when it is worth it: columns are split where the two areas are even.
-void minus_trapezoid_on(int threads, double *c, int ldc, int rows, int columns, const double *b, int ldb, int k,
-                        const double &beta) {
+template <class Real>
+void minus_trapezoid_on(int threads, Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k,
+                        const Real &beta) {
   const double area = area_of(rows, columns);
   if (threads < 2 || area * k < worth_a_thread) return minus_trapezoid(c, ldc, rows, columns, b, ldb, k, beta);
   const int cut = static_cast<int>(rows - std::sqrt(static_cast<double>(rows) * rows - area));
@@ -69,7 +80,8 @@ void minus_trapezoid_on(int threads, double *c, int ldc, int rows, int columns, 
   });
 }
 
-void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b, int ldb, int k, const double &beta,
+template <class Real>
+void minus_trapezoid(Real *c, int ldc, int rows, int columns, const Real *b, int ldb, int k, const Real &beta,
                      int threads) {
   const auto work = [&] { minus_trapezoid_on(threads, c, ldc, rows, columns, b, ldb, k, beta); };
   if (area_of(rows, columns) * k < worth_telling) return work();
@@ -77,31 +89,34 @@ void minus_trapezoid(double *c, int ldc, int rows, int columns, const double *b,
 }
 
 // B := B L^-T.
-void divide_by_top(const double *top, int ld, int rows, int columns, double *b, int threads) {
+template <class Real>
+void divide_by_top(const Real *top, int ld, int rows, int columns, Real *b, int threads) {
   if (rows == 0) return;
   if (threads < 2 || static_cast<double>(rows) * columns * columns < worth_a_thread) {
-    dtrsm_("R", "L", "T", "N", &rows, &columns, &one, top, &ld, b, &ld);
+    Blas<Real>::trsm("R", "L", "T", "N", &rows, &columns, &one<Real>, top, &ld, b, &ld);
     return;
   }
   const int half = rows / 2, rest = rows - half;
   on_two_threads([&](int part) {
-    dtrsm_("R", "L", "T", "N", part ? &rest : &half, &columns, &one, top, &ld, part ? b + half : b, &ld);
+    Blas<Real>::trsm("R", "L", "T", "N", part ? &rest : &half, &columns, &one<Real>, top, &ld, part ? b + half : b,
+                     &ld);
   });
 }
 
 // The triangle on top of a panel, forward ("N") or backward ("T").
-void solve_top(const double *panel, int ld, int columns, double *x, int ldx, int nrhs, const char *trans) {
+template <class Real>
+void solve_top(const Real *panel, int ld, int columns, Real *x, int ldx, int nrhs, const char *trans) {
   if (nrhs == 1)
-    dtrsv_("L", trans, "N", &columns, panel, &ld, x, &inc);
+    Blas<Real>::trsv("L", trans, "N", &columns, panel, &ld, x, &inc);
   else
-    dtrsm_("L", "L", trans, "N", &columns, &nrhs, &one, panel, &ld, x, &ldx);
+    Blas<Real>::trsm("L", "L", trans, "N", &columns, &nrhs, &one<Real>, panel, &ld, x, &ldx);
 }
 
 }  // namespace
 
 // Halves of columns, so that most of the work is products of wide blocks.
-int factor_panel(double *panel, int ld, int rows, int columns, const double *original, const PivotRule &rule,
-                 int threads) {
+template <class Real>
+int factor_panel(Real *panel, int ld, int rows, int columns, const Real *original, const PivotRule &rule, int threads) {
   if (columns <= narrow) {
     const int replaced = factor_small(panel, ld, columns, original, rule);
     divide_by_top(panel, ld, rows - columns, columns, panel + columns, threads);
@@ -110,39 +125,44 @@ int factor_panel(double *panel, int ld, int rows, int columns, const double *ori
   }
   const int left = (columns / 2 + narrow - 1) / narrow * narrow;
   const int replaced = factor_panel(panel, ld, rows, left, original, rule, threads);
-  double *trailing = panel + static_cast<size_t>(left) * ld + left;
-  minus_trapezoid(trailing, ld, rows - left, columns - left, panel + left, ld, left, one, threads);
+  Real *trailing = panel + static_cast<size_t>(left) * ld + left;
+  minus_trapezoid(trailing, ld, rows - left, columns - left, panel + left, ld, left, one<Real>, threads);
   return replaced + factor_panel(trailing, ld, rows - left, columns - left, original + left, rule, threads);
 }
 
-void minus_square(double *c, int n, const double *b, int ldb, int k, int threads) {
-  if (n > 0 && k > 0) minus_trapezoid(c, n, n, n, b, ldb, k, zero, threads);
+template <class Real>
+void minus_square(Real *c, int n, const Real *b, int ldb, int k, int threads) {
+  if (n > 0 && k > 0) minus_trapezoid(c, n, n, n, b, ldb, k, zero<Real>, threads);
 }
 
-void panel_forward(const double *panel, int ld, int rows, int columns, double *top, int ldt, double *below, int ldb,
-                   int nrhs, int threads) {
+template <class Real>
+void panel_forward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, Real *below, int ldb, int nrhs,
+                   int threads) {
   solve_top(panel, ld, columns, top, ldt, nrhs, "N");
   const auto multiply = [&](int first, int count) {
-    const double *l = panel + columns + first;
+    const Real *l = panel + columns + first;
     if (count == 0) return;
     if (nrhs == 1)
-      dgemv_("N", &count, &columns, &one, l, &ld, top, &inc, &zero, below + first, &inc);
+      Blas<Real>::gemv("N", &count, &columns, &one<Real>, l, &ld, top, &inc, &zero<Real>, below + first, &inc);
     else
-      dgemm_("N", "N", &count, &nrhs, &columns, &one, l, &ld, top, &ldt, &zero, below + first, &ldb);
+      Blas<Real>::gemm("N", "N", &count, &nrhs, &columns, &one<Real>, l, &ld, top, &ldt, &zero<Real>, below + first,
+                       &ldb);
   };
   if (threads < 2 || static_cast<double>(rows) * columns < worth_a_reader) return multiply(0, rows);
   on_two_threads([&](int part) { part ? multiply(rows / 2, rows - rows / 2) : multiply(0, rows / 2); });
 }
 
-void panel_backward(const double *panel, int ld, int rows, int columns, double *top, int ldt, const double *below,
-                    int ldb, int nrhs, int threads) {
+template <class Real>
+void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, const Real *below, int ldb,
+                    int nrhs, int threads) {
   const auto multiply = [&](int first, int count) {
-    const double *l = panel + static_cast<size_t>(first) * ld + columns;
+    const Real *l = panel + static_cast<size_t>(first) * ld + columns;
     if (rows == 0 || count == 0) return;
     if (nrhs == 1)
-      dgemv_("T", &rows, &count, &minus_one, l, &ld, below, &inc, &one, top + first, &inc);
+      Blas<Real>::gemv("T", &rows, &count, &minus_one<Real>, l, &ld, below, &inc, &one<Real>, top + first, &inc);
     else
-      dgemm_("T", "N", &count, &nrhs, &rows, &minus_one, l, &ld, below, &ldb, &one, top + first, &ldt);
+      Blas<Real>::gemm("T", "N", &count, &nrhs, &rows, &minus_one<Real>, l, &ld, below, &ldb, &one<Real>, top + first,
+                       &ldt);
   };
   if (threads < 2 || static_cast<double>(rows) * columns < worth_a_reader)
     multiply(0, columns);
@@ -150,5 +170,14 @@ void panel_backward(const double *panel, int ld, int rows, int columns, double *
     on_two_threads([&](int part) { part ? multiply(columns / 2, columns - columns / 2) : multiply(0, columns / 2); });
   solve_top(panel, ld, columns, top, ldt, nrhs, "T");
 }
+
+template int factor_panel(double *, int, int, int, const double *, const PivotRule &, int);
+template int factor_panel(float *, int, int, int, const float *, const PivotRule &, int);
+template void minus_square(double *, int, const double *, int, int, int);
+template void minus_square(float *, int, const float *, int, int, int);
+template void panel_forward(const double *, int, int, int, double *, int, double *, int, int, int);
+template void panel_forward(const float *, int, int, int, float *, int, float *, int, int, int);
+template void panel_backward(const double *, int, int, int, double *, int, const double *, int, int, int);
+template void panel_backward(const float *, int, int, int, float *, int, const float *, int, int, int);
 
 }  // namespace jam

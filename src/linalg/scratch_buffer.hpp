@@ -5,26 +5,30 @@
 
 namespace jam {
 
-// Numbers that are written before they are read. Nothing is cleared, since gigabytes take seconds. The old block goes
-// before the new one comes. A new one is an eighth larger than asked, so that a list with a few pairs more fits into
-// it. Pages beyond what was asked for stay untouched.
+// Doubles, or as many floats in half the room, that are written before they are read. Nothing is cleared, since
+// gigabytes take seconds. The old block goes before the new one comes. A new one is an eighth larger than asked, so
+// that a list with a few pairs more fits into it. Pages beyond what was asked for stay untouched.
 class ScratchBuffer {
  public:
   void need(size_t size) {
     if (size <= capacity_) return;
     memory_.reset();
     capacity_ = 0;
-    memory_.reset(new double[size + size / 8]);
+    memory_.reset(new unsigned char[(size + size / 8) * sizeof(double)]);
     capacity_ = size + size / 8;
   }
-  double *data() { return memory_.get(); }
-  const double *data() const { return memory_.get(); }
-  double &operator[](size_t k) { return memory_[k]; }
-  const double &operator[](size_t k) const { return memory_[k]; }
-  size_t capacity() const { return capacity_; }
+  template <class Real>
+  Real *as() {
+    return reinterpret_cast<Real *>(memory_.get());
+  }
+  template <class Real>
+  const Real *as() const {
+    return reinterpret_cast<const Real *>(memory_.get());
+  }
+  size_t capacity() const { return capacity_; }  // in doubles
 
  private:
-  std::unique_ptr<double[]> memory_;
+  std::unique_ptr<unsigned char[]> memory_;
   size_t capacity_ = 0;
 };
 

@@ -84,7 +84,7 @@ void NewtonSystem::assemble(const double *a, const double *weight) {
     for (int p = 0; p < D; ++p) diag_[static_cast<size_t>(i) * B + p * (D + 1)] += box_[static_cast<size_t>(i) * D + p];
 }
 
-bool NewtonSystem::factorise(const double *a, const double *weight, const double *box) {
+bool NewtonSystem::factorise(const double *a, const double *weight, const double *box, Precision precision) {
   const double t0 = now_seconds();
   a_ = a;
   weight_ = weight;
@@ -116,11 +116,11 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   }
   const double t1 = now_seconds();
   seconds_assemble += t1 - t0;
-  const int replaced = cholesky_.factorise(diag_.data(), off_.data());
+  const int replaced = cholesky_.factorise(diag_.data(), off_.data(), precision);
   ++factorisations;
   const double t2 = now_seconds();
   seconds_factor += t2 - t1;
-  if (replaced < 0) return false;
+  if (replaced < 0 || (replaced > 0 && precision == Precision::single)) return false;
   transpose_times(a, weight, column_.data());
   delta_ = 0.0;
   for (size_t k = 0; k < pair_i_.size(); ++k) delta_ += weight[k];
@@ -180,17 +180,60 @@ void NewtonSystem::solve_once(const double *rhs, double h, double *ds, double *d
   for (size_t k = 0; k < spheres; ++k) ds[k] += *dg * column_solved_[k];
 }
 
+// work_ = A^T D (A ds - dg), without box. Returns `rest` less the row of g.
+double NewtonSystem::operator_times(const double *ds, double dg, double rest) {
+  rows_times(a_, ds, row_work_.data());
+  for (size_t k = 0; k < row_work_.size(); ++k) {
+    row_work_[k] = weight_[k] * (row_work_[k] - dg);
+    rest += row_work_[k];
+  }
+  transpose_times(a_, row_work_.data(), work_.data());
+  return rest;
+}
+
+bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
+  const double t0 = now_seconds();
+  residual_.assign(rhs, rhs + box_.size());
+  const bool near = conjugate_gradients(h, ds, dg, accuracy, most);
+  seconds_solve += now_seconds() - t0;
+  return near;
+}
+
+// residual_ holds the right-hand side. The squared error in the norm of the matrix is about r . M^-1 r.
+bool NewtonSystem::conjugate_gradients(double h, double *ds, double *dg, double accuracy, int most) {
+  const size_t unknowns = box_.size();
+  std::fill(ds, ds + unknowns, 0.0);
+  *dg = 0.0;
+  double correction_g = 0.0, direction_g = 0.0, product = 0.0, first = 0.0;
+  direction_.assign(unknowns, 0.0);
+  for (int step = 0;; ++step) {
+    solve_once(residual_.data(), h, correction_.data(), &correction_g);
+    const double next = dot(residual_, correction_.data()) + h * correction_g;
+    if (step == 0) first = next;
+    if (!(next >= 0.0) || !std::isfinite(next)) return false;
+    if (next <= accuracy * accuracy * first) break;
+    if (step == most) return false;
+    const double keep = step == 0 ? 0.0 : next / product;
+    product = next;
+    for (size_t k = 0; k < unknowns; ++k) direction_[k] = correction_[k] + keep * direction_[k];
+    direction_g = correction_g + keep * direction_g;
+    const double row_g = -operator_times(direction_.data(), direction_g, 0.0);
+    for (size_t k = 0; k < unknowns; ++k) work_[k] += box_[k] * direction_[k];
+    const double alpha = product / (dot(work_, direction_.data()) + row_g * direction_g);
+    for (size_t k = 0; k < unknowns; ++k) ds[k] += alpha * direction_[k], residual_[k] -= alpha * work_[k];
+    *dg += alpha * direction_g;
+    h -= alpha * row_g;
+  }
+  for (size_t k = 0; k < unknowns; ++k) ds[k] += correction_[k];  // the last correction costs nothing
+  *dg += correction_g;
+  return true;
+}
+
 void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, int refine) {
   const double t0 = now_seconds();
   solve_once(rhs, h, ds, dg);
   for (int step = 0; step < refine; ++step) {
-    rows_times(a_, ds, row_work_.data());
-    double rest = h;
-    for (size_t k = 0; k < row_work_.size(); ++k) {
-      row_work_[k] = weight_[k] * (row_work_[k] - *dg);
-      rest += row_work_[k];
-    }
-    transpose_times(a_, row_work_.data(), work_.data());
+    const double rest = operator_times(ds, *dg, h);
     double worst = std::fabs(rest), scale = std::fabs(h);
     for (size_t k = 0; k < work_.size(); ++k) {
       residual_[k] = rhs[k] - work_[k] - box_[k] * ds[k];

@@ -92,6 +92,7 @@ const Mechanism mechanisms[] = {
     {"wide bound", [](Tuning &t, jam_crunch_options &) { t.min_bound = 1e-6; }},
     {"barrier path", [](Tuning &, jam_crunch_options &o) { o.method = JAM_CRUNCH_SEQUENTIAL_LP; }},
     {"LPs alone for crystals", [](Tuning &t, jam_crunch_options &) { t.crystal_rows = never; }},
+    {"single precision", [](Tuning &t, jam_crunch_options &) { t.single_work = never; }},
     {"correctors", [](Tuning &t, jam_crunch_options &) { t.max_correctors = 0; }},
     {"leaving saddles of the path", [](Tuning &t, jam_crunch_options &) { t.increase = 1.0; }},
     {"nearly centred", [](Tuning &t, jam_crunch_options &) { t.nearly_centred = 0.0; }},

@@ -130,6 +130,39 @@ void random_graphs(void **) {
         }
 }
 
+// Floats solve to their own digits and leave nothing behind: doubles after them have the bits of doubles alone.
+void single_precision(void **) {
+  for (int dim = 1; dim <= 8; ++dim)
+    for (const int threads : {1, 2}) {
+      const Problem p = make_problem(dim, dim > 5 ? 40 : 300, 9.0, true, dim);
+      BlockCholesky f, full;
+      f.analyse(dim, p.n, p.ei.data(), p.ej.data(), p.ei.size(), threads);
+      assert_int_equal(f.factorise(p.diag.data(), p.off.data(), Precision::single), 0);
+      for (const int count : {1, 3}) {
+        const double error = solve_error(p, f, count);
+        assert_true(error < 3e-7 && error > 1e-12);
+      }
+      assert_int_equal(f.factorise(p.diag.data(), p.off.data()), 0);
+      assert_int_equal(analyse_and_factorise(full, p, threads), 0);
+      std::vector<double> x(static_cast<size_t>(p.n) * dim, 1.0), y = x;
+      f.solve(x.data()), full.solve(y.data());
+      assert_true(x == y);
+    }
+}
+
+// A pivot that doubles find and floats lose is replaced, and counted.
+void single_precision_loses_pivots(void **) {
+  const std::vector<double> diag = {1.0, 1.0}, off = {1.0 - 1e-9};
+  const int32_t i = 0, j = 1;
+  BlockCholesky f;
+  f.analyse(1, 2, &i, &j, 1);
+  assert_int_equal(f.factorise(diag.data(), off.data()), 0);
+  assert_int_equal(f.factorise(diag.data(), off.data(), Precision::single), 1);
+  double x[2] = {1.0, 1.0};
+  f.solve(x);
+  assert_true(std::isfinite(x[0]) && std::isfinite(x[1]));
+}
+
 void dimension_refused(void **) {
   const Problem p = make_problem(2, 7, 3.0, false, 1);
   for (const int dim : {0, 9}) {
@@ -351,6 +384,8 @@ void scratch_memory_is_reused(void **) {
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(no_second_thread),
                               cmocka_unit_test(random_graphs),
+                              cmocka_unit_test(single_precision),
+                              cmocka_unit_test(single_precision_loses_pivots),
                               cmocka_unit_test(dimension_refused),
                               cmocka_unit_test(threads_agree),
                               cmocka_unit_test(two_threads_share_fronts),

@@ -248,11 +248,33 @@ void ordering_disks(void **) {
   assert_true(jammed >= 57);
 }
 
+// Floats serve down to small gaps: the path arrives, and nothing is left to gain. Where they fail at once, doubles take
+// over and the path has the bits of doubles alone.
+void floats_serve(void **) {
+  for (const int dim : {2, 3}) {
+    const Packing begin = near_start(100, dim, 1);
+    BarrierPathControl control = patient();
+    control.tuning.single_work = 1e300;
+    Packing doubles = begin, floats = begin, failing = begin;
+    const PathRun full = follow(doubles, control);
+    control.tuning.single_work = 0.0;
+    const PathRun single = follow(floats, control);
+    nothing_left(floats, single);
+    assert_true(single.phi != full.phi);
+    print_message("d %d: %d factorisations, %d in doubles\n", dim, single.end.factorisations, full.end.factorisations);
+    control.tuning.max_single_products = 0;
+    const PathRun refused = follow(failing, control);
+    assert_true(refused.phi == full.phi && failing.position == doubles.position);
+    assert_true(refused.end.factorisations > full.end.factorisations);
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(merit_is_true),        cmocka_unit_test(walls_stop),
                               cmocka_unit_test(saddle_is_left),       cmocka_unit_test(arrives),
-                              cmocka_unit_test(arrives_in_free_cell), cmocka_unit_test(ordering_disks)};
+                              cmocka_unit_test(arrives_in_free_cell), cmocka_unit_test(ordering_disks),
+                              cmocka_unit_test(floats_serve)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

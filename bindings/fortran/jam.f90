@@ -636,7 +636,7 @@ module jam
     integer(c_int32_t) :: steps = 0
     ! 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
     integer(c_int32_t) :: full_lps = 0
-    ! jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
+    ! jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
     integer(c_int32_t) :: strain = 0
     ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
     integer(c_int32_t) :: keep_steps = 0
@@ -704,7 +704,7 @@ module jam
     real(c_double) :: gamma_residual = 0
     ! smallest contact force over the mean
     real(c_double) :: min_force = 0
-    ! smallest h of a pair of stable spheres that is no contact
+    ! smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
     real(c_double) :: min_gap = 0
     ! largest |h| of a contact
     real(c_double) :: max_contact_gap = 0
@@ -847,7 +847,7 @@ module jam
     integer(c_int32_t) :: max_steps = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
-    ! of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept steps took, if that is less
+    ! of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all kept steps took: at least a 20th of this limit, and never more than it
     integer(c_int64_t) :: max_evaluations = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
@@ -947,7 +947,7 @@ module jam
   type, bind(c) :: jam_geometry_report
     ! set by the caller: sizeof(jam_geometry_report)
     integer(c_int32_t) :: struct_size = 136
-    ! spheres touching their own image; left out of the network
+    ! contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
     integer(c_int32_t) :: self_contacts = 0
     ! used
     real(c_double) :: tolerance = 0
@@ -1796,7 +1796,7 @@ module jam
     ! from the last call. report may be NULL.
     ! Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
     ! valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-    ! JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
+    ! JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
     ! JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_crunch(sys, o, report) &
         bind(c, name="jam_crunch") result(status)
@@ -1960,7 +1960,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_decompress_history
 
-    ! Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
+    ! Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
+    ! with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
     ! Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1
     function jam_contacts(sys, iout, iout_len, needed) &
         bind(c, name="jam_contacts") result(status)
@@ -2150,6 +2151,7 @@ module jam
 
     ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
     ! pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+    ! A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
     ! Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
     ! for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
     ! Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,

@@ -470,7 +470,7 @@ then goes on at the mu that was reached. Bits may differ from those of one call.
 from the last call. report may be NULL.
 Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
+JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_crunch_estimate "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
 same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
@@ -512,7 +512,8 @@ JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
 Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1"
 %feature("docstring") jam_decompress_history "One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_contacts "Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
+%feature("docstring") jam_contacts "Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
+with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 %feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
 0.1"
@@ -553,6 +554,7 @@ NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of
 JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_rigidity "Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
 Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
 for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,

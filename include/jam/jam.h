@@ -786,7 +786,8 @@ typedef struct jam_crunch_options {
   int32_t full_lps; /* 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP
                      * that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
   int32_t strain;   /* jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
-                     * optimum; FREE ends strictly jammed */
+                     * optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own
+                     * images, which only strains move */
   int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there
                        * are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
 } jam_crunch_options;
@@ -824,7 +825,8 @@ typedef struct jam_crunch_report {
   double force_residual;          /* largest |sum_j f_ij n_ij| over mean force */
   double gamma_residual;          /* |sum lambda_ij sigma_ij^2 - 1| of the last LP */
   double min_force;               /* smallest contact force over the mean */
-  double min_gap;                 /* smallest h of a pair of stable spheres that is no contact */
+  double min_gap;                 /* smallest h of a pair of stable spheres that is no contact; after a free
+                                   * cell own images count as pairs */
   double max_contact_gap;         /* largest |h| of a contact */
   double duality_gap;             /* of the last LP, relative to Gamma */
   double force_scale;             /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
@@ -843,7 +845,7 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
  * from the last call. report may be NULL.
  * Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
  * valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
- * JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
+ * JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
  * JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
@@ -1020,8 +1022,8 @@ typedef struct jam_decompress_options {
                          * the system ends as that jammed packing. 0: it ends as the soft packing */
   int32_t max_steps;    /* >= 1, default 1000 */
   int32_t reserved;     /* 0 */
-  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept
-                            * steps took, if that is less */
+  int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what
+                            * all kept steps took: at least a 20th of this limit, and never more than it */
   double wall_time;        /* limit in seconds, > 0, default infinity */
 } jam_decompress_options;
 
@@ -1085,7 +1087,8 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t column,
 
 /* ------------------------------------------------------------------ contact network */
 
-/* Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
+/* Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
+ * with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
  * Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1 */
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 /* Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
@@ -1179,7 +1182,8 @@ typedef struct jam_geometry_options {
 /* What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1 */
 typedef struct jam_geometry_report {
   uint32_t struct_size;    /* set by the caller: sizeof(jam_geometry_report) */
-  int32_t self_contacts;   /* spheres touching their own image; left out of the network */
+  int32_t self_contacts;   /* contacts of spheres with their own images, which constrain nothing in a fixed
+                            * cell: left out of the network */
   double tolerance;        /* used */
   double gap_below;        /* largest |h| within it, rattlers included */
   double gap_above;        /* smallest |h| beyond it (window when there is none) */
@@ -1266,6 +1270,7 @@ typedef struct jam_rigidity_report {
 
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
  * pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+ * A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
  * Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
  * for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
  * Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,

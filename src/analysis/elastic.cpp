@@ -64,7 +64,7 @@ ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const Co
   const size_t d = static_cast<size_t>(p.dim), gradients = d * d;
   const double volume = p.cell.volume();
   const GroundedSolver solver(g, w);
-  if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.hessian().norm_bound())
+  if (!w.transverse.empty() && solver.shift() > 1e-9 * solver.scale())
     fail(JAM_E_STATE,
          "with this pre-stress the Hessian has negative eigenvalues: the network is unstable and has no moduli");
   const Network network{g, w, solver};

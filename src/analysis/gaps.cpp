@@ -58,11 +58,16 @@ Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool s
 }
 
 namespace {
-std::vector<std::vector<size_t>> contacts_of(const Packing &p, const ContactNetwork &net) {
-  std::vector<std::vector<size_t>> of(p.n());
+// A contact as one of its spheres sees it: sign times its vector points to that sphere. An own image has both signs.
+struct Side {
+  size_t contact;
+  double sign;
+};
+std::vector<std::vector<Side>> contacts_of(const Packing &p, const ContactNetwork &net) {
+  std::vector<std::vector<Side>> of(p.n());
   for (size_t k = 0; k < net.size(); ++k) {
-    of[net.pairs.i[k]].push_back(k);
-    of[net.pairs.j[k]].push_back(k);
+    of[net.pairs.i[k]].push_back({k, 1.0});
+    of[net.pairs.j[k]].push_back({k, -1.0});
   }
   return of;
 }
@@ -75,20 +80,21 @@ std::vector<int32_t> classify_contacts(const Packing &p, const ContactNetwork &n
       flags[k] |= JAM_CONTACT_LOCALISED;
   for (auto &of : contacts_of(p, net)) {
     if (of.empty() || net.force.empty()) continue;
-    std::sort(of.begin(), of.end(),
-              [&](size_t x, size_t y) { return net.force[x] != net.force[y] ? net.force[x] < net.force[y] : x < y; });
-    flags[of.front()] |= JAM_CONTACT_SMALLEST;
-    flags[of[(of.size() - 1) / 2]] |= JAM_CONTACT_MEDIAN;
+    std::sort(of.begin(), of.end(), [&](const Side &x, const Side &y) {
+      const double a = net.force[x.contact], b = net.force[y.contact];
+      return a != b ? a < b : x.contact < y.contact;
+    });
+    flags[of.front().contact] |= JAM_CONTACT_SMALLEST;
+    flags[of[(of.size() - 1) / 2].contact] |= JAM_CONTACT_MEDIAN;
   }
   return flags;
 }
 
 namespace {
-// Vector of contact k as seen from sphere i (pointing to i), times the force when weighted.
-void seen_from(const Packing &p, const ContactNetwork &net, size_t k, size_t i, bool weighted, double *v) {
-  double scale = static_cast<size_t>(net.pairs.i[k]) == i ? 1.0 : -1.0;
-  if (weighted) scale *= net.force[k];
-  for (int c = 0; c < p.dim; ++c) v[c] = scale * net.vector[k * p.dim + c];
+// The vector that points to the sphere, times the force when weighted.
+void seen_from(const Packing &p, const ContactNetwork &net, const Side &side, bool weighted, double *v) {
+  const double scale = weighted ? side.sign * net.force[side.contact] : side.sign;
+  for (int c = 0; c < p.dim; ++c) v[c] = scale * net.vector[side.contact * p.dim + c];
 }
 void need_forces(const ContactNetwork &net, bool weighted) {
   if (weighted && net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
@@ -103,8 +109,9 @@ SphereStructure sphere_structure(const Packing &p, const ContactNetwork &net, bo
   out.s.assign(p.n(), 0.0);
   std::vector<double> self(p.n(), 0.0), v(d);
   for (size_t k = 0; k < net.size(); ++k)
-    for (const size_t i : {static_cast<size_t>(net.pairs.i[k]), static_cast<size_t>(net.pairs.j[k])}) {
-      seen_from(p, net, k, i, weighted, v.data());
+    for (const Side &side : {Side{k, 1.0}, Side{k, -1.0}}) {
+      const size_t i = static_cast<size_t>(side.sign > 0.0 ? net.pairs.i[k] : net.pairs.j[k]);
+      seen_from(p, net, side, weighted, v.data());
       for (int c = 0; c < d; ++c) {
         out.c[i * d + c] += v[c];
         self[i] += v[c] * v[c];
@@ -125,9 +132,9 @@ ContactDots contact_dots(const Packing &p, const ContactNetwork &net, bool weigh
   const auto all = contacts_of(p, net);
   for (size_t i = 0; i < p.n(); ++i)
     for (size_t x = 0; x < all[i].size(); ++x) {
-      seen_from(p, net, all[i][x], i, weighted, a.data());
+      seen_from(p, net, all[i][x], weighted, a.data());
       for (size_t y = x + 1; y < all[i].size(); ++y) {
-        seen_from(p, net, all[i][y], i, weighted, b.data());
+        seen_from(p, net, all[i][y], weighted, b.data());
         double dot = 0.0;
         for (int c = 0; c < p.dim; ++c) dot += a[c] * b[c];
         out.dot.push_back(dot);

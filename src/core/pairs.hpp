@@ -13,6 +13,8 @@ struct PairList {
   std::vector<int32_t> i, j;
   std::vector<double> offset;  // (count, dim)
   size_t size() const { return i.size(); }
+  // A sphere and its own image: only strains change their distance.
+  bool own_image(size_t k) const { return i[k] == j[k]; }
   void clear() {
     i.clear();
     j.clear();

@@ -22,7 +22,7 @@ ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x, double close
   std::vector<char> on = force_carrying(lp, x, closed);
   std::vector<double> normal(lp.a);
   for (size_t k = 0; k < on.size(); ++k) {
-    on[k] = on[k] && pairs.i[k] != pairs.j[k];
+    on[k] = on[k] && (lp.strains > 0 || !pairs.own_image(k));
     double a2 = 0.0;
     for (int c = 0; c < lp.dim; ++c) a2 += normal[k * lp.dim + c] * normal[k * lp.dim + c];
     for (int c = 0; c < lp.dim && a2 > 0.0; ++c) normal[k * lp.dim + c] /= std::sqrt(a2);

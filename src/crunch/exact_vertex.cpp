@@ -49,10 +49,11 @@ Phase exact_vertex(CrunchState &s) {
     const LpStep step = make_step(s, reach);
     if (s.show(JAM_PHASE_CRUNCH, step.gain, step.longest)) s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED);
     if (s.out.report.stop_reason != JAM_STOP_NONE) break;
+    double longest = step.longest;  // of spheres, or of the strain, which moves own images alone
+    for (const double e : s.answer.strain) longest = std::max(longest, std::fabs(e));
     const bool converged = step.gain < t.closed_gap;
-    if (converged && step.longest * step.longest < t.closed_gap && clp_tolerance * s.bound < t.closed_gap) break;
-    s.bound =
-        std::min(converged ? t.narrower * s.bound : s.bound, std::max(10.0 * step.longest, std::sqrt(t.closed_gap)));
+    if (converged && longest * longest < t.closed_gap && clp_tolerance * s.bound < t.closed_gap) break;
+    s.bound = std::min(converged ? t.narrower * s.bound : s.bound, std::max(10.0 * longest, std::sqrt(t.closed_gap)));
   }
   return Phase::identify;
 }

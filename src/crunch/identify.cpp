@@ -62,13 +62,14 @@ bool last_digits(CrunchState &s) {
 }
 
 // All closed pairs as contacts, of spheres that they hold; the forces are left to the test.
-ContactNetwork closed_pairs(const Packing &p) {
+ContactNetwork closed_pairs(const Packing &p, bool own_images) {
   ContactNetwork net;
   net.pairs = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
   measure_contacts(p, net);
   net.coordination.assign(p.n(), 0);
   net.force.assign(net.size(), 1.0);
-  std::vector<char> on(net.size(), 1);
+  std::vector<char> on(net.size());
+  for (size_t k = 0; k < net.size(); ++k) on[k] = own_images || !net.pairs.own_image(k);
   drop_unbalanced(p.dim, p.n(), net.pairs.i, net.pairs.j, net.vector, on);
   return subset(net, on, p.dim);
 }
@@ -139,7 +140,7 @@ Phase judge(CrunchState &s) {
     const Kick kick = converged(s) ? leave_saddle(s, verdict) : Kick::none;
     if (kick == Kick::free) return Phase::approach;
     if (kick == Kick::blocked && s.o.polish) {
-      s.out.contacts = closed_pairs(s.out.packing);
+      s.out.contacts = closed_pairs(s.out.packing, s.strain.count() > 0);
       if (!last_digits(s)) return Phase::done;
       continue;
     }
@@ -186,7 +187,7 @@ static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
 void finish(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   r.method = s.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
-  certify(s.out.packing, s.out.contacts, r);
+  certify(s.out.packing, s.out.contacts, r, s.strain.count() > 0);
   r.jammed = s.jammed && r.force_residual < (s.o.polish ? 1e-6 : 1e-5) && r.min_force >= 0.0;
   r.strictly_jammed = s.strictly_jammed;
   if (s.jammed && !r.jammed) s.stop(JAM_STOP_SOLVER, JAM_NOT_CONVERGED);

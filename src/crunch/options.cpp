@@ -46,7 +46,8 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
     fail(JAM_E_ARGUMENT, "keep_steps is %d, it must be 0 .. %d", o.keep_steps, limits::keep_steps_max);
   if (o.strain < JAM_STRAIN_NONE || o.strain > JAM_STRAIN_FREE)
     fail(JAM_E_ARGUMENT, "strain is %d, not a jam_free_strain", o.strain);
-  if (p.n() < 2) fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2", p.n());
+  if (p.n() < 2 && o.strain == JAM_STRAIN_NONE)
+    fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2, or a free cell (strain)", p.n());
   refuse_overlaps(p, 1e-9);
 }
 

@@ -12,7 +12,7 @@ namespace jam {
 namespace {
 
 // Smallest gap of two stable spheres that are no contact: the pairs of `net` are skipped image by image.
-void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &report) {
+void scan_gaps(const Packing &p, const ContactNetwork &net, bool own_images, jam_crunch_report &report) {
   double r[JAM_MAX_DIM];
   report.min_gap = std::numeric_limits<double>::infinity();
   report.max_overlap = 0.0;
@@ -23,7 +23,8 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &r
       const int32_t i = pairs.i[k], j = pairs.j[k];
       const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, i, j) - 1.0;
       report.max_overlap = std::max(report.max_overlap, -gap);
-      if (!contacts.holds(pairs, k) && i != j && net.coordination[i] > 0 && net.coordination[j] > 0)
+      if (!contacts.holds(pairs, k) && (own_images || !pairs.own_image(k)) && net.coordination[i] > 0 &&
+          net.coordination[j] > 0)
         report.min_gap = std::min(report.min_gap, gap);
     }
     if (std::isfinite(report.min_gap)) return;
@@ -32,7 +33,7 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, jam_crunch_report &r
 
 }  // namespace
 
-void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &report) {
+void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &report, bool free_cell) {
   const int d = p.dim;
   report.packing_fraction = packing_fraction(p);
   report.diameter_mean = diameter_mean(p);
@@ -50,7 +51,7 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
   report.max_contact_gap = 0.0;
   for (const double h : net.gap) report.max_contact_gap = std::max(report.max_contact_gap, std::fabs(h));
   report.force_scale = net.force_scale;
-  scan_gaps(p, net, report);
+  scan_gaps(p, net, free_cell, report);
   report.strictly_jammed = JAM_VERDICT_UNTESTED;
   report.strict_contacts_needed = report.stable > 0 ? d * (report.stable - 1) + d * (d + 1) / 2 : 0;
 }

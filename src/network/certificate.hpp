@@ -7,7 +7,8 @@
 
 namespace jam {
 
-void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report);
+// free_cell: the gaps of spheres and their own images count too.
+void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report, bool free_cell = false);
 
 // jam_verdict of a Verdict.
 int32_t verdict_code(Verdict verdict);

@@ -54,8 +54,8 @@ ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) 
   }
   net.force.assign(net.size(), 0.0);
   net.coordination.assign(p.n(), 0);
-  std::vector<char> on(net.size());  // contacts of a sphere with its own image constrain nothing
-  for (size_t k = 0; k < net.size(); ++k) on[k] = net.pairs.i[k] != net.pairs.j[k];
+  std::vector<char> on(net.size());  // contacts of a sphere with its own image constrain nothing in a fixed cell
+  for (size_t k = 0; k < net.size(); ++k) on[k] = !net.pairs.own_image(k);
   drop_unbalanced(p.dim, p.n(), net.pairs.i, net.pairs.j, net.vector, on);
   return subset(net, on, p.dim);
 }
@@ -189,7 +189,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     if (h <= r.tolerance) {
       r.gap_below = std::max(r.gap_below, h);
       ++r.pairs_within;
-      if (g.pairs.i[k] == g.pairs.j[k]) ++r.self_contacts;
+      if (g.pairs.own_image(k)) ++r.self_contacts;
     } else {
       r.gap_above = std::min(r.gap_above, h);
     }

@@ -33,14 +33,14 @@ int32_t count_clusters(const RigidityMatrix &g) {
 GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
     : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
   const std::vector<int32_t> root = cluster_roots(g);
-  const double bound = h_.norm_bound();
+  if (const double norm = h_.norm_bound(); norm > 0.0) scale_ = norm;
   const size_t d = static_cast<size_t>(g.dim);
   for (int32_t i = 0; i < g.nodes; ++i)
     if (root[i] == i) {
       ++clusters_;
-      for (size_t c = 0; c < d; ++c) tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += 0.1 * bound;
+      for (size_t c = 0; c < d; ++c) tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += 0.1 * scale_;
     }
-  factor_.factorise_from(1e-13 * bound);
+  factor_.factorise_from(1e-13 * scale_);
 }
 
 void GroundedSolver::solve(double *x, int count) const {

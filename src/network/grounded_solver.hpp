@@ -22,6 +22,7 @@ class GroundedSolver {
   // One plain solve with the factor, without refinement.
   void apply(double *x, int count) const { factor_.solve_many(x, count); }
   double shift() const { return factor_.shift(); }
+  double scale() const { return scale_; }
   const BlockMatrix &hessian() const { return h_; }
   int32_t clusters() const { return clusters_; }
 
@@ -29,6 +30,7 @@ class GroundedSolver {
   const RigidityMatrix &g_;
   BlockMatrix h_, tied_;
   ShiftedFactor factor_;
+  double scale_ = 1.0;  // a bound of the norm of H, where it is not 0: spheres that touch only their own images
   int32_t clusters_ = 0;
 };
 

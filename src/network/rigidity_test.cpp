@@ -80,8 +80,7 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
   out.contacts_needed = motions + 1;
   out.self_stresses = out.contacts - (motions - out.flexes);
   std::vector<int32_t> z(carrying.nodes, 0);
-  for (size_t k = 0; k < carrying.contacts(); ++k)
-    if (carrying.a[k] != carrying.b[k]) ++z[carrying.a[k]], ++z[carrying.b[k]];
+  for (size_t k = 0; k < carrying.contacts(); ++k) ++z[carrying.a[k]], ++z[carrying.b[k]];
   out.bridges = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
 }
 
@@ -102,13 +101,10 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const Cancel
   RigidityResult out;
   out.carrying.assign(m, 0), out.force.assign(m, 0.0);
   std::vector<char> on(m, 1);
-  int64_t self = 0;
-  for (size_t k = 0; k < m && !strain; ++k)  // a sphere and its own image keep their distance in a fixed cell
-    if (g.a[k] == g.b[k]) on[k] = 0, ++self;
   const std::vector<Release> released = release_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on);
   const RigidityMatrix sub = subset(g, on);
   const ConstraintRows rows(sub, strain);
-  out.idle_contacts = static_cast<int64_t>(m) - self;
+  out.idle_contacts = static_cast<int64_t>(m);
   if (sub.contacts() == 0) {
     complete_flex(g, sub, rows, {}, released, strain, out);
     return out;
@@ -225,7 +221,10 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   std::vector<double> in_list(near.size(), 0.0);
   if (listed) in_list = carry_over(listed->pairs, std::vector<double>(listed->size(), 1.0), near.pairs);
   std::vector<char> wanted(near.size());
-  for (size_t k = 0; k < near.size(); ++k) wanted[k] = near.gap[k] < undecided_gap_limit || in_list[k] > 0.0;
+  // A sphere and its own image keep their distance in a fixed cell: contacts only of a network from a free one.
+  const auto counts = [&](size_t k) { return kind == Jamming::strict || !near.pairs.own_image(k); };
+  for (size_t k = 0; k < near.size(); ++k)
+    wanted[k] = in_list[k] > 0.0 || (near.gap[k] < undecided_gap_limit && counts(k));
   net = subset(near, wanted, p.dim);
   std::vector<char> closed;
   for (size_t k = 0; k < near.size(); ++k)

@@ -546,7 +546,7 @@ class CrunchReport(Report):
     force_residual: largest |sum_j f_ij n_ij| over mean force
     gamma_residual: |sum lambda_ij sigma_ij^2 - 1| of the last LP
     min_force: smallest contact force over the mean
-    min_gap: smallest h of a pair of stable spheres that is no contact
+    min_gap: smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
     max_contact_gap: largest |h| of a contact
     duality_gap: of the last LP, relative to Gamma
     force_scale: mean force in units where sum lambda sigma^2 = 1 (lambda r)
@@ -713,7 +713,7 @@ class DecompressReport(Report):
 class GeometryReport(Report):
     """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
 
-    self_contacts: spheres touching their own image; left out of the network
+    self_contacts: contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
     tolerance: used
     gap_below: largest |h| within it, rattlers included
     gap_above: smallest |h| beyond it (window when there is none)
@@ -910,7 +910,7 @@ OPTIONS = {
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
         "steps": ("bool", '1: the callback hears of every step and may call crunch_step_*. 0, the default'),
         "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
-        "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed"),
+        "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move"),
         "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept'),
     },
     "jam_relax_options": {
@@ -937,7 +937,7 @@ OPTIONS = {
         "isostatic": ("int", '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes'),
         "crunch": ("int", '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing'),
         "max_steps": ("int", '>= 1, default 1000'),
-        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept steps took, if that is less'),
+        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all kept steps took: at least a 20th of this limit, and never more than it'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
     },
     "jam_hessian_options": {

@@ -356,7 +356,7 @@ class Methods:
             gains more than 1e-7 ends at a duality gap of 0.02 of its gain
         strain : {'none', 'edges', 'tilts', 'free', 'volume', 'edges_volume', 'tilts_volume', 'all'}, optional
             FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends
-            strictly jammed
+            strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
         keep_steps : int, optional
             states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more
             than 2^24 coordinates in all, every second, fourth, ... is kept
@@ -596,12 +596,13 @@ class Methods:
         """Tests whether the packing is jammed.
 
         Nothing changes but strictly_jammed in the stored crunch report. Contacts are pairs with gaps below 1e-10, and
-        those of the contact network, when there is one, below 1e-7. No network is needed. Let S v be the opening of
-        contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations of
-        B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev, Torquato,
-        Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith, arXiv:1301.0664;
-        Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. kind: a
-        RigidityKind. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided, 'cancelled'.
+        those of the contact network, when there is one, below 1e-7. No network is needed. A sphere and its own image
+        are a contact in the strict test, and in the collective one where the network lists them. Let S v be the
+        opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
+        translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources:
+        Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+        arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam.
+        kind: a RigidityKind. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided, 'cancelled'.
 
         Parameters
         ----------

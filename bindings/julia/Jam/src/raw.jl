@@ -523,7 +523,7 @@ mutable struct jam_crunch_options
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     steps::Int32  # 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
-    strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed
+    strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
     keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
     jam_crunch_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -562,7 +562,7 @@ mutable struct jam_crunch_report
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over mean force
     gamma_residual::Cdouble  # |sum lambda_ij sigma_ij^2 - 1| of the last LP
     min_force::Cdouble  # smallest contact force over the mean
-    min_gap::Cdouble  # smallest h of a pair of stable spheres that is no contact
+    min_gap::Cdouble  # smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
     max_contact_gap::Cdouble  # largest |h| of a contact
     duality_gap::Cdouble  # of the last LP, relative to Gamma
     force_scale::Cdouble  # mean force in units where sum lambda sigma^2 = 1 (lambda r)
@@ -654,7 +654,7 @@ mutable struct jam_decompress_options
     crunch::Int32  # 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
     max_steps::Int32  # >= 1, default 1000
     reserved::Int32  # 0
-    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6. Later steps may take 4 times what all kept steps took, if that is less
+    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all kept steps took: at least a 20th of this limit, and never more than it
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     jam_decompress_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -729,7 +729,7 @@ What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
 """
 mutable struct jam_geometry_report
     struct_size::UInt32  # set by the caller: sizeof(jam_geometry_report)
-    self_contacts::Int32  # spheres touching their own image; left out of the network
+    self_contacts::Int32  # contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
     tolerance::Cdouble  # used
     gap_below::Cdouble  # largest |h| within it, rattlers included
     gap_above::Cdouble  # smallest |h| beyond it (window when there is none)
@@ -1312,7 +1312,7 @@ then goes on at the mu that was reached. Bits may differ from those of one call.
 from the last call. report may be NULL.
 Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_TOO_FEW (fewer than 2 spheres), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
+JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_crunch(sys, o, report)
@@ -1432,7 +1432,8 @@ function jam_decompress_history(sys, column, out, out_len, needed)
 end
 
 """
-Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Threads: const.
+Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
+with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
 Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1
 """
 function jam_contacts(sys, iout, iout_len, needed)
@@ -1557,6 +1558,7 @@ end
 """
 Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
 Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
 for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,

@@ -76,8 +76,8 @@ def main():
                 label = f"N = {n}, " + ("volume free" if strain == "volume" else "shear free too")
                 axis.errorbar(x, y, error, fmt=marker + "-", color=colour, ms=4, mfc="white", label=label)
         axis.set(xscale="log", xlabel="p N$^2$", title=f"d = {d}", ylim=(-0.05, 1.0))
+        axis.legend(fontsize=7, frameon=False)
     axes[0].set_ylabel("share with a negative shear modulus")
-    axes[0].legend(fontsize=7, frameon=False)
     figure.savefig(o.picture, dpi=110)
 
 

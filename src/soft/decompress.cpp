@@ -14,6 +14,8 @@ constexpr double last_factor = 0.95;
 // A step may take this many times the evaluations of all steps kept so far. A step that takes more follows a weak
 // instability, whose forces fall with the overlaps. A shorter step does the same at larger overlaps.
 constexpr int64_t work_share = 4;
+// It may always take this share of max_evaluations: a start near its minimum takes hardly any and sets no scale.
+constexpr int64_t least_share = 20;
 
 // Contacts of one state of self-stress that hold all stable spheres: the Hessian has d zero modes and no negative one.
 bool is_isostatic(const SoftState &state, const SoftResult &at, int64_t &factorisations) {
@@ -156,8 +158,9 @@ class Decompression {
   DescentEnd find_minimum(bool near_minimum, SoftResult &now, SoftRow &row) {
     const Effort spent = effort_;
     const double seconds = monitor_.seconds();
+    const int64_t least = std::max<int64_t>(1, o_.max_evaluations / least_share);
     const int64_t most = kept_evaluations_ > 0 ? work_share * kept_evaluations_ : o_.max_evaluations;
-    effort_.max_evaluations = effort_.evaluations + std::min(most, o_.max_evaluations);
+    effort_.max_evaluations = effort_.evaluations + std::clamp(most, least, o_.max_evaluations);
     Relaxation r(state_, effort_);
     const DescentEnd end = minimise_and_measure(r, o_.minimiser, o_.force_tolerance, near_minimum, now);
     row = row_of(now, spent, effort_, monitor_.seconds() - seconds);

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Decompression of soft spheres to jamming over several seeds: time, work, and the comparison with crunch.
 
-usage: soft_decompress.py FILE.json N PACKINGS [OPTION=VALUE ...]   options of System.decompress, e.g. distance=1e-11
+usage: soft_decompress.py FILE.json N SEEDS [OPTION=VALUE ...]
+SEEDS: 6 for seeds 1 to 6, 85-100 for a part. OPTION: one of System.decompress, e.g. distance=1e-11.
 Prints a row a packing: processor time (crunch included), its part in crunch (wall), and what jam_decompress reports.
 """
 import json
@@ -12,7 +13,8 @@ import jam
 
 
 def main():
-    name, n, packings = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+    name, n = sys.argv[1], int(sys.argv[2])
+    first, last = (int(seed) for seed in (sys.argv[3] if "-" in sys.argv[3] else "1-" + sys.argv[3]).split("-"))
     options = {}
     for word in sys.argv[4:]:
         key, value = word.split("=")
@@ -25,7 +27,7 @@ def main():
                 options[key] = value
     rows = []
     print("seed status  cpu     crunch  steps back evaluations factor. distance   residual  excess same force diff.")
-    for seed in range(1, packings + 1):
+    for seed in range(first, last + 1):
         packing = jam.System.random(n=n, seed=seed, packing_fraction=0.70, overlap="allow")
         begun = time.process_time()
         r = packing.decompress(**options)

@@ -70,7 +70,28 @@ static void both_ways_to_jamming(void **state) {
   }
 }
 
+/* A ladder of calls: each starts at a minimum, which takes hardly any evaluations and so sets no scale for later steps.
+ */
+static void call_after_call(void **state) {
+  (void)state;
+  const double alphas[] = {2.0, 2.5, 1.5};
+  for (int a = 0; a < 3; ++a) {
+    jam_system *sys = soft_start(64, 0.72, 1);
+    jam_decompress_options o;
+    jam_decompress_report r = {.struct_size = sizeof r};
+    assert_int_equal(jam_decompress_options_init(&o, sizeof o), JAM_OK);
+    o.alpha = alphas[a], o.isostatic = 0, o.crunch = 0, o.energy_factor = 0.1;
+    if (o.alpha < 2.0) o.minimiser = JAM_MINIMISER_LBFGS; /* contacts stiffen as they open */
+    for (o.distance = 1e-2; o.distance > 1e-5; o.distance *= 0.5) {
+      assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
+      assert_true(r.distance <= o.distance && r.force_residual <= o.force_tolerance);
+    }
+    jam_destroy(sys);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(energy_and_pressure), cmocka_unit_test(both_ways_to_jamming)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(energy_and_pressure), cmocka_unit_test(both_ways_to_jamming),
+                                     cmocka_unit_test(call_after_call)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,9 +37,8 @@ void check_isoconf_options(const jam_isoconf_options &o) {
   if (o.clock != JAM_CLOCK_COLLISIONS && o.clock != JAM_CLOCK_TIME)
     fail(JAM_E_ARGUMENT, "clock is %d, not a jam_clock", o.clock);
   if (o.runs < 1 || o.first_run < 0 || o.first_run > most_runs - o.runs || o.runs > most_runs)
-    fail(JAM_E_ARGUMENT, "runs %lld to %lld: numbers go from 0 to %lld", static_cast<long long>(o.first_run),
-         static_cast<long long>(o.first_run) + static_cast<long long>(o.runs) - 1,
-         static_cast<long long>(most_runs) - 1);
+    fail(JAM_E_ARGUMENT, "%lld runs from number %lld on: numbers go from 0 to %lld", static_cast<long long>(o.runs),
+         static_cast<long long>(o.first_run), static_cast<long long>(most_runs) - 1);
   if (o.block < 1) fail(JAM_E_ARGUMENT, "block is %lld, it must be at least 1", static_cast<long long>(o.block));
   if (!(o.density_ratio > 0.0 && o.density_ratio <= 1.0))
     fail(JAM_E_ARGUMENT, "density_ratio is %g, it must be in (0, 1]", o.density_ratio);

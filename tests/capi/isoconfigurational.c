@@ -249,6 +249,7 @@ static void bad_input_is_named(void **state) {
   REFUSED(runs, 0, JAM_E_ARGUMENT);
   REFUSED(runs, INT64_MAX, JAM_E_ARGUMENT);
   REFUSED(first_run, -1, JAM_E_ARGUMENT);
+  REFUSED(first_run, INT64_MAX, JAM_E_ARGUMENT); /* its last run has no number */
   REFUSED(block, 0, JAM_E_ARGUMENT);
   REFUSED(threads, 3, JAM_E_ARGUMENT);
   REFUSED(clock, 7, JAM_E_ARGUMENT);

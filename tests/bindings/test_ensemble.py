@@ -240,7 +240,7 @@ class Campaigns(unittest.TestCase):
 
     def test_killed_workers_lose_no_finished_packing(self):
         """The long form, with 1000 kills, is tests/bench/ensemble_store.py."""
-        e, kills, seen = Ensemble(self.folder, SMALL), [0], {}
+        e, kills, seen, seeds = Ensemble(self.folder, SMALL), [0], {}, 0
         with LocalPool(3) as pool:
             ended = threading.Event()
 
@@ -254,12 +254,13 @@ class Campaigns(unittest.TestCase):
 
             thread = threading.Thread(target=kill)
             thread.start()
-            e.run(range(30), pool, progress=False)
+            while not kills[0]:  # a fast machine may end the first thirty before the first kill
+                seeds += 30
+                e.run(range(seeds), pool, progress=False)
             ended.set()
             thread.join()
-            status = e.run(range(30), pool, progress=False, retry=True)  # what lost three workers
-        self.assertGreater(kills[0], 0)
-        self.assertEqual((status.done, status.failed), (30, 0))
+            status = e.run(range(seeds), pool, progress=False, retry=True)  # what lost three workers
+        self.assertEqual((status.done, status.failed), (seeds, 0))
         there = e.files.scan()[0]
         self.assertEqual({k: there[k] for k in seen}, seen)  # finished files were neither lost nor written again
         for entry in e:

@@ -25,9 +25,10 @@ static jam_estimate estimated(const jam_system *sys, const jam_crunch_options *o
   return e;
 }
 
-static int32_t stop_after(const jam_progress *p, void *left) {
-  (void)p;
-  return --*(int *)left <= 0;
+/* Factorisations, not calls: on a slow machine calls come while the first one is prepared, which takes no memory yet.
+ */
+static int32_t stop_after(const jam_progress *p, void *factorisations) {
+  return p->factorisations >= *(const int *)factorisations;
 }
 
 static double peak(void) {
@@ -42,7 +43,7 @@ typedef struct measured {
 
 /* The whole life of a packing in a fresh process: how much its peak grows while it crunches. The longest lists come
  * early. */
-static measured life(int64_t n, double phi, double pressure, int steps) {
+static measured life(int64_t n, double phi, double pressure, int factorisations) {
   jam_system *small = start(200, 0.3), *sys;
   jam_crunch_options o;
   jam_compress_options c;
@@ -57,20 +58,20 @@ static measured life(int64_t n, double phi, double pressure, int steps) {
   o.steps = 1; /* the callback hears of each */
   m.estimate = estimated(sys, &o).bytes;
   m.taken = peak();
-  jam_set_progress(sys, stop_after, &steps);
+  jam_set_progress(sys, stop_after, &factorisations);
   m.taken = jam_crunch(sys, &o, NULL) == JAM_CANCELLED ? peak() - m.taken : -1.0;
   jam_destroy(sys);
   return m;
 }
 
-static void memory(int64_t n, double phi, double pressure, int steps) {
+static void memory(int64_t n, double phi, double pressure, int factorisations) {
   int ends[2], status = -1;
   measured m = {0.0, 0.0};
   pid_t child;
   assert_int_equal(pipe(ends), 0);
   child = fork();
   if (child == 0) {
-    m = life(n, phi, pressure, steps);
+    m = life(n, phi, pressure, factorisations);
     _exit(write(ends[1], &m, sizeof m) != sizeof m);
   }
   close(ends[1]);

@@ -13,6 +13,7 @@ import numpy as np
 import jam
 
 HERE = Path(__file__).resolve().parent
+G_OF_KAPPA = 2 * 3**0.5  # growth rate of the diameter over the radius rate of the thesis
 THETA_E, GAMMA, THETA_L = 0.42311, 0.41269, 0.17462  # mean field; theta_l is empirical
 SOURCE = "R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021"
 

@@ -15,11 +15,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept
+from common import G_OF_KAPPA, Results, arguments, kept
 
 import jam
 
-G_OF_KAPPA = 2 * 3**0.5
 PUBLISHED = {  # power of N: (kappa fixed, kappa_N, error)
     "LPs": (0.59, 0.58, 0.02),
     "seconds": (2.75, 2.75, 0.08),

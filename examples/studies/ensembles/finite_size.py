@@ -22,6 +22,7 @@ sys.path.insert(0, str(HERE.parent))
 from tail_exponents import FLOOR, GAP_FLOOR, GAP_POWERS, POWERS, fit  # noqa: E402
 
 GAPS_END = {"euclid": 1.0, "mk": 1e-3}  # fits look no further: beyond, Mari-Kurchan pairs are those of a liquid
+CROSSOVER = (0.179008, 0.223543, -1.25569)  # published a, b, q of gaps: Mari-Kurchan packings, N = 4096
 FLOPPY = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}, "floppy_modes": {}}
 MAX_ORDER = 1.5
 
@@ -190,9 +191,8 @@ def gap_crossover(r, figure, s, n, end):
         return scaling.fit_crossover(x, n * c / normal, n * np.maximum(error, 1e-3 * c + 1e-12) / normal, -GAMMA)[0]
 
     found = scaling.bootstrap(s.gaps, fit, 40)
-    published = (0.179008, 0.223543, -1.25569)
     low, high = np.percentile(found.resampled, (16, 84), axis=0)  # a resample with a straight line has no crossover
-    for name, p, v, e in zip("abq", published, found.value, 0.5 * (high - low)):
+    for name, p, v, e in zip("abq", CROSSOVER, found.value, 0.5 * (high - low)):
         r.add(figure, f"crossover of gaps at N = {n}: {name} (published: Mari-Kurchan, N = 4096)", p, v, e)
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Why does the collapse of gaps prefer an exponent below gamma? Looks into a row of finite_size.py, section 6.5.5.
 
-usage: gap_collapse.py [--large] [--folder DIR] [--only-read]
+usage: gap_collapse.py [--large] [--kappa K] [--folder DIR] [--only-read]
 
+--kappa grows more slowly than the default protocol (9e-4), and names the results after it.
 Three suspects: the error of the collapse is too small; the smallest N has another density of gaps altogether; the range holds gaps so
 wide that they follow no power law. Synthetic packings follow the law exactly, with as many gaps and packings as the real ones.
 """
@@ -11,13 +12,21 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from common import GAMMA, Results, arguments, ensemble, mean_error
-from finite_size import Size, protocol
+from common import G_OF_KAPPA, GAMMA, Results, arguments, ensemble, mean_error
+from finite_size import CROSSOVER, Size, protocol
 
 from jam import scaling
 
 BULK = 0.1  # gaps up to here: tail and shoulder, no second shell
 BEND = 0.3  # scaled gap where the law goes over into the part linear in h
+
+
+def grown(n, kappa):
+    """The protocol of finite_size.py, with another growth rate where kappa is given."""
+    if not kappa:
+        return protocol("euclid", n)
+    stages = [{"growth_rate": 1e-2, "pressure": 500.0}, {"growth_rate": kappa * G_OF_KAPPA, "pressure": 1e7}]
+    return dict(n=n, dim=3, stages=stages)
 
 
 def collapsed(samples, top, resamples=20):
@@ -39,11 +48,12 @@ def main():
     p.add_argument("--sizes", type=int, nargs="+", help="N (small: 100 200 400; large: 256 512 1024 2048)")
     p.add_argument("--particles", type=float, default=5e4, help="with --large: particles a size (5e4)")
     p.add_argument("--trials", type=int, default=30, help="synthetic sets (30)")
+    p.add_argument("--kappa", type=float, help="radius rate from p = 500 to 1e7 (that of the default protocol, 9e-4)")
     o = p.parse_args()
-    r = Results(o, "gap_collapse")
+    r = Results(o, f"gap_collapse_kappa{o.kappa:g}" if o.kappa else "gap_collapse")
     every, tail = {}, {}
     for n in o.sizes or ((256, 512, 1024, 2048) if o.large else (100, 200, 400)):
-        e = ensemble(o, protocol("euclid", n), round(o.particles / n) if o.large else 3200 // n)
+        e = ensemble(o, grown(n, o.kappa), round(o.particles / n) if o.large else 3200 // n)
         s = Size(e, "euclid")
         if len(s.rows) >= 4:
             every[n], tail[n] = s.gaps, [g[g < BULK] for g in s.gaps]
@@ -57,6 +67,19 @@ def main():
         rest = {n: g for n, g in every.items() if n > min(every)}
         found = collapsed(rest, 200)
         r.add("6.5.5", f"collapse, up to 200, without N = {min(every)}", -GAMMA, found.value[0], found.error[0])
+    for n, samples in every.items():
+        below = {h: np.array([np.sum(g < h) / n for g in samples]) for h in (1e-4, 1e-3, 1e-2, 1e-1)}
+        for h in below:
+            r.add("6.5.5", f"gaps below {h:g} a sphere, N = {n}", "none", *mean_error(below[h]))
+        for low, high in ((1e-3, 1e-2), (1e-2, 1e-1)):
+            few, many = below[low], below[high]
+            power = np.log10(many.mean() / few.mean())
+            error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(10)
+            law = scaling.crossover(np.array([low, high]) * n ** (1 / (1 - GAMMA)), *CROSSOVER, -GAMMA)
+            text = (
+                f"power of h in them, h = {low:g} to {high:g}, N = {n} (published: crossover of Mari-Kurchan packings)"
+            )
+            r.add("6.5.5", text, round(float(np.log10(law[1] / law[0])), 4), power, error)
     small, large = (mean_error([np.sum(g < BULK) / n for g in every[n]]) for n in (min(every), max(every)))
     error = small[0] / large[0] * np.hypot(small[1] / small[0], large[1] / large[0])
     text = f"gaps below {BULK} a sphere, N = {min(every)} over {max(every)}"

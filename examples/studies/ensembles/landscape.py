@@ -5,7 +5,8 @@ usage: landscape.py [--large] [--folder DIR] [--only-read]
 
 1. Growth (G = 1.732e-2 to p = 500, 1e-3 beyond) stops at p_target; molecular dynamics goes on without growth. Each snapshot is
    crunched: distance of its jammed state from the first one, beside the mean-square displacement between the snapshots.
-2. Cage: the mean-square displacement from its middle against p. Marginal glasses have p^-1.4157, normal ones p^-1.
+2. Cage: the mean-square displacement from its middle against p. Marginal glasses have p^-1.4157, normal ones p^-1. These runs
+   are too short for slow modes: see cage_size.py.
 3. Clones: one configuration, other velocities, crunched after a long time: are three distances those of an ultrametric tree?
 4. Memory: diameters of a jammed packing shrink to phi = (1 - x) phi_J, dynamics, crunch: which contacts come back?
 

@@ -15,11 +15,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from common import Results, arguments, kept, mean_error
+from common import G_OF_KAPPA, Results, arguments, kept, mean_error
 
 import jam
 
-G_OF_KAPPA = 2 * 3**0.5
 STEPS = 4  # points of the glass branch a decade of p
 MAX_ORDER = 1.5
 PUBLISHED_PHI = {3e-4: 0.64223, 1e-4: 0.64255, 3e-5: 0.64291, 1e-5: 0.64301}  # fit of the glass branch, errors 2e-4

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Size of cages against pressure, by the length of the run. Section 7 of the studies: is it p^-1.4157?
+
+usage: cage_size.py [--large] [--n N] [--seeds K] [--folder DIR] [--only-read]
+
+Growth (G = 1.732e-2 to p = 500, 1e-3 beyond) stops at p. Molecular dynamics goes on without growth for windows of 300, 3000, ...
+collisions a sphere, one after the other. The size of cages in a window is the mean-square displacement from the mean of 40
+instants, over spheres that are no rattlers, in unit of the mean diameter squared. Marginal glasses have p^-1.4157. A short window
+misses the slow modes, whose period in collisions grows with p: it gives a steeper law.
+Small: N = 256, two packings, windows to 3000. Large: N = 1024, six packings, windows to 1e5. Each run is kept when done.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from common import Results, arguments, kept, mean_error
+from landscape import KAPPA_MF, grown
+
+INSTANTS = 40
+
+
+def windows(n, seed, pressure, lengths):
+    """Size of cages in windows of these lengths, and the reduced pressure."""
+    with grown(n, seed, pressure) as packing:
+        jammed = packing.copy()
+        jammed.crunch()
+        stable = ~jammed.rattlers
+        sizes = []
+        for length in lengths:
+            begin, moved = packing.positions.copy(), []
+            for _ in range(INSTANTS):
+                packing.run(length / INSTANTS)
+                step = packing.positions - begin
+                step = (step - np.round(step))[stable]
+                moved.append(step - step.mean(axis=0))
+            around = np.sum(np.var(moved, axis=0, ddof=1), axis=1)
+            sizes.append(np.mean(around) / packing.diameters.mean() ** 2)
+        return {"size": sizes, "pressure": packing.run(20).pressure}
+
+
+def main():
+    p = arguments(__doc__.splitlines()[0])
+    p.add_argument("--n", type=int, help="spheres (small 256, large 1024)")
+    p.add_argument("--seeds", type=int, help="packings (small 2, large 6)")
+    o = p.parse_args()
+    n, seeds = o.n or (1024 if o.large else 256), o.seeds or (6 if o.large else 2)
+    lengths = 10.0 ** np.arange(0, 2.6 if o.large else 1.1, 1.0) * 300
+    lengths = np.append(lengths, 1e5) if o.large else lengths
+    pressures = (1e3, 1e4, 1e5, 1e6)
+    r = Results(o, "cage_size")
+    made = []
+    for pressure in pressures:
+        runs = [
+            kept(
+                o,
+                f"cage_size_n{n}_to{lengths[-1]:.0e}",
+                f"{pressure:.0e}_seed{s}",
+                lambda: windows(n, s, pressure, lengths),
+            )
+            for s in range(1, seeds + 1)
+        ]
+        if None in runs:
+            return
+        r.made(f"N = {n}, p = {pressure:.0e}, windows to {lengths[-1]:g} collisions a sphere", seeds)
+        made.append(runs)
+    x = np.log([[run["pressure"] for run in runs] for runs in made])
+    y = np.log([[run["size"] for run in runs] for runs in made])
+    figure, axis = plt.subplots(figsize=(6, 4.5))
+    for k, length in enumerate(lengths):
+        powers = [np.polyfit(x[:, s], y[:, s, k], 1)[0] for s in range(seeds)]
+        text = f"power of p in the size of cages, N = {n}, p = 1e3 to 1e6, windows of {length:g} collisions"
+        r.add("7", text, -KAPPA_MF, *mean_error(powers))
+        error = y[:, :, k].std(axis=1, ddof=1) / seeds**0.5
+        axis.errorbar(
+            np.exp(x.mean(axis=1)),
+            np.exp(y[:, :, k].mean(axis=1) + KAPPA_MF * x.mean(axis=1)),
+            fmt="o-",
+            yerr=np.exp(y[:, :, k].mean(axis=1) + KAPPA_MF * x.mean(axis=1)) * error,
+            ms=4,
+            label=f"{length:g}",
+        )
+    axis.set(
+        xscale="log",
+        yscale="log",
+        xlabel="p",
+        ylabel="size of cages times p^1.4157",
+        title="collisions a sphere in a window",
+    )
+    axis.legend(fontsize=8)
+    r.write(figure)
+
+
+if __name__ == "__main__":
+    main()

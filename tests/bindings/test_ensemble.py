@@ -5,12 +5,14 @@ import pickle
 import random
 import resource
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import h5py
@@ -265,7 +267,7 @@ class Campaigns(unittest.TestCase):
         self.assertEqual({k: there[k] for k in seen}, seen)  # finished files were neither lost nor written again
         for entry in e:
             self.assertGreater(len(entry.system().forces), 0)
-        self.assertEqual([p for p in e.files.parts.iterdir() if p.name.endswith(".h5")], [])
+        self.assertEqual(list(e.files.parts.iterdir()), [])
 
     def test_a_killed_campaign_leaves_no_worker_and_goes_on(self):
         e = Ensemble(self.folder, SMALL)
@@ -318,6 +320,21 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(len(e), 1)
         self.assertEqual(list(e.files.parts.iterdir()), [])
         self.assertEqual(resource.getrlimit(resource.RLIMIT_FSIZE)[0], resource.RLIM_INFINITY)
+
+    def test_a_campaign_that_fails_leaves_no_unfinished_file(self):
+        e = Ensemble(self.folder, SMALL)
+        gone = subprocess.Popen(["true"])
+        gone.wait()
+
+        class KilledWhileItWrote(LocalPool):
+            def submit(self, *_):
+                (e.files.parts / f".name.h5.{socket.gethostname()}.{gone.pid}.0.part").touch()
+                raise StoreError("the disk is full")
+
+        with unittest.mock.patch("jam.ensemble.LocalPool", KilledWhileItWrote):
+            with self.assertRaisesRegex(StoreError, "the disk is full"):
+                e.run([1], progress=False)
+        self.assertEqual(list(e.files.parts.iterdir()), [])
 
 
 class Pool(unittest.TestCase):

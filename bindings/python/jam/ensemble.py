@@ -16,6 +16,7 @@ import os
 import random
 import time
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
@@ -241,7 +242,9 @@ class Ensemble:
             _Run(self, pool, _bar(progress, len(seeds), len(seeds) - len(todo))).work(todo)
         except BaseException:
             if own:
-                pool.shutdown(wait=False, cancel_futures=True)  # packings under way are dropped, their workers killed
+                pool.shutdown(cancel_futures=True)  # packings under way are dropped, their workers killed
+                with suppress(OSError):  # the error that ended the campaign is the one to tell
+                    self.files.remove_stale_parts()  # a worker may have been killed while it wrote
             raise
         if own:
             pool.shutdown()

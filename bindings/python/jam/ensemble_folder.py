@@ -92,6 +92,10 @@ class Folder:
             raise store.StoreError(
                 error.errno, f"{self.path}: this folder cannot be written: {error.strerror}"
             ) from error
+        self.remove_stale_parts()
+
+    def remove_stale_parts(self) -> None:
+        """Removes unfinished files whose writer is gone."""
         for file in self.parts.iterdir():
             if _is_stale(file):
                 file.unlink(missing_ok=True)

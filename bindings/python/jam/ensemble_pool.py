@@ -157,8 +157,11 @@ def main() -> None:
             data = pickle.dumps(answer)
         except Exception as error:
             data = pickle.dumps((False, RuntimeError(f"the answer cannot be sent: {error}")))
-        answers.write(data)
-        answers.flush()
+        try:
+            answers.write(data)
+            answers.flush()
+        except BrokenPipeError:
+            os._exit(1)  # the campaign is gone: nobody reads this answer
 
 
 if __name__ == "__main__":

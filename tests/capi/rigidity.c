@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "test.h"
+#include "verdicts.h"
 
 static jam_system *grown(int dim, int64_t n, int64_t seed, double pressure) {
   jam_create_options o;
@@ -31,21 +31,12 @@ static jam_system *square(int side) {
   return sys;
 }
 
-static jam_rigidity_report test(jam_system *sys, int32_t kind, jam_status expected) {
-  jam_rigidity_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  assert_int_equal(jam_rigidity(sys, kind, &r), expected);
-  assert_int_equal(r.kind, kind);
-  return r;
-}
-
 /* Fluids near jamming: no pair touches, and the network from geometry is not taken for a jammed one. */
 static void fluids(void **state) {
   (void)state;
   for (int64_t seed = 1; seed <= 10; ++seed) {
     jam_system *sys = grown(3, 64, seed, 500.0);
-    jam_rigidity_report r = test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+    jam_rigidity_report r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
     jam_crunch_report report;
     assert_int_equal(r.stationary, JAM_VERDICT_NO);
     assert_int_equal(r.contacts, 0);
@@ -53,7 +44,7 @@ static void fluids(void **state) {
     report.struct_size = sizeof report;
     assert_int_equal(jam_crunch_report_get(sys, &report), JAM_OK);
     assert_int_equal(report.jammed, 0);
-    test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED); /* nor with that network at hand */
+    rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED); /* nor with that network at hand */
     jam_destroy(sys);
   }
 }
@@ -73,17 +64,17 @@ static void crunched(void **state) {
   assert_int_equal(report.strictly_jammed, JAM_VERDICT_UNTESTED);
   assert_int_equal(report.strict_contacts_needed, 3 * (report.stable - 1) + 6);
   assert_true(report.rigidity_margin > 1e-8);
-  r = test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK);
+  r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK);
   assert_int_equal(r.stable, report.stable);
   assert_int_equal(r.contacts_needed, report.isostatic_contacts);
   assert_true(r.force_residual < 1e-10);
   assert_int_equal(jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, out, 3 * 64, NULL, 0, &needed), JAM_E_STATE);
   /* With one contact more than isostatic at most, a fixed cube cannot be strictly jammed. */
-  test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
+  rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
   assert_int_equal(jam_crunch_report_get(sys, &report), JAM_OK);
   assert_int_equal(report.strictly_jammed, JAM_VERDICT_NO);
   assert_int_equal(jam_scale_diameters(sys, 1.0 - 1e-3), JAM_OK);
-  test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
+  rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED);
   jam_destroy(sys);
 }
 
@@ -92,7 +83,7 @@ static void flex_of_a_lattice(void **state) {
   (void)state;
   for (int32_t kind = JAM_RIGIDITY_COLLECTIVE; kind <= JAM_RIGIDITY_STRICT; ++kind) {
     jam_system *sys = square(6);
-    const jam_rigidity_report r = test(sys, kind, JAM_NOT_JAMMED);
+    const jam_rigidity_report r = rigidity_test(sys, kind, JAM_NOT_JAMMED);
     double out[72], strain[4], moved[72], largest = 0.0, trace = 0.0;
     const double *x = NULL;
     size_t needed = 0, n = 0;

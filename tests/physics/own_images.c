@@ -2,7 +2,7 @@
 #include <jam/jam.h>
 #include <math.h>
 #include <string.h>
-#include "test.h"
+#include "verdicts.h"
 
 static jam_system *in_cell(int32_t dim, int64_t n, const double *cell, const double *x, double sigma) {
   jam_create_options o;
@@ -25,25 +25,6 @@ static jam_system *alone(int32_t dim, uint64_t seed) {
       cell[a * dim + b] = a == b ? 0.7 + 0.6 * u : u - 0.5;
     }
   return in_cell(dim, 1, cell, x, 0.3);
-}
-
-static jam_crunch_report crunch(jam_system *sys, int32_t strain, jam_status expected) {
-  jam_crunch_options o;
-  jam_crunch_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  assert_int_equal(jam_crunch_options_init(&o, sizeof o), JAM_OK);
-  o.strain = strain;
-  assert_int_equal(jam_crunch(sys, &o, &r), expected);
-  return r;
-}
-
-static jam_rigidity_report test(jam_system *sys, int32_t kind, jam_status expected) {
-  jam_rigidity_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  assert_int_equal(jam_rigidity(sys, kind, &r), expected);
-  return r;
 }
 
 /* Lattices whose density is a local maximum: Conway and Sloane, Sphere Packings, Lattices and Groups, 3rd ed.,
@@ -85,7 +66,7 @@ static void one_sphere_ends_at_a_lattice(void **state) {
   for (int32_t d = 2; d <= 4; ++d)
     for (uint64_t seed = 1; seed <= 6; ++seed) {
       jam_system *sys = alone(d, seed);
-      const jam_crunch_report r = crunch(sys, JAM_STRAIN_FREE, JAM_OK);
+      const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
       int k = 0;
       while (k < kinds && !(lattices[k].dim == d && fabs(r.packing_fraction - lattices[k].density) < 1e-12)) ++k;
       print_message("d %d seed %d: phi %.15f contacts %d\n", d, (int)seed, r.packing_fraction, (int)r.contacts);
@@ -96,10 +77,10 @@ static void one_sphere_ends_at_a_lattice(void **state) {
       assert_true(r.strict_contacts_needed == d * (d + 1) / 2 && r.isostatic_contacts == 1);
       assert_true(r.max_overlap < 1e-13 && r.min_force > 0.0 && fabs(r.min_gap - lattices[k].gap) < 1e-12);
       check_contacts(sys, d, lattices[k].contacts);
-      const jam_rigidity_report strict = test(sys, JAM_RIGIDITY_STRICT, JAM_OK);
+      const jam_rigidity_report strict = rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_OK);
       assert_true(strict.contacts == r.contacts && strict.stable == 1 && strict.flexes == 0 && strict.bridges == 0);
       assert_int_equal(strict.self_stresses, r.contacts - (d * (d + 1) / 2 - 1));
-      test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK); /* a motion of one sphere is a translation */
+      rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK); /* a motion of one sphere is a translation */
       jam_destroy(sys);
     }
   for (int k = 0; k < 3; ++k) assert_true(found[k] > 0);
@@ -114,7 +95,7 @@ static void analysis_of_one_sphere(void **state) {
   const double *sigma;
   size_t m;
   (void)state;
-  crunch(sys, JAM_STRAIN_FREE, JAM_OK);
+  crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
   assert_int_equal(jam_modes_options_init(&o, sizeof o), JAM_OK);
   o.which = JAM_MODES_ALL;
   assert_int_equal(jam_modes(sys, NULL, &o, l, 3, NULL, 0, NULL, 0, &m), JAM_OK);
@@ -142,13 +123,13 @@ static void one_sphere_in_a_brick(void **state) {
   jam_system *sys = in_cell(3, 1, cell, x, 0.5);
   double move[3], strain[9], size = 0.0;
   (void)state;
-  const jam_crunch_report r = crunch(sys, JAM_STRAIN_EDGES, JAM_OK);
+  const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_EDGES, JAM_OK);
   assert_true(fabs(r.packing_fraction - M_PI / 6.0) < 1e-12);
   assert_true(r.jammed == 1 && r.contacts == 3 && r.strictly_jammed == JAM_VERDICT_NO);
   assert_int_equal(jam_flex(sys, JAM_RIGIDITY_STRICT, move, 3, strain, 9, NULL), JAM_OK);
   for (int k = 0; k < 9; ++k) size = fmax(size, fabs(strain[k]));
   assert_true(size > 1e-3);
-  assert_true(crunch(sys, JAM_STRAIN_FREE, JAM_OK).packing_fraction > r.packing_fraction + 0.1);
+  assert_true(crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK).packing_fraction > r.packing_fraction + 0.1);
   jam_destroy(sys);
 }
 
@@ -161,11 +142,11 @@ static void two_disks_in_a_narrow_cell(void **state) {
   size_t m;
   (void)state;
   assert_int_equal(jam_copy(fixed, &sys), JAM_OK);
-  jam_crunch_report r = crunch(fixed, JAM_STRAIN_NONE, JAM_NOT_JAMMED);
+  jam_crunch_report r = crunch_with_strain(fixed, JAM_STRAIN_NONE, JAM_NOT_JAMMED);
   assert_true(r.contacts == 0 && r.rattlers == 2 && r.jammed == 0);
   assert_true(fabs(r.packing_fraction - M_PI / 8.0) < 1e-12);
-  assert_int_equal(test(fixed, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED).contacts, 0);
-  r = crunch(sys, JAM_STRAIN_FREE, JAM_OK);
+  assert_int_equal(rigidity_test(fixed, JAM_RIGIDITY_COLLECTIVE, JAM_NOT_JAMMED).contacts, 0);
+  r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
   assert_true(fabs(r.packing_fraction - lattices[0].density) < 1e-12);
   assert_true(r.strictly_jammed == JAM_VERDICT_YES && r.contacts == 6 && r.stable == 2);
   assert_int_equal(jam_contacts(sys, pair, 12, &m), JAM_OK);
@@ -183,14 +164,14 @@ static void strains_alone_are_steps(void **state) {
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = 5, o.n = 2, o.seed = 49, o.packing_fraction = 0.02;
   assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
-  assert_int_equal(crunch(sys, JAM_STRAIN_FREE, JAM_OK).strictly_jammed, JAM_VERDICT_YES);
+  assert_int_equal(crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK).strictly_jammed, JAM_VERDICT_YES);
   jam_destroy(sys);
 }
 
 static void one_sphere_in_a_fixed_cell_is_refused(void **state) {
   jam_system *sys = alone(3, 1);
   (void)state;
-  crunch(sys, JAM_STRAIN_NONE, JAM_E_TOO_FEW);
+  crunch_with_strain(sys, JAM_STRAIN_NONE, JAM_E_TOO_FEW);
   assert_true(strstr(jam_last_error(), "free cell") != NULL);
   jam_destroy(sys);
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "test.h"
+#include "verdicts.h"
 
 static jam_system *start(int32_t dim, int64_t n, int64_t seed, int mixed, double phi) {
   jam_create_options o;
@@ -15,25 +15,6 @@ static jam_system *start(int32_t dim, int64_t n, int64_t seed, int mixed, double
   for (int64_t k = 0; k < n; ++k) sizes[k] = mixed ? 1.0 + 0.4 * (double)k / (double)n : 1.0;
   assert_int_equal(jam_create(&o, NULL, 0, sizes, (size_t)n, &sys), JAM_OK);
   return sys;
-}
-
-static jam_crunch_report crunch(jam_system *sys, int32_t strain, jam_status expected) {
-  jam_crunch_options o;
-  jam_crunch_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  assert_int_equal(jam_crunch_options_init(&o, sizeof o), JAM_OK);
-  o.strain = strain;
-  assert_int_equal(jam_crunch(sys, &o, &r), expected);
-  return r;
-}
-
-static jam_rigidity_report strict_test(jam_system *sys) {
-  jam_rigidity_report r;
-  memset(&r, 0, sizeof r);
-  r.struct_size = sizeof r;
-  assert_true(jam_rigidity(sys, JAM_RIGIDITY_STRICT, &r) >= 0);
-  return r;
 }
 
 static double volume(jam_system *sys, int dim) {
@@ -81,12 +62,14 @@ static void disordered(void **state) {
       const int32_t d = cases[k].dim;
       jam_system *sys = start(d, cases[k].n, seed, 1, d == 2 ? 0.5 : d == 3 ? 0.3 : 0.15), *fixed = NULL;
       assert_int_equal(jam_copy(sys, &fixed), JAM_OK);
-      const jam_crunch_report before = crunch(fixed, JAM_STRAIN_NONE, JAM_OK), r = crunch(sys, JAM_STRAIN_FREE, JAM_OK);
+      const jam_crunch_report before = crunch_with_strain(fixed, JAM_STRAIN_NONE, JAM_OK),
+                              r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
       assert_int_equal(before.strictly_jammed, JAM_VERDICT_UNTESTED);
-      assert_int_equal(strict_test(fixed).jammed, JAM_VERDICT_NO); /* a fixed cube is not at rest */
+      assert_int_equal(rigidity_test(fixed, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED).jammed,
+                       JAM_VERDICT_NO); /* a fixed cube is not at rest */
       assert_int_equal(r.jammed, 1);
       assert_int_equal(r.strictly_jammed, JAM_VERDICT_YES);
-      assert_int_equal(strict_test(sys).jammed, JAM_VERDICT_YES);
+      assert_int_equal(rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_OK).jammed, JAM_VERDICT_YES);
       assert_int_equal(r.contacts, d * (r.stable - 1) + d * (d + 1) / 2);
       assert_int_equal(r.contacts, r.strict_contacts_needed);
       assert_true(r.packing_fraction >= before.packing_fraction);
@@ -108,8 +91,8 @@ static void small_crystals(void **state) {
     for (int64_t seed = 1; seed <= 3; ++seed) {
       jam_system *sys = start(3, n, seed, 0, 0.1), *fixed = NULL;
       assert_int_equal(jam_copy(sys, &fixed), JAM_OK);
-      if (n == 2) assert_true(fabs(crunch(fixed, JAM_STRAIN_NONE, JAM_OK).packing_fraction - bcc) < 1e-12);
-      const jam_crunch_report r = crunch(sys, JAM_STRAIN_FREE, JAM_OK);
+      if (n == 2) assert_true(fabs(crunch_with_strain(fixed, JAM_STRAIN_NONE, JAM_OK).packing_fraction - bcc) < 1e-12);
+      const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
       assert_true(fabs(r.packing_fraction - fcc) < 1e-12);
       assert_int_equal(r.strictly_jammed, JAM_VERDICT_YES);
       jam_destroy(sys);
@@ -123,18 +106,18 @@ static void parts_of_the_strain(void **state) {
   double cell[4];
   jam_system *sys = start(2, 64, 1, 1, 0.5), *tilted = NULL;
   assert_int_equal(jam_copy(sys, &tilted), JAM_OK);
-  jam_crunch_report r = crunch(sys, JAM_STRAIN_EDGES, JAM_OK);
+  jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_EDGES, JAM_OK);
   assert_int_equal(r.jammed, 1);
   assert_int_equal(r.strictly_jammed, JAM_VERDICT_NO);
   assert_int_equal(r.contacts, 2 * (r.stable - 1) + 2);
   assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK);
   assert_true(cell[2] == 0.0 && fabs(cell[0] / cell[3] - 1.0) > 1e-6);
-  r = crunch(tilted, JAM_STRAIN_TILTS, JAM_OK);
+  r = crunch_with_strain(tilted, JAM_STRAIN_TILTS, JAM_OK);
   assert_int_equal(r.jammed, 1);
   assert_int_equal(jam_cell_get(tilted, cell, 4, NULL), JAM_OK);
   assert_true(fabs(cell[2]) > 1e-6 && fabs(cell[0] / cell[3] - 1.0) < 1e-12);
-  crunch(sys, 4, JAM_E_ARGUMENT);
-  crunch(sys, -1, JAM_E_ARGUMENT);
+  crunch_with_strain(sys, 4, JAM_E_ARGUMENT);
+  crunch_with_strain(sys, -1, JAM_E_ARGUMENT);
   jam_destroy(sys);
   jam_destroy(tilted);
 }

@@ -730,7 +730,7 @@ module jam
     integer(c_int32_t) :: reserved = 0
     ! of the longest neighbour list
     integer(c_int64_t) :: pairs = 0
-    ! peak memory beside what is in use now; mostly good to a factor of 2
+    ! peak memory beside what is in use now; mostly good to a factor of 2. Large crunches need half of it until their end, where factors become doubles
     real(c_double) :: bytes = 0
     ! of it for the factorisation
     real(c_double) :: factor_bytes = 0

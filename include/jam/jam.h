@@ -854,7 +854,8 @@ typedef struct jam_estimate {
   uint32_t struct_size;  /* set by the caller: sizeof(jam_estimate) */
   int32_t reserved;      /* 0 */
   int64_t pairs;         /* of the longest neighbour list */
-  double bytes;          /* peak memory beside what is in use now; mostly good to a factor of 2 */
+  double bytes;          /* peak memory beside what is in use now; mostly good to a factor of 2. Large crunches
+                          * need half of it until their end, where factors become doubles */
   double factor_bytes;   /* of it for the factorisation */
   double flops;          /* of one factorisation */
   double factorisations; /* a guess from density and method, good to a factor of 5 */

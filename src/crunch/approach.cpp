@@ -33,7 +33,7 @@ bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &
 
 // One solver's answer. True when it is kept (`solved`), or when the call was interrupted.
 bool ask(CrunchState &s, jam_lp_solver solver, const IpmControl &control, bool &solved) {
-  s.answer = solver == JAM_LP_IPM ? InteriorPoint(s.system).solve(s.lp, control, &s.monitor)
+  s.answer = solver == JAM_LP_IPM ? s.interior_point.solve(s.lp, control, &s.monitor)
                                   : solve_lp_clp(s.lp, clp_tolerance, &s.monitor);
   if (s.hooks.answer) s.hooks.answer(s.answer, solver);
   LpCheck check;

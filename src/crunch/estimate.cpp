@@ -81,14 +81,15 @@ Edges coupled_edges(const Packing &p, const PairList &pairs) {
 }
 
 // Flops a second of this core in blocks as large as the fronts are; a millisecond.
+template <class Real>
 double measured_rate(int size) {
-  const BlasSingleThread single;
-  const double one = 1.0, zero = 0.0;
-  std::vector<double> a(static_cast<size_t>(size) * size, 1e-3), c(a.size());
+  const BlasSingleThread single_thread;
+  const Real one = 1, zero = 0;
+  std::vector<Real> a(static_cast<size_t>(size) * size, Real(1e-3)), c(a.size());
   double best = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double t0 = now_seconds();
-    dgemm_("N", "T", &size, &size, &size, &one, a.data(), &size, a.data(), &size, &zero, c.data(), &size);
+    Blas<Real>::gemm("N", "T", &size, &size, &size, &one, a.data(), &size, a.data(), &size, &zero, c.data(), &size);
     best = std::max(best, 2.0 * size * size * static_cast<double>(size) / std::max(now_seconds() - t0, 1e-7));
   }
   return best;
@@ -129,8 +130,8 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   e.factorisations = o.method == JAM_CRUNCH_SEQUENTIAL_LP ? 3.0 * steps_dense : steps_dense;
   if (free_spacing(p) > 0.05) e.factorisations = steps_dilute;
   // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
-  // times.
-  const double rate = measured_rate(192);
+  // times. Large factors are floats but for the last few.
+  const double rate = usual.flops > Tuning().single.work ? measured_rate<float>(192) : measured_rate<double>(192);
   e.step_seconds =
       usual.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(usual.factor) + 4e-7 * rows;
   e.seconds = e.factorisations * e.step_seconds;

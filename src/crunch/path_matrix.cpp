@@ -63,23 +63,9 @@ void PathMatrix::weigh(const Packing &p, const Barrier &b, double proximal) {
 }
 
 bool PathMatrix::factorise(double gap) {
-  gap_ = gap;
-  single_ = system_.cholesky().flops() > t_.single_work && gap > failed_at_;
-  return (single_ && system_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data(), Precision::single)) ||
-         factorise_fully();
+  return factor_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data(), gap, 0.0);
 }
 
-bool PathMatrix::factorise_fully() {
-  if (single_) failed_at_ = gap_;
-  single_ = false;
-  return system_.factorise(near_a_.data(), near_weight_.data(), diagonal_.data());
-}
-
-bool PathMatrix::solve(const double *rhs, double h, double *ds, double *dg) {
-  if (single_ && system_.solve_near(rhs, h, ds, dg, t_.single_accuracy, t_.max_single_products)) return true;
-  if (single_ && !factorise_fully()) return false;
-  system_.solve(rhs, h, ds, dg, 1);
-  return true;
-}
+bool PathMatrix::solve(const double *rhs, double h, double *ds, double *dg) { return factor_.solve(rhs, h, ds, dg, 1); }
 
 }  // namespace jam

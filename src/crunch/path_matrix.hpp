@@ -5,14 +5,14 @@
 #include "core/packing.hpp"
 #include "crunch/barrier.hpp"
 #include "crunch/tuning.hpp"
-#include "lp/newton_system.hpp"
+#include "lp/mixed_factor.hpp"
 
 namespace jam {
 
 class PathMatrix {
  public:
   PathMatrix(NewtonSystem &system, int threads, const Tuning &tuning)
-      : system_(system), threads_(threads), t_(tuning) {}
+      : system_(system), factor_(system, tuning.single), threads_(threads) {}
 
   // Call this when the pair list changes.
   void reset(size_t rows, size_t unknowns);
@@ -30,13 +30,10 @@ class PathMatrix {
 
  private:
   void choose_near(const Packing &p, const Barrier &b);
-  bool factorise_fully();
 
   NewtonSystem &system_;
+  MixedFactor factor_;
   const int threads_;
-  const Tuning t_;
-  double gap_ = 0.0, failed_at_ = 0.0;  // duality gaps: of the matrix at hand, and where single precision failed last
-  bool single_ = false;
   std::vector<size_t> near_;  // rows in the matrix, ascending
   PairList near_pairs_;
   std::vector<double> near_a_, near_strain_, near_weight_, weight_, diagonal_;

@@ -4,7 +4,7 @@
 
 #include "crunch/crunch.hpp"
 #include "crunch/tuning.hpp"
-#include "lp/newton_system.hpp"
+#include "lp/interior_point.hpp"
 #include "lp/packing_lp.hpp"
 #include "network/rigidity_test.hpp"
 
@@ -48,6 +48,7 @@ struct CrunchState {
   const CrunchHooks &hooks;
   CrunchResult out;
   NewtonSystem system;
+  InteriorPoint interior_point{system, tuning.single};
   // the last LP
   PairList pairs;
   PackingLp lp;

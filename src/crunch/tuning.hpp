@@ -3,6 +3,8 @@
 #pragma once
 #include <cstddef>
 
+#include "lp/mixed_factor.hpp"
+
 namespace jam {
 
 struct Tuning {
@@ -37,10 +39,9 @@ struct Tuning {
   double corrector_band = 10.0, corrector_ahead = 0.3;
   double whole_step = 0.95;  // longer steps need no corrector
 
-  // ---- factors in single precision, on the path alone (tests/bench/README.md, "Factors in single precision")
-  double single_work = 2e9;       // flops of a factorisation; below, solves eat up what the factor wins
-  double single_accuracy = 1e-2;  // relative error of a direction in the norm of the matrix
-  int max_single_products = 5;    // of conjugate gradients for it; past them a factor in doubles takes over
+  // ---- factors in single precision, of LPs and of the path (tests/bench/README.md, "Factors in single precision")
+  // Below 2e9 flops solves eat up what the factor wins. A direction may be wrong by 1e-2, and take 5 products.
+  SinglePrecision single{2e9, 1e-2, 5};
 
   // ---- schedule of mu
   double reduction = 0.2;       // of mu at its maximum

@@ -186,8 +186,10 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
       break;
     }
     weights();
-    if (!system_.factorise(lp_->a.data(), weight_.data(), diagonal_.data())) break;
-    predictor_corrector(main_);
+    // Directions from floats leave some imbalance: doubles take it out over the second half of the digits.
+    const double least = std::sqrt(control.tolerance);
+    if (!factor_.factorise(lp_->a.data(), weight_.data(), diagonal_.data(), gap, least)) break;
+    if (!predictor_corrector(main_)) break;
     Steps a = longest(main_);
     if (!std::isfinite(main_.g) || !(a.primal > 0.0) || !(a.dual > 0.0)) break;
     const double keep = 1.0 - std::min(0.05, std::max(1e-6, 0.1 * gap));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/monitor.hpp"
-#include "lp/newton_system.hpp"
+#include "lp/mixed_factor.hpp"
 #include "lp/packing_lp.hpp"
 #include "lp/working_set.hpp"
 
@@ -30,7 +30,9 @@ struct IpmControl {
 
 class InteriorPoint {
  public:
-  explicit InteriorPoint(NewtonSystem &system) : system_(system) {}
+  // Without `single` all factors are doubles.
+  explicit InteriorPoint(NewtonSystem &system, const SinglePrecision &single = {})
+      : system_(system), factor_(system, single) {}
   // Gives system the graph of the rows that it needs. The answer carries `solved` when the tolerances were met or when
   // no further digit could be won but the gap is within 1e3 of the tolerance. monitor may be NULL.
   LpSolution solve(const PackingLp &lp, const IpmControl &control, Monitor *monitor = nullptr);
@@ -53,12 +55,12 @@ class InteriorPoint {
   LpSolution answer() const;
   void weights();
   // Solves for targets rc (rows) and rcu, rcv (bounds); `full`: with the primal and dual residuals; only the
-  // direction that is followed in the end is worth a step of refinement.
-  void direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv,
+  // direction that is followed in the end is worth a step of refinement. False when no factor came out.
+  bool direction(const std::vector<double> &rc, const std::vector<double> &rcu, const std::vector<double> &rcv,
                  bool full, int refine, Direction &out);
   Steps longest(const Direction &d) const;
   double mu_after(const Direction &d, const Steps &a) const;
-  void predictor_corrector(Direction &d);
+  bool predictor_corrector(Direction &d);
   void centrality_correctors(Direction &d, double mu_target);
   void move(const Direction &d, const Steps &a);
   // Rows that stand outside the normal equations: the step may take nine tenths of their slack, and one that comes near
@@ -69,6 +71,7 @@ class InteriorPoint {
   bool admit_far();
 
   NewtonSystem &system_;
+  MixedFactor factor_;
   const PackingLp *lp_ = nullptr;  // the near rows of *whole_
   const PackingLp *whole_ = nullptr;
   WorkingSet split_;

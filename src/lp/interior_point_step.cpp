@@ -29,7 +29,7 @@ void InteriorPoint::weights() {
   for (size_t k = 0; k < unknowns_; ++k) diagonal_[k] = ridge + (box_ ? zu_[k] / u_[k] + zv_[k] / v_[k] : 0.0);
 }
 
-void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<double> &rcu,
+bool InteriorPoint::direction(const std::vector<double> &rc, const std::vector<double> &rcu,
                               const std::vector<double> &rcv, bool full, int refine, Direction &out) {
   double h = full ? rg_ : 0.0;
   for (size_t k = 0; k < rows_; ++k) {
@@ -41,7 +41,7 @@ void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<d
     if (full) rhs_[k] += rd_[k];
     if (box_) rhs_[k] += rcv[k] / v_[k] - rcu[k] / u_[k];
   }
-  system_.solve(rhs_.data(), h, out.s.data(), &out.g, refine);
+  if (!factor_.solve(rhs_.data(), h, out.s.data(), &out.g, refine)) return false;
   system_.rows_times(lp_->a.data(), out.s.data(), out.w.data());
   for (size_t k = 0; k < rows_; ++k) {
     out.w[k] += (full ? rp_[k] : 0.0) - out.g;
@@ -52,6 +52,7 @@ void InteriorPoint::direction(const std::vector<double> &rc, const std::vector<d
       out.zu[k] = (rcu[k] + zu_[k] * out.s[k]) / u_[k];
       out.zv[k] = (rcv[k] - zv_[k] * out.s[k]) / v_[k];
     }
+  return true;
 }
 
 InteriorPoint::Steps InteriorPoint::longest(const Direction &d) const {
@@ -83,11 +84,11 @@ double InteriorPoint::mu_after(const Direction &d, const Steps &a) const {
   return sum / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
 }
 
-void InteriorPoint::predictor_corrector(Direction &d) {
+bool InteriorPoint::predictor_corrector(Direction &d) {
   for (size_t k = 0; k < rows_; ++k) targets_[k] = -y_[k] * w_[k];
   if (box_)
     for (size_t k = 0; k < unknowns_; ++k) targets_u_[k] = -u_[k] * zu_[k], targets_v_[k] = -v_[k] * zv_[k];
-  direction(targets_, targets_u_, targets_v_, true, 0, d);
+  if (!direction(targets_, targets_u_, targets_v_, true, 0, d)) return false;
   const double mu = complementarity() / static_cast<double>(rows_ + (box_ ? 2 * unknowns_ : 0));
   const double ratio = mu_after(d, longest(d)) / mu;
   // Below a tenth of the tolerance only rounding is left to win.
@@ -99,8 +100,9 @@ void InteriorPoint::predictor_corrector(Direction &d) {
       targets_u_[k] = target - u_[k] * zu_[k] + d.s[k] * d.zu[k];
       targets_v_[k] = target - v_[k] * zv_[k] - d.s[k] * d.zv[k];
     }
-  direction(targets_, targets_u_, targets_v_, true, 2, d);
+  if (!direction(targets_, targets_u_, targets_v_, true, 2, d)) return false;
   centrality_correctors(d, target);
+  return true;
 }
 
 // Each corrector pulls products that a longer step would leave outside [0.1, 10] mu back to that band, and is kept
@@ -120,7 +122,7 @@ void InteriorPoint::centrality_correctors(Direction &d, double mu) {
         targets_u_[k] = pull((u_[k] - aim.primal * d.s[k]) * (zu_[k] + aim.dual * d.zu[k]));
         targets_v_[k] = pull((v_[k] + aim.primal * d.s[k]) * (zv_[k] + aim.dual * d.zv[k]));
       }
-    direction(targets_, targets_u_, targets_v_, false, 0, extra_);
+    if (!direction(targets_, targets_u_, targets_v_, false, 0, extra_)) return;
     trial_ = d;
     trial_.add(extra_);
     const Steps better = longest(trial_);

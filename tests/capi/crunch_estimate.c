@@ -64,7 +64,8 @@ static measured life(int64_t n, double phi, double pressure, int factorisations)
   return m;
 }
 
-static void memory(int64_t n, double phi, double pressure, int factorisations) {
+/* Floats take half of what the estimate says: it is for the end, where factors of all sizes are doubles. */
+static void memory(int64_t n, double phi, double pressure, int factorisations, double share) {
   int ends[2], status = -1;
   measured m = {0.0, 0.0};
   pid_t child;
@@ -80,15 +81,15 @@ static void memory(int64_t n, double phi, double pressure, int factorisations) {
   assert_true(waitpid(child, &status, 0) == child && status == 0);
   print_message("n %d: estimate %.1f MB, taken %.1f MB\n", (int)n, m.estimate / 1e6, m.taken / 1e6);
 #ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed */
-  assert_true(m.taken > 0.5 * m.estimate && m.taken < 2.0 * m.estimate);
+  assert_true(m.taken > 0.5 * share * m.estimate && m.taken < 2.0 * share * m.estimate);
 #endif
   assert_true(m.taken > 0.0);
 }
 
 static void memory_estimate_is_good_to_a_factor_of_two(void **state) {
   (void)state;
-  memory(1024, 0.3, 30.0, 30);
-  memory(4096, 0.3, 0.0, 2);
+  memory(1024, 0.3, 30.0, 30, 1.0);
+  memory(4096, 0.3, 0.0, 2, 0.5); /* two factors in floats */
 }
 
 /* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */

@@ -254,15 +254,15 @@ void floats_serve(void **) {
   for (const int dim : {2, 3}) {
     const Packing begin = near_start(100, dim, 1);
     BarrierPathControl control = patient();
-    control.tuning.single_work = 1e300;
+    control.tuning.single.work = 1e300;
     Packing doubles = begin, floats = begin, failing = begin;
     const PathRun full = follow(doubles, control);
-    control.tuning.single_work = 0.0;
+    control.tuning.single.work = 0.0;
     const PathRun single = follow(floats, control);
     nothing_left(floats, single);
     assert_true(single.phi != full.phi);
     print_message("d %d: %d factorisations, %d in doubles\n", dim, single.end.factorisations, full.end.factorisations);
-    control.tuning.max_single_products = 0;
+    control.tuning.single.max_products = 0;
     const PathRun refused = follow(failing, control);
     assert_true(refused.phi == full.phi && failing.position == doubles.position);
     assert_true(refused.end.factorisations > full.end.factorisations);

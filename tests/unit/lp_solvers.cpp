@@ -47,6 +47,32 @@ void random_instances(void **) {
     }
 }
 
+// Factors in floats lead to the same optimum. Where they fail at once, doubles take over and give the bits of doubles.
+void floats_serve(void **) {
+  for (int dim = 2; dim <= 4; ++dim) {
+    const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), 1);
+    const double unit = diameter_mean(p);
+    const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
+    PackingLp lp = make_lp(p, pairs, unit);
+    lp.bound = 0.2;
+    const LpSolution doubles = interior(lp);
+    NewtonSystem system;
+    InteriorPoint ipm(system, {0.0, 1e-2, 5});
+    for (int again = 0; again < 2; ++again) {  // the second LP knows where floats failed
+      const LpSolution floats = ipm.solve(lp, IpmControl());
+      const LpCheck check = check_lp(lp, floats);
+      assert_true(floats.solved && floats.s != doubles.s);
+      assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-3);
+      if (!(std::fabs(check.gap) < 1e-9 && std::fabs(floats.g - doubles.g) < 1e-12))
+        fail_msg("d %d: gap %.1e, gain off by %.1e, %d iterations", dim, check.gap, floats.g - doubles.g,
+                 floats.iterations);
+    }
+    const LpSolution refused = InteriorPoint(system, {0.0, 1e-2, 0}).solve(lp, IpmControl());
+    assert_true(refused.s == doubles.s && refused.y == doubles.y);
+    assert_true(refused.factorisations > doubles.factorisations);
+  }
+}
+
 // Long steps bring rows that stood outside the normal equations to bind: they must be seen.
 void far_rows_bind(void **) {
   for (int seed = 1; seed <= 3; ++seed) {
@@ -270,11 +296,11 @@ void far_rows_cut_steps(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances),    cmocka_unit_test(far_rows_bind),
-                              cmocka_unit_test(far_rows_cut_steps),  cmocka_unit_test(warm_starts),
-                              cmocka_unit_test(left_early),          cmocka_unit_test(degenerate_instances),
-                              cmocka_unit_test(fcc_instances),       cmocka_unit_test(vanishing_bound),
-                              cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance),
-                              cmocka_unit_test(check_sees_errors)};
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances),     cmocka_unit_test(floats_serve),
+                              cmocka_unit_test(far_rows_bind),        cmocka_unit_test(far_rows_cut_steps),
+                              cmocka_unit_test(warm_starts),          cmocka_unit_test(left_early),
+                              cmocka_unit_test(degenerate_instances), cmocka_unit_test(fcc_instances),
+                              cmocka_unit_test(vanishing_bound),      cmocka_unit_test(overlap_by_rounding),
+                              cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -597,7 +597,7 @@ class Estimate(Report):
     """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
 
     pairs: of the longest neighbour list
-    bytes: peak memory beside what is in use now; mostly good to a factor of 2
+    bytes: peak memory beside what is in use now; mostly good to a factor of 2. Large crunches need half of it until their end, where factors become doubles
     factor_bytes: of it for the factorisation
     flops: of one factorisation
     factorisations: a guess from density and method, good to a factor of 5

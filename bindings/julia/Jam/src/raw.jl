@@ -580,7 +580,7 @@ mutable struct jam_estimate
     struct_size::UInt32  # set by the caller: sizeof(jam_estimate)
     reserved::Int32  # 0
     pairs::Int64  # of the longest neighbour list
-    bytes::Cdouble  # peak memory beside what is in use now; mostly good to a factor of 2
+    bytes::Cdouble  # peak memory beside what is in use now; mostly good to a factor of 2. Large crunches need half of it until their end, where factors become doubles
     factor_bytes::Cdouble  # of it for the factorisation
     flops::Cdouble  # of one factorisation
     factorisations::Cdouble  # a guess from density and method, good to a factor of 5

@@ -351,7 +351,7 @@ module jam
     real(c_double) :: packing_fraction = 0
     ! MD: reduced pressure of the last window, NaN before
     real(c_double) :: pressure = 0
-    ! crunch: sqrt(Gamma) - 1 of the last step
+    ! crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     real(c_double) :: gain = 0
     ! crunch: largest |s_i| over mean diameter
     real(c_double) :: max_step = 0

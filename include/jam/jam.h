@@ -317,7 +317,7 @@ typedef struct jam_progress {
   int32_t phase;           /* jam_phase */
   double packing_fraction; /* now */
   double pressure;         /* MD: reduced pressure of the last window, NaN before */
-  double gain;             /* crunch: sqrt(Gamma) - 1 of the last step */
+  double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
   double max_step;         /* crunch: largest |s_i| over mean diameter */
   double seconds;          /* since the call began */
   double fraction;         /* 0..1 where known, else NaN */

@@ -56,8 +56,9 @@ class Monitor {
     again.snapshot = 0;
     return report(again);
   }
-  // What look() tells before the first report.
+  // What look() tells before the first report, and how far a long LP is.
   void expect(const jam_progress &p) { last_report_ = p; }
+  void expect_factorisations(int64_t so_far) { last_report_.factorisations = so_far; }
   __attribute__((format(printf, 3, 4))) void log(int level, const char *format, ...) const {
     if (!log_fn || level > log_level) return;
     char line[400];

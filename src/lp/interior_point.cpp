@@ -185,6 +185,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
       out.solved = gap <= 1e3 * control.tolerance && dual_norm_ <= 1e2 * control.balance;
       break;
     }
+    if (monitor) monitor->expect_factorisations(system_.factorisations);
     weights();
     // Directions from floats leave some imbalance: doubles take it out over the second half of the digits.
     const double least = std::sqrt(control.tolerance);

@@ -73,6 +73,26 @@ void floats_serve(void **) {
   }
 }
 
+// Reports that repeat themselves in a long LP say how many factorisations it took so far.
+void long_lps_tell(void **) {
+  const Packing p = start(60, 3, 0.3, 4);
+  const double unit = diameter_mean(p);
+  const PairList pairs = find_pairs(p, 0.5 * unit, 1.0);
+  PackingLp lp = make_lp(p, pairs, unit);
+  lp.bound = 0.2;
+  NewtonSystem system;
+  Monitor monitor;
+  int64_t told = -1;
+  monitor.begin();
+  monitor.progress = [](const jam_progress *x, void *out) {
+    return *static_cast<int64_t *>(out) = x->factorisations, 0;
+  };
+  monitor.progress_user = &told;
+  const LpSolution x = InteriorPoint(system).solve(lp, IpmControl(), &monitor);
+  while (told < 0) monitor.look();  // after a silence
+  assert_true(x.factorisations > 2 && told >= x.factorisations - 1);
+}
+
 // Long steps bring rows that stood outside the normal equations to bind: they must be seen.
 void far_rows_bind(void **) {
   for (int seed = 1; seed <= 3; ++seed) {
@@ -296,11 +316,12 @@ void far_rows_cut_steps(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(random_instances),     cmocka_unit_test(floats_serve),
-                              cmocka_unit_test(far_rows_bind),        cmocka_unit_test(far_rows_cut_steps),
-                              cmocka_unit_test(warm_starts),          cmocka_unit_test(left_early),
-                              cmocka_unit_test(degenerate_instances), cmocka_unit_test(fcc_instances),
-                              cmocka_unit_test(vanishing_bound),      cmocka_unit_test(overlap_by_rounding),
-                              cmocka_unit_test(overlapping_instance), cmocka_unit_test(check_sees_errors)};
+  const CMUnitTest tests[] = {cmocka_unit_test(random_instances),    cmocka_unit_test(floats_serve),
+                              cmocka_unit_test(long_lps_tell),       cmocka_unit_test(far_rows_bind),
+                              cmocka_unit_test(far_rows_cut_steps),  cmocka_unit_test(warm_starts),
+                              cmocka_unit_test(left_early),          cmocka_unit_test(degenerate_instances),
+                              cmocka_unit_test(fcc_instances),       cmocka_unit_test(vanishing_bound),
+                              cmocka_unit_test(overlap_by_rounding), cmocka_unit_test(overlapping_instance),
+                              cmocka_unit_test(check_sees_errors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -389,7 +389,7 @@ class Progress(Report):
     phase: jam_phase
     packing_fraction: now
     pressure: MD: reduced pressure of the last window, NaN before
-    gain: crunch: sqrt(Gamma) - 1 of the last step
+    gain: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     max_step: crunch: largest |s_i| over mean diameter
     seconds: since the call began
     fraction: 0..1 where known, else NaN

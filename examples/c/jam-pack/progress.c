@@ -37,8 +37,8 @@ static int32_t show_progress(const jam_progress *p, void *user) {
     fprintf(stderr, "%s  p %.4g  phi %.6f  %.3g collisions  %.1f s", t->stage, p->pressure, p->packing_fraction,
             (double)p->collisions, now - t->begin);
   else
-    fprintf(stderr, "%s  step %lld  sqrt(Gamma)-1 %.3e  phi %.9f  %.1f s", t->stage, (long long)p->steps, p->gain,
-            p->packing_fraction, now - t->begin);
+    fprintf(stderr, "%s  %lld LPs  %lld factorisations  gain %.3e  phi %.12f  %.1f s", t->stage, (long long)p->steps,
+            (long long)p->factorisations, p->gain, p->packing_fraction, now - t->begin);
   if (!t->is_terminal) fputc('\n', stderr);
   fflush(stderr);
   return 0;

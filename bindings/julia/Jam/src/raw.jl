@@ -328,7 +328,7 @@ mutable struct jam_progress
     phase::Int32  # jam_phase
     packing_fraction::Cdouble  # now
     pressure::Cdouble  # MD: reduced pressure of the last window, NaN before
-    gain::Cdouble  # crunch: sqrt(Gamma) - 1 of the last step
+    gain::Cdouble  # crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     max_step::Cdouble  # crunch: largest |s_i| over mean diameter
     seconds::Cdouble  # since the call began
     fraction::Cdouble  # 0..1 where known, else NaN

@@ -171,6 +171,8 @@ def table(r, sizes, model, top):
     for name, a, label in (("extended", THETA_E, ".2"), ("gaps", -GAMMA, ".5")):  # the estimator that fails
         scaled = {n: mean_error([x[0] * n ** (1 / (1 + a)) for x in getattr(size, name)]) for n, size in sizes.items()}
         first, last = scaled[min(scaled)], scaled[max(scaled)]
+        if len(scaled) == 1:
+            continue
         r.add(
             "6.4",
             f"N^(1/(1+a)) <x_min> of {name}: largest N over smallest",

@@ -71,7 +71,7 @@ def main():
         below = {h: np.array([np.sum(g < h) / n for g in samples]) for h in (1e-4, 1e-3, 1e-2, 1e-1)}
         for h in below:
             r.add("6.5.5", f"gaps below {h:g} a sphere, N = {n}", "none", *mean_error(below[h]))
-        for low, high in ((1e-3, 1e-2), (1e-2, 1e-1)):
+        for low, high in ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1)):
             few, many = below[low], below[high]
             power = np.log10(many.mean() / few.mean())
             error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(10)

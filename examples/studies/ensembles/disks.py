@@ -7,15 +7,20 @@ Log-normal diameters of deviation 0.2, d = 2, growth from 0.4 at G = 1e-2 to p =
 parameters. It states that d = 2 has no size effect in the forces and a clear one in the gaps, as d = 3, up to logarithms.
 All forces together: 0.19 (d = 2). Small: N = 64, 128 and 256 with 6400 disks a size. Large: to N = 4096 with 1e6.
 """
+import sys
+
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from common import GAMMA, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
+from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
 from finite_size import collapse_tail
 
 from jam import scaling
+
+sys.path.insert(0, str(HERE.parent))
+from tail_exponents import FLOOR, GAP_FLOOR, GAP_POWERS, POWERS, fit  # noqa: E402
 
 
 def protocol(n):
@@ -89,16 +94,27 @@ def main():
     ideal = np.mean(4.0 - 2.0 / s.rows["stable"])
     r.add("10", f"disks: mean z, N = {n}: 2d + 2(1-d)/N'", round(float(ideal), 6), np.concatenate(s.z).mean())
     r.add("10", f"disks: psi_6, N = {n}", "none", *mean_error(s.order))
-    cut = 3 * n ** (-1 / (1 + THETA_E))
-    for name, low, high, known in (
-        ("extended", cut, 0.5, THETA_E),
-        ("localised", 0.01, 0.3, THETA_L),
-        ("forces", cut, 0.5, 0.19),
-        ("gaps", 3 * n ** (-1 / (1 - GAMMA)), 0.05, -GAMMA),
+    for name, text, known, powers, floor in (
+        ("extended", "extended forces", THETA_E, POWERS, FLOOR),
+        ("localised", "localised forces", THETA_L, POWERS, FLOOR),
+        ("forces", "all forces", 0.19, POWERS, FLOOR),
+        ("gaps", "gaps", -GAMMA, GAP_POWERS, GAP_FLOOR),
     ):
-        found = scaling.fit_power(getattr(s, name), high, low)
-        text = "all forces" if name == "forces" else name if name == "gaps" else name + " forces"
-        r.add("10", f"disks: exponent of {text} on {low:.1e} ... {high:g}, N = {n}", known, found.value, found.error)
+        try:
+            found = fit(getattr(s, name), n, powers, floor)
+        except ValueError as error:
+            print(f"{name}: {error}")
+            continue
+        text = f"disks: exponent of {text}, N = {n}, averaged over ranges"
+        r.add("10", text, known, found["exponent"], found["error"])
+    ends = (1e-3, 1e-2, 3e-2, 1e-1, 3e-1)
+    below = {h: np.array([np.mean(f < h) for f in s.localised]) for h in ends}
+    for low, high in zip(ends, ends[1:]):
+        few, many = below[low], below[high]
+        power = np.log(many.mean() / few.mean()) / np.log(high / low) - 1
+        error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(high / low)
+        text = f"disks: exponent of localised forces by two counts, f = {low:g} to {high:g}, N = {n}"
+        r.add("10", text, THETA_L, power, error)
     if len(sizes) > 1:
         for name, a, low, high in (("extended", THETA_E, 0.3, 10), ("gaps", -GAMMA, 0.1, 100)):
             found, at = collapse_tail(sizes, name, a, low, high)

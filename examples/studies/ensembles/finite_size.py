@@ -31,7 +31,7 @@ def protocol(model, n):
     if model == "mk":
         stages = [{"growth_rate": 5e-3, "pressure": 1e6}]
         return dict(n=n, dim=3, packing_fraction=2.5, model="mk", stages=stages)
-    return dict(n=n, dim=3, analysis=FLOPPY) if n <= 1024 else dict(n=n, dim=3)
+    return dict(n=n, dim=3, analysis=FLOPPY) if n <= 2048 else dict(n=n, dim=3)
 
 
 def kept_entries(e, model):
@@ -50,13 +50,16 @@ class Size:
 
     def __init__(self, e, model):
         self.extended, self.localised, self.forces, self.gaps, self.z, rows = [], [], [], [], [], []
+        self.clear = []  # gaps that touch no buckler
         for entry in kept_entries(e, model):
-            f, pairs, z, gaps = entry.read("forces", "pairs", "coordination", "gaps")
+            f, pairs, z, gaps, ends = entry.read("forces", "pairs", "coordination", "gaps", "gaps/pair")
             local = (z[pairs] == 4).any(axis=1)
+            clear = (gaps > 0) & (z[ends] != 4).all(axis=1)
             self.extended.append(np.sort(f[~local]))
             self.localised.append(np.sort(f[local]))
             self.forces.append(np.sort(f))
             self.gaps.append(np.sort(gaps[gaps > 0]))
+            self.clear.append(np.sort(gaps[clear]))
             self.z.append(z[z > 0])
             rows.append(entry.row)
         self.rows = np.array(rows)

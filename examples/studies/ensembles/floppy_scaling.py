@@ -3,7 +3,7 @@
 
 usage: floppy_scaling.py [--large] [--folder DIR] [--only-read]
 
-Opening a contact by s gives one mode dr: b is its median displacement over |dr|, m the median displacement over s,
+Opening a contact by s (in mean diameters) gives one mode dr: b is its median displacement over |dr|, m the median displacement over s,
 W = f / m, s_plus the opening at which the next contact forms (s_dagger of the thesis). s_return is s* of the thesis, where p dV
 returns to zero (twice s_star): a contact is stable if Sigma = s_return / s_plus > 1.
 Expected: b of extended modes ~ N^(-1/2), f_min ~ N^(-1/(1+theta)), s_plus ~ N^(-1/(1-gamma)) / m, pdf(W) ~ W^theta_e.
@@ -46,9 +46,9 @@ def main():
         for entry in e:
             if not entry.row["jammed"] or entry.row["excess_contacts"] or entry.row["crystal_score"] > MAX_ORDER:
                 continue
-            modes, f, pairs, z = entry.read("floppy_modes", "forces", "pairs", "coordination")
+            modes, f, pairs, z, sigma = entry.read("floppy_modes", "forces", "pairs", "coordination", "diameters")
             local = (z[pairs] == 4).any(axis=1)
-            b, s, index = modes["median"], modes["s_plus"], modes["s_return"] / modes["s_plus"]
+            b, s, index = modes["median"], modes["s_plus"] / sigma.mean(), modes["s_return"] / modes["s_plus"]
             m = f / modes["weight"]  # median displacement over the opening
             use = ~local & (s > 0) & np.isfinite(s)
             rows.append(

@@ -43,6 +43,22 @@ def synthetic(rng, real):
     return made
 
 
+def powers(r, samples, n, text):
+    """Gaps a sphere below h, and the power of h from one decade to the next; errors over packings."""
+    below = {h: np.array([np.sum(g < h) / n for g in samples]) for h in (1e-4, 1e-3, 1e-2, 1e-1)}
+    for h in below:
+        r.add("6.5.5", f"gaps below {h:g} a sphere{text}N = {n}", "none", *mean_error(below[h]))
+    for low, high in ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1)):
+        few, many = below[low], below[high]
+        power = np.log10(many.mean() / few.mean())
+        error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(10)
+        law = scaling.crossover(np.array([low, high]) * n ** (1 / (1 - GAMMA)), *CROSSOVER, -GAMMA)
+        row = (
+            f"power of h in them, h = {low:g} to {high:g}{text}N = {n} (published: crossover of Mari-Kurchan packings)"
+        )
+        r.add("6.5.5", row, round(float(np.log10(law[1] / law[0])), 4), power, error)
+
+
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--sizes", type=int, nargs="+", help="N (small: 100 200 400; large: 256 512 1024 2048)")
@@ -51,12 +67,12 @@ def main():
     p.add_argument("--kappa", type=float, help="radius rate from p = 500 to 1e7 (that of the default protocol, 9e-4)")
     o = p.parse_args()
     r = Results(o, f"gap_collapse_kappa{o.kappa:g}" if o.kappa else "gap_collapse")
-    every, tail = {}, {}
+    every, clear, tail = {}, {}, {}
     for n in o.sizes or ((256, 512, 1024, 2048) if o.large else (100, 200, 400)):
         e = ensemble(o, grown(n, o.kappa), round(o.particles / n) if o.large else 3200 // n)
         s = Size(e, "euclid")
         if len(s.rows) >= 4:
-            every[n], tail[n] = s.gaps, [g[g < BULK] for g in s.gaps]
+            every[n], clear[n], tail[n] = s.gaps, s.clear, [g[g < BULK] for g in s.gaps]
             r.used(e, len(s.rows))
     for top in (200, 50, 15):
         found = collapsed(every, top)
@@ -68,18 +84,8 @@ def main():
         found = collapsed(rest, 200)
         r.add("6.5.5", f"collapse, up to 200, without N = {min(every)}", -GAMMA, found.value[0], found.error[0])
     for n, samples in every.items():
-        below = {h: np.array([np.sum(g < h) / n for g in samples]) for h in (1e-4, 1e-3, 1e-2, 1e-1)}
-        for h in below:
-            r.add("6.5.5", f"gaps below {h:g} a sphere, N = {n}", "none", *mean_error(below[h]))
-        for low, high in ((1e-4, 1e-3), (1e-3, 1e-2), (1e-2, 1e-1)):
-            few, many = below[low], below[high]
-            power = np.log10(many.mean() / few.mean())
-            error = mean_error(many / many.mean() - few / few.mean())[1] / np.log(10)
-            law = scaling.crossover(np.array([low, high]) * n ** (1 / (1 - GAMMA)), *CROSSOVER, -GAMMA)
-            text = (
-                f"power of h in them, h = {low:g} to {high:g}, N = {n} (published: crossover of Mari-Kurchan packings)"
-            )
-            r.add("6.5.5", text, round(float(np.log10(law[1] / law[0])), 4), power, error)
+        powers(r, samples, n, ", ")
+        powers(r, clear[n], n, " without bucklers, ")
     small, large = (mean_error([np.sum(g < BULK) / n for g in every[n]]) for n in (min(every), max(every)))
     error = small[0] / large[0] * np.hypot(small[1] / small[0], large[1] / large[0])
     text = f"gaps below {BULK} a sphere, N = {min(every)} over {max(every)}"

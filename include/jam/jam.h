@@ -1372,7 +1372,8 @@ JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out
 typedef enum jam_floppy_column {
   JAM_FLOPPY_MEDIAN = 0,    /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
   JAM_FLOPPY_WEIGHT = 1,    /* W = f / median |dr_i|: f equals W times the displacement far away */
-  JAM_FLOPPY_S_PLUS = 2,    /* opening at which, to first order, the next contact forms */
+  JAM_FLOPPY_S_PLUS = 2,    /* opening at which, to first order, the next contact forms. Openings have the unit of
+                             * positions: divide by the diameter to compare packings of different N */
   JAM_FLOPPY_S_STAR = 3,    /* opening f / B at which, to second order, the diameters are least; B = sum_k f_k
                              * |dr_perp|^2 / r_k */
   JAM_FLOPPY_STABILITY = 4, /* s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F) */

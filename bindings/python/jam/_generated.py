@@ -330,7 +330,7 @@ class FloppyColumn(IntEnum):
     """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1"""
     MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     WEIGHT = 1  # W = f / median |dr_i|: f equals W times the displacement far away
-    S_PLUS = 2  # opening at which, to first order, the next contact forms
+    S_PLUS = 2  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
     S_STAR = 3  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
     STABILITY = 4  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
     S_RETURN = 5  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability

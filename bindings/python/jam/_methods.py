@@ -880,7 +880,8 @@ class Methods:
         weight : array
             W = f / median |dr_i|: f equals W times the displacement far away
         s_plus : array
-            opening at which, to first order, the next contact forms
+            opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by
+            the diameter to compare packings of different N
         s_star : array
             opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
         stability : array
@@ -1185,7 +1186,7 @@ class FloppyModesResult(NamedTuple):
 
     median: Array  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     weight: Array  # W = f / median |dr_i|: f equals W times the displacement far away
-    s_plus: Array  # opening at which, to first order, the next contact forms
+    s_plus: Array  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
     s_star: Array  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
     stability: Array  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
     s_return: Array  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability

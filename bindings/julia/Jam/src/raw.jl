@@ -266,7 +266,7 @@ const JAM_CLASS_MEDIAN = Int32(4)  # forces only: the (lower) median of one of i
 # jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
 const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
-const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms
+const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
 const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, the diameters are least; B = sum_k f_k |dr_perp|^2 / r_k
 const JAM_FLOPPY_STABILITY = Int32(4)  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
 const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability

@@ -42,7 +42,15 @@ class Polish {
   Polish(NewtonSystem &system, int threads, const Tuning &tuning, double allowed_overlap, Monitor *monitor)
       : system_(system), threads_(threads), t_(tuning), allowed_(allowed_overlap), monitor_(monitor) {}
 
+  // One contact too many can be a gap that the LP could not tell from a force. Then the rest closes without it.
   PolishEnd close_and_balance(Packing &p, ContactNetwork &net) {
+    PolishEnd end = try_contacts(p, net);
+    for (int k = 0; k < t_.max_drops && drops_gap(p, net, end); ++k) end = try_contacts(p, net);
+    return end;
+  }
+
+ private:
+  PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
     if (!close_all(p, net)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
     if (excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
@@ -59,7 +67,27 @@ class Polish {
     return largest(net.gap) > closed_limit(p, t_) ? PolishEnd::open_contact : PolishEnd::done;
   }
 
- private:
+  // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance. Forces f - t r
+  // balance too, for any t. The contact whose force vanishes first, at t > 0, has its gap open once the rest closes:
+  // this is the exchange of a dual simplex method. False where there is none to drop.
+  bool drops_gap(const Packing &p, ContactNetwork &net, PolishEnd end) const {
+    if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
+    if (excess_contacts(net, p.dim) <= 0 || largest(net.gap) <= closed_limit(p, t_) || !pushes_only(net)) return false;
+    size_t weakest = net.size();
+    double part = 0.0;
+    for (size_t k = 0; k < net.size(); ++k)
+      if (net.gap[k] > 0.0 && (weakest == net.size() || net.force[k] < part * net.gap[k]))
+        weakest = k, part = net.force[k] / net.gap[k];
+    if (weakest == net.size()) return false;
+    log("polish: contact of %d and %d does not close, with a force of %.1e and a gap of %.1e", net.pairs.i[weakest],
+        net.pairs.j[weakest], net.force[weakest], net.gap[weakest]);
+    for (size_t k = 0; k < net.size(); ++k) net.force[k] -= part * net.gap[k];
+    std::vector<char> on(net.size(), 1);
+    on[weakest] = 0;
+    net = subset(net, on, p.dim);
+    return true;
+  }
+
   template <class... T>
   void log(const char *format, T... values) const {
     if (monitor_) monitor_->log(JAM_LOG_DEBUG, format, values...);

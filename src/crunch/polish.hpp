@@ -12,8 +12,9 @@ namespace jam {
 enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, negative_force, overlap };
 
 // Changes p and contacts only when it returns done: all contacts closed to rounding, no overlap, and forces that push
-// where they are unique (one state of self-stress). Where the contacts do not close together, balance or push, it looks
-// for the exact vertex (exact_vertex.hpp). The graph of `system` is replaced.
+// where they are unique (one state of self-stress). A contact too many that does not close with the others is dropped.
+// Where contacts do not close, balance or push all the same, narrow LPs look for the exact vertex (exact_vertex.cpp).
+// The graph of `system` is replaced.
 PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, const Tuning &tuning,
                  Monitor *monitor = nullptr);
 

@@ -61,6 +61,7 @@ struct Tuning {
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
+  int max_drops = 8;   // contacts that do not close, dropped before narrow LPs are asked
   int max_kicks = 10;  // motions along a flex
   double kick = 0.02;  // the longest
 };

@@ -50,7 +50,9 @@ bool last_digits(CrunchState &s) {
   if (s.show(JAM_PHASE_POLISH, s.out.report.gain, s.out.report.max_step, false))
     return s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED), false;
   if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
-  const PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, s.tuning, &s.monitor);
+  Tuning tuning = s.tuning;
+  if (s.strain.count() > 0) tuning.max_drops = 0;  // a strain may close what motions leave open
+  const PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
   s.pairs.clear();  // polish left another graph in the system
   if (end == PolishEnd::interrupted) return s.interrupted(), false;
   s.polished = end == PolishEnd::done;

@@ -42,7 +42,7 @@ class BarrierPath {
                    "%.2f %.2f moved %.1e",
                    out.factorisations, gap_, decrement_, balance_, packing_fraction(p_), b_.pairs.size(),
                    matrix_.near(), correctors_, alpha_p_, alpha_d_, last_step_);
-      out.reached = balance_ < 1e-2 && gap_ <= t_.target_gap;
+      out.reached = balance_ < 1e-2 && gap_ <= end_;
       const bool crystal =
           out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
       if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
@@ -56,6 +56,7 @@ class BarrierPath {
  private:
   void open() {
     b_.unit = diameter_mean(p_);
+    end_ = std::max(control_.least_gap, t_.path_end(p_));
     reach_ = b_.unit * (t_.least_reach + t_.reach_per_spacing * free_spacing(p_));
     const bool anew = !(control_.from.mu > 0.0);
     if (anew) open_gaps();
@@ -240,7 +241,7 @@ class BarrierPath {
   PathMatrix matrix_;
   std::vector<double> target_, row_, unbalanced_, rhs_;
   double reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
-  double first_mu_ = 0.0, gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
+  double first_mu_ = 0.0, end_ = 0.0, gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
   double alpha_p_ = 0.0, alpha_d_ = 0.0, last_step_ = 0.0, decrement_ = 0.0;
   int correctors_ = 0;
 };

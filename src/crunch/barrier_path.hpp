@@ -16,16 +16,17 @@ namespace jam {
 
 struct BarrierPathControl {
   Tuning tuning;
-  StrainBasis strain;    // that the path chooses; empty: a fixed cell
-  PathPoint from;        // where a path that was stopped goes on; mu 0: a new one
-  double opening = 0.0;  // of a new one: the closest pair is opened to this relative gap at least
+  StrainBasis strain;      // that the path chooses; empty: a fixed cell
+  PathPoint from;          // where a path that was stopped goes on; mu 0: a new one
+  double opening = 0.0;    // of a new one: the closest pair is opened to this relative gap at least
+  double least_gap = 0.0;  // it ends at this duality gap, or at Tuning::path_end where that is larger
   int threads = 1;
   int64_t lps = 0;                                                             // solved before, for the progress
   std::function<void(double gap, size_t pairs, const PathPoint &at)> on_step;  // after every move; may be empty
 };
 
 struct BarrierPathResult {
-  bool reached = false;  // duality gap below tuning.target_gap with balanced forces
+  bool reached = false;  // it ended at its duality gap with balanced forces
   double gap = 0.0;
   int factorisations = 0;
   int increases = 0;        // of mu, at saddles

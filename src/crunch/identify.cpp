@@ -51,7 +51,7 @@ bool last_digits(CrunchState &s) {
     return s.stop(JAM_STOP_CANCELLED, JAM_CANCELLED), false;
   if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
   Tuning tuning = s.tuning;
-  if (s.strain.count() > 0) tuning.max_drops = 0;  // a strain may close what motions leave open
+  if (s.strain.count() > 0) tuning.max_excess = 0;  // a strain may close what motions leave open
   const PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
   s.pairs.clear();  // polish left another graph in the system
   if (end == PolishEnd::interrupted) return s.interrupted(), false;

@@ -22,11 +22,6 @@ double largest(const std::vector<double> &x) {
   return m;
 }
 
-// Rounding of closed contacts grows with the box over the diameter.
-double closed_limit(const Packing &p, const Tuning &t) {
-  return t.closed_gap * std::max(1.0, 0.1 * p.cell.side() / diameter_mean(p));
-}
-
 double norm(const std::vector<double> &x) {
   double sum = 0.0;
   for (double v : x) sum += v * v;
@@ -42,10 +37,10 @@ class Polish {
   Polish(NewtonSystem &system, int threads, const Tuning &tuning, double allowed_overlap, Monitor *monitor)
       : system_(system), threads_(threads), t_(tuning), allowed_(allowed_overlap), monitor_(monitor) {}
 
-  // One contact too many can be a gap that the LP could not tell from a force. Then the rest closes without it.
+  // A contact too many can be a gap that the LP could not tell from a force. Then the rest closes without it.
   PolishEnd close_and_balance(Packing &p, ContactNetwork &net) {
     PolishEnd end = try_contacts(p, net);
-    for (int k = 0; k < t_.max_drops && drops_gap(p, net, end); ++k) end = try_contacts(p, net);
+    while (drops_gap(p, net, end)) end = try_contacts(p, net);
     return end;
   }
 
@@ -64,15 +59,19 @@ class Polish {
       return PolishEnd::negative_force;
     }
     if (closest_pair(p).gap < allowed_) return PolishEnd::overlap;
-    return largest(net.gap) > closed_limit(p, t_) ? PolishEnd::open_contact : PolishEnd::done;
+    return largest(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
   }
 
   // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance. Forces f - t r
   // balance too, for any t. The contact whose force vanishes first, at t > 0, has its gap open once the rest closes:
-  // this is the exchange of a dual simplex method. False where there is none to drop.
+  // this is the exchange of a dual simplex method. False where there is none to drop, and in crystals, where gaps of
+  // many contacts too many say little.
   bool drops_gap(const Packing &p, ContactNetwork &net, PolishEnd end) const {
     if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
-    if (excess_contacts(net, p.dim) <= 0 || largest(net.gap) <= closed_limit(p, t_) || !pushes_only(net)) return false;
+    const bool open =
+        largest(net.gap) > t_.closed_limit(p) || *std::min_element(net.gap.begin(), net.gap.end()) < allowed_;
+    const int64_t excess = excess_contacts(net, p.dim);
+    if (!open || excess <= 0 || excess > t_.max_excess || !pushes_only(net)) return false;
     size_t weakest = net.size();
     double part = 0.0;
     for (size_t k = 0; k < net.size(); ++k)
@@ -156,7 +155,7 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   ContactNetwork better = net;
   const PolishEnd end = polisher.close_and_balance(q, better);
   if (end != PolishEnd::done) return end;
-  if (monitor && largest(better.gap) > closed_limit(q, tuning))
+  if (monitor && largest(better.gap) > tuning.closed_limit(q))
     monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),
                  largest(better.gap));
   p = std::move(q);

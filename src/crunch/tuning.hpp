@@ -1,8 +1,10 @@
 // Every number that steers a crunch. Lengths are in mean diameters; mu and duality gaps are in units of Gamma.
 // README.md holds the table of tests/bench/ablation: what each mechanism is worth on the named sets.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 
+#include "core/packing.hpp"
 #include "lp/mixed_factor.hpp"
 
 namespace jam {
@@ -30,7 +32,7 @@ struct Tuning {
   double crystal_gap = 1e-5;   // on the path counted from this gain or duality gap on: a large mu blurs the forces
 
   // ---- barrier path
-  double target_gap = 1e-12;  // the path ends at this duality gap
+  double end_roundings = 4.0;  // the path ends at a duality gap of so many roundings of a closed contact
   int max_path_factorisations = 600;
   double centrality = 100.0;  // products y c stay within this factor of mu
   double least_reach = 0.15;  // listed gaps; dilute starts list reach_per_spacing free spacings more
@@ -61,9 +63,15 @@ struct Tuning {
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
-  int max_drops = 8;   // contacts that do not close, dropped before narrow LPs are asked
+  int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
   int max_kicks = 10;  // motions along a flex
   double kick = 0.02;  // the longest
+
+  // Rounding of closed contacts grows with the box over the diameter.
+  double closed_limit(const Packing &p) const {
+    return closed_gap * std::max(1.0, 0.1 * p.cell.side() / diameter_mean(p));
+  }
+  double path_end(const Packing &p) const { return end_roundings * closed_limit(p); }
 };
 
 }  // namespace jam

@@ -98,6 +98,8 @@ const Mechanism mechanisms[] = {
     {"nearly centred", [](Tuning &t, jam_crunch_options &) { t.nearly_centred = 0.0; }},
     {"narrower first bound", [](Tuning &t, jam_crunch_options &) { t.bound_per_root_gap = never; }},
     {"neighbours of uncovered spheres", [](Tuning &t, jam_crunch_options &) { t.farthest_reach = 0.0; }},
+    {"end of the path near rounding", [](Tuning &t, jam_crunch_options &) { t.end_roundings = 33.0; }},  // 1e-12
+    {"dropped contacts", [](Tuning &t, jam_crunch_options &) { t.max_excess = 0; }},
     {"narrow LPs", [](Tuning &t, jam_crunch_options &) { t.max_narrow_lps = 0; }},
     {"kicks along flexes", [](Tuning &t, jam_crunch_options &) { t.max_kicks = 0; }},
 };

@@ -185,7 +185,7 @@ void nothing_left(Packing &p, const PathRun &run) {
   Monitor monitor;
   monitor.begin();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 1;
-  assert_true(run.end.reached && run.end.gap <= Tuning().target_gap && closest_pair(p).gap > 0.0);
+  assert_true(run.end.reached && run.end.gap <= Tuning().path_end(p) && closest_pair(p).gap > 0.0);
   assert_true(crunch(p, o, monitor, nullptr, nullptr).report.gain < 2.0 * run.end.gap);
 }
 
@@ -220,7 +220,7 @@ void arrives_in_free_cell(void **) {
     BarrierPathControl control = patient();
     control.strain = strain_basis(dim, true, true);
     const PathRun run = follow(p, control);
-    assert_true(run.end.reached && run.end.gap <= Tuning().target_gap && closest_pair(p).gap > 0.0);
+    assert_true(run.end.reached && run.end.gap <= Tuning().path_end(p) && closest_pair(p).gap > 0.0);
     assert_true(std::fabs(p.cell.volume() - 1.0) < 1e-12 && !p.cell.cube());
     assert_true(packing_fraction(p) > packing_fraction(fixed));
     const double unit = diameter_mean(p);

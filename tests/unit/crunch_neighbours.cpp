@@ -91,7 +91,7 @@ void mixtures_arrive(void **) {
       Monitor monitor;
       monitor.begin();
       const BarrierPathResult end = follow_barrier_path(p, BarrierPathControl(), system, monitor);
-      assert_true(end.reached && end.gap <= Tuning().target_gap && closest_pair(p).gap > 0.0);
+      assert_true(end.reached && end.gap <= Tuning().path_end(p) && closest_pair(p).gap > 0.0);
     }
 }
 

@@ -238,7 +238,9 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   if (undecided && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
     RigidityResult shut = test_rigidity(g, kind, cancel_point);
     const bool same = shut.jammed == out.result.jammed;
-    if (same || out.result.jammed == Verdict::yes) out.result = std::move(shut);  // else the flex of the open ones
+    // Jammed with and without the pairs in doubt: closed contacts alone prove it. Else the flex of the open ones is
+    // kept.
+    if (same ? shut.jammed != Verdict::yes : out.result.jammed == Verdict::yes) out.result = std::move(shut);
     if (!same) out.result.jammed = Verdict::undecided;
   }
   net.force = out.result.force;

@@ -54,7 +54,7 @@ RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
 // below undecided_gap_limit. Undecided are other pairs below undecided_gap_limit, and those of `listed` below
 // listed_gap_limit. Undecided pairs are taken as closed, then as open; where the two verdicts differ, the packing is
-// undecided.
+// undecided. Where both are jammed, contacts and forces are those of the closed pairs alone.
 struct PackingVerdict {
   RigidityResult result;
   ContactNetwork contacts;      // all that the test looked at, force as in result

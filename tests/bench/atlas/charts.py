@@ -66,14 +66,15 @@ def draw_routes(data, n, picture):
                 if stopped:
                     axis.loglog(*zip(*stopped), "x", color="k", ms=7)
         axes[0, column].set_title(f"N = {n}, start: {start}")
-        axes[0, column].legend(fontsize=7)
         axes[-1, column].set_xlabel("processor seconds")
     for axis, (_, label, _) in zip(axes[:, 0], PANELS):
         axis.set_ylabel(label)
     for axis in axes.flat:
         axis.grid(alpha=0.3)
     figure.suptitle("Crosses: not certified, as the status says")
-    figure.tight_layout()
+    figure.tight_layout(rect=(0, 0.03, 1, 1))
+    drawn = {label: line for axis in axes[0] for line, label in zip(*axis.get_legend_handles_labels())}
+    figure.legend(drawn.values(), drawn, loc="lower center", ncol=len(drawn), fontsize=9)
     figure.savefig(picture, dpi=80)
 
 

@@ -847,7 +847,7 @@ module jam
     integer(c_int32_t) :: max_steps = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
-    ! of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all kept steps took: at least a 20th of this limit, and never more than it
+    ! of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all steps before it took: at least a 20th of this limit, and never more than it
     integer(c_int64_t) :: max_evaluations = 0
     ! limit in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0

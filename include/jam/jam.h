@@ -1024,7 +1024,7 @@ typedef struct jam_decompress_options {
   int32_t max_steps;    /* >= 1, default 1000 */
   int32_t reserved;     /* 0 */
   int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what
-                            * all kept steps took: at least a 20th of this limit, and never more than it */
+                            * all steps before it took: at least a 20th of this limit, and never more than it */
   double wall_time;        /* limit in seconds, > 0, default infinity */
 } jam_decompress_options;
 

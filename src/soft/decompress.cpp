@@ -11,8 +11,9 @@ namespace {
 
 // A step that failed is tried again with the square root of its factor, up to this one.
 constexpr double last_factor = 0.95;
-// A step may take this many times the evaluations of all steps kept so far. A step that takes more follows a weak
-// instability, whose forces fall with the overlaps. A shorter step does the same at larger overlaps.
+// A step may take this many times all evaluations of the call so far, those of failed steps included. A step that takes
+// more follows a weak instability, whose forces fall with the overlaps. A shorter step does the same at larger
+// overlaps.
 constexpr int64_t work_share = 4;
 // It may always take this share of max_evaluations: a start near its minimum takes hardly any and sets no scale.
 constexpr int64_t least_share = 20;
@@ -159,7 +160,7 @@ class Decompression {
     const Effort spent = effort_;
     const double seconds = monitor_.seconds();
     const int64_t least = std::max<int64_t>(1, o_.max_evaluations / least_share);
-    const int64_t most = kept_evaluations_ > 0 ? work_share * kept_evaluations_ : o_.max_evaluations;
+    const int64_t most = effort_.evaluations > 0 ? work_share * effort_.evaluations : o_.max_evaluations;
     effort_.max_evaluations = effort_.evaluations + std::clamp(most, least, o_.max_evaluations);
     Relaxation r(state_, effort_);
     const DescentEnd end = minimise_and_measure(r, o_.minimiser, o_.force_tolerance, near_minimum, now);
@@ -214,7 +215,6 @@ class Decompression {
   // Notes a minimum; true when it is the end.
   bool keep(const SoftRow &row) {
     out_.history.push_back(row);
-    kept_evaluations_ += static_cast<int64_t>(row[JAM_SOFT_EVALUATIONS]);
     before_ = state_;
     const jam_relax_report &at = out_.soft.report;
     effort_.packing_fraction = at.packing_fraction, effort_.pressure = at.pressure;
@@ -265,7 +265,6 @@ class Decompression {
   SoftState state_, before_;  // now, and at the last minimum
   double factor_;             // of the energy in the next step
   Effort effort_;
-  int64_t kept_evaluations_ = 0;  // in steps that were not taken back
   DecompressionResult out_;
   jam_decompress_report report_{};
 };

@@ -198,6 +198,21 @@ void limits_are_told(void **) {
   assert_int_equal(cut.status, JAM_CANCELLED);
 }
 
+// A decompression that goes on from its first minimum: a step that failed at the first limit may take more.
+void failed_steps_set_the_scale(void **) {
+  Monitor monitor;
+  monitor.begin();
+  const std::function<SoftVerdict(const SoftResult &)> nobody;
+  jam_decompress_options o = default_decompress_options();
+  o.isostatic = o.crunch = 0, o.distance = 1e-2;
+  const DecompressionResult near = decompress(random_packing(3, 256, 0.70, 1), o, monitor, nobody);
+  assert_int_equal(near.status, JAM_OK);
+  o.distance = 1e-4, o.max_evaluations = 10000;
+  const DecompressionResult end = decompress(near.soft.packing, o, monitor, nobody);
+  assert_int_equal(end.status, JAM_OK);
+  assert_true(end.soft.report.distance <= 1e-4 && end.soft.report.force_residual < 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -209,6 +224,7 @@ int main() {
                               cmocka_unit_test(network_has_the_hessian),
                               cmocka_unit_test(unjammed),
                               cmocka_unit_test(rattlers_are_centred),
-                              cmocka_unit_test(limits_are_told)};
+                              cmocka_unit_test(limits_are_told),
+                              cmocka_unit_test(failed_steps_set_the_scale)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -937,7 +937,7 @@ OPTIONS = {
         "isostatic": ("int", '1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero modes'),
         "crunch": ("int", '1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing'),
         "max_steps": ("int", '>= 1, default 1000'),
-        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all kept steps took: at least a 20th of this limit, and never more than it'),
+        "max_evaluations": ("int", 'of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all steps before it took: at least a 20th of this limit, and never more than it'),
         "wall_time": ("float", 'limit in seconds, > 0, default infinity'),
     },
     "jam_hessian_options": {

@@ -654,7 +654,7 @@ mutable struct jam_decompress_options
     crunch::Int32  # 1 (default): then crunch from just below contact, and go on until both have one network; the system ends as that jammed packing. 0: it ends as the soft packing
     max_steps::Int32  # >= 1, default 1000
     reserved::Int32  # 0
-    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all kept steps took: at least a 20th of this limit, and never more than it
+    max_evaluations::Int64  # of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what all steps before it took: at least a 20th of this limit, and never more than it
     wall_time::Cdouble  # limit in seconds, > 0, default infinity
     jam_decompress_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end

@@ -47,29 +47,39 @@ void random_instances(void **) {
     }
 }
 
-// Factors in floats lead to the same optimum. Where they fail at once, doubles take over and give the bits of doubles.
+// Factors in floats lead to the same optimum, with a duality gap as small as doubles leave. That is up to 6e-9 for
+// these LPs, since rounding of the normal equations leaves forces out of balance. Each gain lies within its own gap of
+// the optimum. Where floats fail at once, doubles take over and give the bits of doubles.
 void floats_serve(void **) {
   for (int dim = 2; dim <= 4; ++dim) {
-    const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), 1);
-    const double unit = diameter_mean(p);
-    const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
-    PackingLp lp = make_lp(p, pairs, unit);
-    lp.bound = 0.2;
-    const LpSolution doubles = interior(lp);
-    NewtonSystem system;
-    InteriorPoint ipm(system, {0.0, 1e-2, 5});
-    for (int again = 0; again < 2; ++again) {  // the second LP knows where floats failed
-      const LpSolution floats = ipm.solve(lp, IpmControl());
-      const LpCheck check = check_lp(lp, floats);
-      assert_true(floats.solved && floats.s != doubles.s);
-      assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-3);
-      if (!(std::fabs(check.gap) < 1e-9 && std::fabs(floats.g - doubles.g) < 1e-12))
-        fail_msg("d %d: gap %.1e, gain off by %.1e, %d iterations", dim, check.gap, floats.g - doubles.g,
-                 floats.iterations);
+    double worst_floats = 0.0, worst_doubles = 0.0;
+    for (int seed = 1; seed <= 6; ++seed) {
+      const Packing p = start(60, dim, dim == 2 ? 0.4 : 0.2 / (dim - 2), seed);
+      const double unit = diameter_mean(p);
+      const PairList pairs = find_pairs(p, 0.8 * unit, 1.0);
+      PackingLp lp = make_lp(p, pairs, unit);
+      lp.bound = 0.2;
+      const LpSolution doubles = interior(lp);
+      const double gap_doubles = std::fabs(check_lp(lp, doubles).gap);
+      worst_doubles = std::max(worst_doubles, gap_doubles);
+      NewtonSystem system;
+      InteriorPoint ipm(system, {0.0, 1e-2, 5});
+      for (int again = 0; again < 2; ++again) {  // the second LP knows where floats failed
+        const LpSolution floats = ipm.solve(lp, IpmControl());
+        const LpCheck check = check_lp(lp, floats);
+        assert_true(floats.solved && floats.s != doubles.s);
+        assert_true(check.infeasibility < 1e-13 && check.gamma < 1e-10 && check.balance < 1e-4);
+        worst_floats = std::max(worst_floats, std::fabs(check.gap));
+        if (!(std::fabs(floats.g - doubles.g) < std::fabs(check.gap) + gap_doubles + 1e-13))
+          fail_msg("d %d: gap %.1e, gain off by %.1e, %d iterations", dim, check.gap, floats.g - doubles.g,
+                   floats.iterations);
+      }
+      const LpSolution refused = InteriorPoint(system, {0.0, 1e-2, 0}).solve(lp, IpmControl());
+      assert_true(refused.s == doubles.s && refused.y == doubles.y);
+      assert_true(refused.factorisations > doubles.factorisations);
     }
-    const LpSolution refused = InteriorPoint(system, {0.0, 1e-2, 0}).solve(lp, IpmControl());
-    assert_true(refused.s == doubles.s && refused.y == doubles.y);
-    assert_true(refused.factorisations > doubles.factorisations);
+    print_message("d %d: duality gaps up to %.1e in floats, %.1e in doubles\n", dim, worst_floats, worst_doubles);
+    assert_true(worst_floats < 10.0 * worst_doubles);
   }
 }
 

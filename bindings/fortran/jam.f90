@@ -52,6 +52,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_STOP_EVALUATIONS = 13
   integer(c_int32_t), parameter :: JAM_STOP_STEPS = 14
   integer(c_int32_t), parameter :: JAM_STOP_SADDLE = 15
+  integer(c_int32_t), parameter :: JAM_STOP_DUALITY_GAP = 16
 
   ! jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
   integer(c_int32_t), parameter :: JAM_OVERLAP_REFUSE = 0
@@ -640,6 +641,8 @@ module jam
     integer(c_int32_t) :: strain = 0
     ! states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
     integer(c_int32_t) :: keep_steps = 0
+    ! 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for packings too large for the jamming point. No small motion lets Gamma grow by more than e, so that phi_J <= phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain
+    real(c_double) :: duality_gap = 0
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
@@ -680,7 +683,7 @@ module jam
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
     integer(c_int64_t) :: idle_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7 that the network does not list
+    ! pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a factor of 1e4 of twice their gap
     integer(c_int64_t) :: undecided_contacts = 0
     ! stable spheres with d force-carrying contacts or fewer
     integer(c_int64_t) :: bridges = 0
@@ -708,7 +711,7 @@ module jam
     real(c_double) :: min_gap = 0
     ! largest |h| of a contact
     real(c_double) :: max_contact_gap = 0
-    ! of the last LP, relative to Gamma
+    ! of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces
     real(c_double) :: duality_gap = 0
     ! mean force in units where sum lambda sigma^2 = 1 (lambda r)
     real(c_double) :: force_scale = 0
@@ -1794,7 +1797,8 @@ module jam
     ! packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
     ! then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
     ! from the last call. report may be NULL.
-    ! Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
+    ! Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
+    ! path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
     ! valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
     ! JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
     ! JAM_E_BUSY. Threads: alone. @since 0.1

@@ -468,7 +468,8 @@ jam_isoconf_sums. @since 0.1"
 packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
 then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
 from the last call. report may be NULL.
-Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
+Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
+path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1"

@@ -146,7 +146,8 @@ typedef enum jam_stop_reason {
   JAM_STOP_TIME = 12,            /* MD: its simulated time is over */
   JAM_STOP_EVALUATIONS = 13,     /* soft spheres: max_evaluations came first */
   JAM_STOP_STEPS = 14,           /* soft spheres: max_steps came first */
-  JAM_STOP_SADDLE = 15 /* crunch: forces balance, but a flex opens contacts, and kicks along it lead nowhere */
+  JAM_STOP_SADDLE = 15,          /* crunch: forces balance, but a flex opens contacts, and kicks lead nowhere */
+  JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
 
 /* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
@@ -790,6 +791,10 @@ typedef struct jam_crunch_options {
                      * images, which only strains move */
   int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there
                        * are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
+  double duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality
+                       * gap e, for packings too large for the jamming point. No small motion lets Gamma grow by more
+                       * than e, so that phi_J <= phi (1 + e)^(d/2). Contacts are then named by force and gap, and the
+                       * report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
@@ -813,7 +818,9 @@ typedef struct jam_crunch_report {
   int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
   int64_t flexes;        /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
   int64_t idle_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
-  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list */
+  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list. After
+                                   * JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a
+                                   * factor of 1e4 of twice their gap */
   int64_t bridges;                /* stable spheres with d force-carrying contacts or fewer */
   int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
   double rigidity_margin;         /* smallest eigenvalue of S^T S on force-carrying contacts that is no translation */
@@ -828,7 +835,7 @@ typedef struct jam_crunch_report {
   double min_gap;                 /* smallest h of a pair of stable spheres that is no contact; after a free
                                    * cell own images count as pairs */
   double max_contact_gap;         /* largest |h| of a contact */
-  double duality_gap;             /* of the last LP, relative to Gamma */
+  double duality_gap;             /* of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces */
   double force_scale;             /* mean force in units where sum lambda sigma^2 = 1 (lambda r) */
   double seconds;                 /* wall time of crunch */
   double seconds_factor;          /* of it in factorisations */
@@ -843,7 +850,8 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
  * packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
  * then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
  * from the last call. report may be NULL.
- * Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
+ * Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
+ * path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
  * valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
  * JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
  * JAM_E_BUSY. Threads: alone. @since 0.1 */

@@ -46,7 +46,9 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     check_packing(result.packing, JAM_E_SOLVER);  // else all stays as before
     // Also after a failure: the state reached is valid and nothing is lost.
     sys->commit(result.packing);
-    if (result.status == JAM_CANCELLED || result.status == JAM_LIMIT) sys->crunch_paused = history.stage;
+    if (result.status == JAM_CANCELLED || result.status == JAM_LIMIT ||
+        result.report.stop_reason == JAM_STOP_DUALITY_GAP)
+      sys->crunch_paused = history.stage;
     sys->contacts = std::move(result.contacts);
     sys->report = result.report;
     sys->has_report = true;

@@ -84,6 +84,8 @@ const char *jam_stop_string(int32_t reason) {
       return "steps";
     case JAM_STOP_SADDLE:
       return "saddle";
+    case JAM_STOP_DUALITY_GAP:
+      return "duality gap";
     default:
       return "unknown";
   }

@@ -18,7 +18,8 @@ constexpr double radius_max = 1e3;                 // radii of pair searches, me
 constexpr double images_max = 1e6;       // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
 constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
 constexpr double velocity_max = 1e6;     // of a component, thermal units
-constexpr int keep_steps_max = 1000;     // states of a crunch that are kept
+constexpr double duality_gap_min = 1e-12, duality_gap_max = 1e-2;  // at which a crunch may end
+constexpr int keep_steps_max = 1000;                               // states of a crunch that are kept
 constexpr int64_t kept_coordinates = 1 << 24;  // of all of them: 64 MiB, and 90 MB in the file of a page
 
 }  // namespace limits

@@ -29,7 +29,7 @@ GapRows::GapRows(const PairList &pairs, int dim, const std::vector<double> &a, c
       d_(dim),
       a_(a),
       diagonal_(diagonal),
-      ones_(pairs.size(), 1.0),
+      weight_(pairs.size(), 1.0),
       row_(pairs.size()),
       rhs_(diagonal.size()) {}
 
@@ -64,7 +64,7 @@ void GapRows::balance(std::vector<double> &y) {
     std::copy(unbalanced.begin(), unbalanced.end(), rhs_.begin());
     system_.cholesky().solve(rhs_.data());
     system_.rows_times(a_.data(), rhs_.data(), row_.data());
-    for (size_t k = 0; k < z.size(); ++k) z[k] -= row_[k];
+    for (size_t k = 0; k < z.size(); ++k) z[k] -= weight_[k] * row_[k];
   }
   std::copy(z.begin(), z.end(), y.begin());
 }

@@ -27,11 +27,14 @@ class GapRows {
   // diagonal are kept by reference.
   GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal,
           NewtonSystem &system);
-  bool factorise() { return system_.factorise(a_.data(), ones_.data(), diagonal_.data()); }
+  // Weights of the rows in the norms below, instead of 1; before factorise().
+  void weigh(const std::vector<double> &weight) { weight_ = weight; }
+  bool factorise() { return system_.factorise(a_.data(), weight_.data(), diagonal_.data()); }
   // The motion whose rows come nearest to `wanted`, in least squares; `rows` is what they are. Refined in the rows,
   // where a motion of 1e-6 shows digits down to 1e-22.
   Motion towards(const std::vector<double> &wanted, std::vector<double> &rows);
-  // y - A (A^T A)^-1 A^T y, repeated, with sums in extended precision: the nearest forces that balance on every sphere.
+  // y - W A (A^T W A)^-1 A^T y with weights W, repeated, with sums in extended precision: the nearest forces that
+  // balance on every sphere. W = y^2 makes relative changes small.
   void balance(std::vector<double> &y);
 
  private:
@@ -39,7 +42,7 @@ class GapRows {
   const PairList &pairs_;
   const int d_;
   const std::vector<double> &a_, &diagonal_;
-  std::vector<double> ones_, row_, rhs_;
+  std::vector<double> weight_, row_, rhs_;
 };
 
 }  // namespace jam

@@ -46,6 +46,11 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
     fail(JAM_E_ARGUMENT, "keep_steps is %d, it must be 0 .. %d", o.keep_steps, limits::keep_steps_max);
   if (o.strain < JAM_STRAIN_NONE || o.strain > JAM_STRAIN_FREE)
     fail(JAM_E_ARGUMENT, "strain is %d, not a jam_free_strain", o.strain);
+  if (o.duality_gap != 0.0) {
+    check_range("duality_gap", o.duality_gap, limits::duality_gap_min, limits::duality_gap_max);
+    if (o.method != JAM_CRUNCH_BARRIER_PATH || o.strain != JAM_STRAIN_NONE)
+      fail(JAM_E_ARGUMENT, "duality_gap %g needs the barrier path and a fixed cell", o.duality_gap);
+  }
   if (p.n() < 2 && o.strain == JAM_STRAIN_NONE)
     fail(JAM_E_TOO_FEW, "%zu sphere: crunch needs at least 2, or a free cell (strain)", p.n());
   refuse_overlaps(p, 1e-9);

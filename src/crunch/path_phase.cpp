@@ -37,13 +37,20 @@ Phase follow_path(CrunchState &s) {
   control.opening =
       std::max({0.5 * s.out.report.gain, 0.1 * s.out.report.max_step * s.out.report.max_step, s.tuning.min_opening});
   control.strain = s.strain;
-  if (frees_cell(s)) control.least_gap = s.tuning.free_gap;
+  control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap;
   if (s.strain.count() > 0) control.opening = s.tuning.free_opening;
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;
   control.from = std::exchange(s.history.stage.path, PathPoint());
   control.on_step = [&s](double gap, size_t pairs, const PathPoint &at) { add_history_row(s, gap, pairs, at); };
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
+  // Forces do not balance at every point of the path: then it goes on to a smaller gap.
+  while (path.reached && path.gap > s.tuning.path_end(s.out.packing) && s.o.duality_gap > 0.0 && !s.interrupted()) {
+    if (ends_at_gap(s, path.multipliers)) return Phase::done;
+    control.from = s.history.stage.path;
+    control.least_gap = s.tuning.next_gap * path.gap;
+    path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
+  }
   if (s.history.behind(s.out.packing)) add_history_row(s, path.gap, 0, PathPoint());
   if (s.interrupted()) return Phase::identify;
   s.history.stage.path = PathPoint();

@@ -64,8 +64,12 @@ struct Tuning {
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
   int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
-  int max_kicks = 10;  // motions along a flex
-  double kick = 0.02;  // the longest
+  // At a finite duality gap a contact is in doubt where its force over the mean is within this factor squared of twice
+  // its gap: one of 12000 is wrong beyond it (finite_gap.py).
+  double doubt = 100.0;
+  double next_gap = 0.3;  // where forces do not balance at that gap, the path goes on to this part of it
+  int max_kicks = 10;     // motions along a flex
+  double kick = 0.02;     // the longest
 
   // Rounding of closed contacts grows with the box over the diameter.
   double closed_limit(const Packing &p) const {

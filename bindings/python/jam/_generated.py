@@ -53,7 +53,8 @@ class StopReason(IntEnum):
     TIME = 12  # MD: its simulated time is over
     EVALUATIONS = 13  # soft spheres: max_evaluations came first
     STEPS = 14  # soft spheres: max_steps came first
-    SADDLE = 15  # crunch: forces balance, but a flex opens contacts, and kicks along it lead nowhere
+    SADDLE = 15  # crunch: forces balance, but a flex opens contacts, and kicks lead nowhere
+    DUALITY_GAP = 16  # crunch: it reached the duality gap of its options
 
 
 class OverlapPolicy(IntEnum):
@@ -534,7 +535,7 @@ class CrunchReport(Report):
     excess_contacts: contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     idle_contacts: closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a factor of 1e4 of twice their gap
     bridges: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin: smallest eigenvalue of S^T S on force-carrying contacts that is no translation
@@ -548,7 +549,7 @@ class CrunchReport(Report):
     min_force: smallest contact force over the mean
     min_gap: smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
     max_contact_gap: largest |h| of a contact
-    duality_gap: of the last LP, relative to Gamma
+    duality_gap: of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces
     force_scale: mean force in units where sum lambda sigma^2 = 1 (lambda r)
     seconds: wall time of crunch
     seconds_factor: of it in factorisations
@@ -912,6 +913,7 @@ OPTIONS = {
         "full_lps": ("bool", '1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain'),
         "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move"),
         "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept'),
+        "duality_gap": ("float", '0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for packings too large for the jamming point. No small motion lets Gamma grow by more than e, so that phi_J <= phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain'),
     },
     "jam_relax_options": {
         "minimiser": ("Minimiser", 'Minimiser, default NEWTON'),

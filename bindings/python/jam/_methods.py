@@ -319,7 +319,7 @@ class Methods:
         answer: Array = self.call('isoconf_kept', instant)
         return answer
 
-    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None) -> Estimate:
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None) -> Estimate:
         """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
         the same at 'info'. Takes as long as a few steps.
 
@@ -360,6 +360,11 @@ class Methods:
         keep_steps : int, optional
             states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more
             than 2^24 coordinates in all, every second, fourth, ... is kept
+        duality_gap : float, optional
+            0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for
+            packings too large for the jamming point. No small motion lets Gamma grow by more than e, so that phi_J <=
+            phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their
+            forces balance. Needs BARRIER_PATH and no strain
 
         Returns
         -------
@@ -369,7 +374,7 @@ class Methods:
         ------
         ArgumentError, OverlapError, TooFewError, MemoryError
         """
-        answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps)
+        answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap)
         return answer
 
     def crunch_history(self, column: int | str) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ._types import Array
 from . import _calls, raw
-from ._generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode
+from ._generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode, StopReason
 from ._observe import Observing, Step
 from ._progress import end, reporter
 
@@ -161,7 +161,8 @@ class Verbs(Observing):
             )
         finally:
             end(user)
-        if checkpoint is not None and report.status in (StatusCode.CANCELLED, StatusCode.LIMIT):
+        early = report.status in (StatusCode.CANCELLED, StatusCode.LIMIT)
+        if checkpoint is not None and (early or report.stop_reason == StopReason.DUALITY_GAP):
             self.call("checkpoint_write", os.fspath(checkpoint))
         return report
 

@@ -188,6 +188,7 @@ class _Work:
                 strain=o.strain,
                 lp_solver=o.lp,
                 threads=o.threads,
+                duality_gap=o.duality_gap,
                 keep_steps=o.page_steps if o.page else 0,
                 checkpoint=o.checkpoint,
                 checkpoint_every=o.checkpoint_every,

@@ -100,12 +100,15 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
   crunch.method = (int32_t)o->method;
   crunch.strain = (int32_t)o->strain;
   crunch.threads = (int32_t)o->threads;
+  crunch.duality_gap = o->duality_gap;
   crunch.keep_steps = o->page ? (int32_t)o->page_steps : 0;
   crunch.wall_time = wall_time;
   result->crunch.struct_size = sizeof result->crunch;
   if (status >= 0) status = jam_crunch(sys, &crunch, &result->crunch);
   result->has_crunch = status >= 0;
-  if (status == JAM_CANCELLED || status == JAM_LIMIT) write_checkpoint(sys, o);
+  if (status == JAM_CANCELLED || status == JAM_LIMIT ||
+      (status == JAM_OK && result->crunch.stop_reason == JAM_STOP_DUALITY_GAP))
+    write_checkpoint(sys, o);
   return status;
 }
 

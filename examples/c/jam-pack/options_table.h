@@ -26,6 +26,7 @@ typedef struct options {
   int64_t method;
   int64_t strain;
   int64_t lp;
+  double duality_gap;
   int64_t threads;
   int no_crunch;
   const char *output;
@@ -92,6 +93,7 @@ static const option_row table[] = {
     {"--method", TAKE_CHOICE, offsetof(options, method), 0, 0, "barrier sequential-lp", 0},
     {"--strain", TAKE_CHOICE, offsetof(options, strain), 0, 0, "none edges tilts free", 0},
     {"--lp", TAKE_CHOICE, offsetof(options, lp), 0, 0, "ipm clp", 0},
+    {"--duality-gap", TAKE_NOT_NEGATIVE, offsetof(options, duality_gap), 0, 0, NULL, 0},
     {"--threads", TAKE_INTEGER, offsetof(options, threads), 1, 2, NULL, 0},
     {"--no-crunch", TAKE_SWITCH, offsetof(options, no_crunch), 0, 0, NULL, 0},
     {"--output", TAKE_OUTPUT, offsetof(options, output), 0, 0, NULL, 0},
@@ -125,6 +127,7 @@ static const options defaults = {
     .method = 0,
     .strain = 0,
     .lp = 0,
+    .duality_gap = 0.0,
     .threads = 1,
     .page_steps = 0,
     .modes = NOT_GIVEN,
@@ -181,6 +184,9 @@ static const char *const help[] = {
     "                         let the cell deform too, at fixed volume: its edges, its tilts, or",
     "                         both; free: the packing ends strictly jammed (none)",
     "  --lp ipm|clp           linear programs by interior point (default) or Clp's simplex",
+    "  --duality-gap GAP      end the barrier path at this duality gap, 1e-12 .. 1e-2, with",
+    "                         contacts named by force and gap: for packings too large for the",
+    "                         jamming point (0: the jamming point)",
     "  --threads T            1 or 2 (1; the same bits each time on 1)",
     "  --no-crunch            stop after molecular dynamics",
     "Output",

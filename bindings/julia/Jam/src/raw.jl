@@ -52,7 +52,8 @@ const JAM_STOP_UNJAMMED = Int32(11)  # crunch: converged without a rigid network
 const JAM_STOP_TIME = Int32(12)  # MD: its simulated time is over
 const JAM_STOP_EVALUATIONS = Int32(13)  # soft spheres: max_evaluations came first
 const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
-const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, but a flex opens contacts, and kicks along it lead nowhere
+const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, but a flex opens contacts, and kicks lead nowhere
+const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of its options
 
 # jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
@@ -525,7 +526,8 @@ mutable struct jam_crunch_options
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
     strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
     keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
-    jam_crunch_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    duality_gap::Cdouble  # 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for packings too large for the jamming point. No small motion lets Gamma grow by more than e, so that phi_J <= phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain
+    jam_crunch_options() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -550,7 +552,7 @@ mutable struct jam_crunch_report
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     idle_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a factor of 1e4 of twice their gap
     bridges::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin::Cdouble  # smallest eigenvalue of S^T S on force-carrying contacts that is no translation
@@ -564,7 +566,7 @@ mutable struct jam_crunch_report
     min_force::Cdouble  # smallest contact force over the mean
     min_gap::Cdouble  # smallest h of a pair of stable spheres that is no contact; after a free cell own images count as pairs
     max_contact_gap::Cdouble  # largest |h| of a contact
-    duality_gap::Cdouble  # of the last LP, relative to Gamma
+    duality_gap::Cdouble  # of the last LP, relative to Gamma; after JAM_STOP_DUALITY_GAP that of the forces
     force_scale::Cdouble  # mean force in units where sum lambda sigma^2 = 1 (lambda r)
     seconds::Cdouble  # wall time of crunch
     seconds_factor::Cdouble  # of it in factorisations
@@ -1310,7 +1312,8 @@ Brings the packing to its jamming point by iterated linear programming (Artiaco 
 packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
 then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
 from the last call. report may be NULL.
-Status: JAM_OK jammed; JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
+Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
+path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
 valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
 JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
 JAM_E_BUSY. Threads: alone. @since 0.1

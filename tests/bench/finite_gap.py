@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""Crunches that end at a finite duality gap: what they cost, and what they know of the jamming point.
+
+usage: finite_gap.py OUT.json [--sizes 1024,4096] [--seeds 3] [--states DIR] [--picture PICTURE.png]
+       finite_gap.py OUT.json --draw PICTURE.png
+
+States grown at G = 1e-2 to p = 500, then at 3e-4 to 1e7. Each gap is a run of its own from the grown state; the run without a
+gap gives the jamming point. Where the path leaves a saddle below the gap, the jamming point is another one, and the run is
+marked. PYTHONPATH: the built module. --states: folder where grown states are kept and found again.
+"""
+import argparse
+import json
+import time
+
+import numpy as np
+
+import jam
+from grown import grown
+
+GAPS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
+STAGES = [(1e-2, 500.0), (3e-4, 1e7)]
+
+
+def timed(start, **options):
+    s = start.copy()
+    began = time.process_time()
+    report = s.crunch(**options)
+    return s, report, time.process_time() - began
+
+
+def pairs_of(s):
+    return {(int(i), int(j)): f for (i, j), f in zip(s.contacts.pairs, s.forces)}
+
+
+def row_of(n, seed, gap, ended, exact):
+    s, r, seconds = ended
+    jammed, final, _ = exact
+    named, true = pairs_of(s), pairs_of(jammed)
+    both = sorted(named.keys() & true.keys())
+    force = np.array([(named[k], true[k]) for k in both])
+    bound = r.packing_fraction * (1.0 + r.duality_gap) ** 1.5
+    return dict(
+        n=n,
+        seed=seed,
+        gap=gap,
+        reached=r.duality_gap,
+        ended=r.stop_reason.name,
+        seconds=seconds,
+        factorisations=r.factorisations,
+        below=final.packing_fraction - r.packing_fraction,
+        bound_error=abs(bound - final.packing_fraction),
+        within=bool(final.packing_fraction < bound * (1.0 + 1e-13)),
+        wrong=len(named.keys() ^ true.keys()),
+        undecided=r.undecided_contacts,
+        contacts=r.contacts,
+        excess=r.excess_contacts,
+        force_residual=r.force_residual,
+        force_error=float(np.abs(force[:, 0] - force[:, 1]).max()),
+    )
+
+
+def measured(n, seed, folder):
+    start, _ = grown(n, seed, STAGES, folder)
+    exact = timed(start)
+    rows = [row_of(n, seed, gap, timed(start, duality_gap=gap), exact) for gap in GAPS]
+    r = exact[1]
+    return rows, dict(n=n, seed=seed, seconds=exact[2], factorisations=r.factorisations, jammed=bool(r.jammed))
+
+
+def draw(data, picture):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 3, figsize=(13, 4))
+    for k, n in enumerate(sorted({r["n"] for r in data["rows"]})):
+        for seed in sorted({r["seed"] for r in data["rows"]}):
+            rows = [r for r in data["rows"] if r["n"] == n and r["seed"] == seed and r["ended"] == "DUALITY_GAP"]
+            good = [r for r in rows if r["within"]]
+            label = f"N = {n}" if seed == 1 else None
+            style = dict(color=f"C{k}", marker="o", ms=4)
+            x = [r["seconds"] for r in good]
+            axes[0].loglog(x, [r["below"] for r in good], ls="-", label=label and f"{label}: phi", **style)
+            floor = [max(r["bound_error"], 1e-16) for r in good]
+            axes[0].loglog(x, floor, ls=":", label=label and f"{label}: phi and duality gap", **style)
+            axes[0].loglog(
+                [r["seconds"] for r in rows if not r["within"]],
+                [r["below"] for r in rows if not r["within"]],
+                "x",
+                color=f"C{k}",
+            )
+            x = [r["reached"] for r in good]
+            axes[1].loglog(x, [r["undecided"] for r in good], ls="-", label=label and f"{label}: undecided", **style)
+            axes[1].loglog(
+                x, [max(r["wrong"], 0.5) for r in good], ls=":", label=label and f"{label}: wrong (0 at 0.5)", **style
+            )
+            axes[2].loglog(x, [r["force_error"] for r in good], ls="-", label=label, **style)
+    axes[0].set(xlabel="processor time (s)", ylabel="distance from phi_J")
+    axes[1].set(xlabel="duality gap", ylabel="pairs")
+    axes[2].set(xlabel="duality gap", ylabel="largest error of a force, over the mean")
+    for axis in axes:
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(picture, dpi=100)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out")
+    parser.add_argument("--sizes", default="1024,4096")
+    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--states", default="")
+    parser.add_argument("--picture")
+    parser.add_argument("--draw")
+    args = parser.parse_args()
+    if args.draw:
+        return draw(json.load(open(args.out)), args.draw)
+    data = dict(rows=[], exact=[])
+    for n in (int(x) for x in args.sizes.split(",")):
+        for seed in range(1, args.seeds + 1):
+            rows, exact = measured(n, seed, args.states)
+            data["rows"] += rows
+            data["exact"].append(exact)
+            print(json.dumps(exact), flush=True)
+            for r in rows:
+                print(json.dumps(r), flush=True)
+    json.dump(data, open(args.out, "w"), indent=0)
+    if args.picture:
+        draw(data, args.picture)
+
+
+if __name__ == "__main__":
+    main()

@@ -14,6 +14,7 @@
 #include "core/create.hpp"
 #include "crunch/crunch.hpp"
 #include "jam/jam.h"
+#include "packing_of.hpp"
 
 using namespace jam;
 
@@ -23,23 +24,6 @@ struct Start {
   std::string set, name;
   Packing packing;
 };
-
-Packing packing_of(jam_system *sys) {
-  Packing p;
-  const double *x = nullptr, *s = nullptr;
-  size_t nx = 0, ns = 0;
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
-  jam_positions_view(sys, &x, &nx);
-  jam_diameters_view(sys, &s, &ns);
-  p.set_cube(info.dim, info.box);
-  p.position.assign(x, x + nx);
-  p.diameter.assign(s, s + ns);
-  p.velocity.assign(nx, 0.0);
-  jam_destroy(sys);
-  return p;
-}
 
 // Grown by molecular dynamics at G = 1e-2 to reduced pressure 500.
 Packing grown(int n, int dim, int64_t seed) {
@@ -142,10 +126,8 @@ int main(int argc, char **argv) {
     }
     add_set(argv[k], starts);
     if (starts.size() > before) continue;
-    jam_system *sys = nullptr;
-    if (jam_read(argv[k], nullptr, &sys) < 0) return std::fprintf(stderr, "%s\n", jam_last_error()), 1;
     const char *slash = std::strrchr(argv[k], '/');
-    starts.push_back({slash ? slash + 1 : argv[k], "", packing_of(sys)});
+    starts.push_back({slash ? slash + 1 : argv[k], "", packing_of(argv[k])});
   }
   for (const Mechanism &mechanism : mechanisms)
     if (only.empty() || only == mechanism.name)

@@ -13,6 +13,7 @@
 #include "crunch/crunch.hpp"
 #include "jam/jam.h"
 #include "lp/interior_point.hpp"
+#include "packing_of.hpp"
 
 using namespace jam;
 
@@ -21,28 +22,6 @@ namespace {
 double median(std::vector<double> v) {
   std::sort(v.begin(), v.end());
   return v[v.size() / 2];
-}
-
-Packing load(const char *path) {
-  jam_system *sys = nullptr;
-  if (jam_read(path, nullptr, &sys) != JAM_OK) {
-    std::fprintf(stderr, "%s\n", jam_last_error());
-    std::exit(1);
-  }
-  Packing p;
-  const double *x, *s;
-  size_t nx, ns;
-  jam_info info;
-  info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
-  jam_positions_view(sys, &x, &nx);
-  jam_diameters_view(sys, &s, &ns);
-  p.set_cube(info.dim, info.box);
-  p.position.assign(x, x + nx);
-  p.diameter.assign(s, s + ns);
-  p.velocity.assign(nx, 0.0);
-  jam_destroy(sys);
-  return p;
 }
 
 CrunchResult once(const Packing &p, const jam_crunch_options &o) {
@@ -105,7 +84,7 @@ void first_lp(const Packing &p, int runs, const char *name, double reach, double
 
 int main(int argc, char **argv) {
   if (argc < 2) return std::fprintf(stderr, "usage: crunch_race FILE [runs] [clp]\n"), 2;
-  const Packing p = load(argv[1]);
+  const Packing p = packing_of(argv[1]);
   const int runs = argc > 2 ? std::atoi(argv[2]) : 3;
   jam_crunch_options o = default_crunch_options();
   const double reference = once(p, o).report.packing_fraction;

@@ -4,7 +4,8 @@
 usage: finite_gap.py OUT.json [--sizes 1024,4096] [--seeds 3] [--states DIR] [--picture PICTURE.png]
        finite_gap.py OUT.json --draw PICTURE.png
 
-States grown at G = 1e-2 to p = 500, then at 3e-4 to 1e7. Each gap is a run of its own from the grown state; the run without a
+States grown at G = 1e-2 to p = 500, then at 3e-4 to 1e5 (N up to 1024) or 1e7. Small states nearer to jamming need no path: LPs
+end them at once, jammed. Each gap is a run of its own from the grown state; the run without a
 gap gives the jamming point. Where the path leaves a saddle below the gap, the jamming point is another one, and the run is
 marked. PYTHONPATH: the built module. --states: folder where grown states are kept and found again.
 """
@@ -18,7 +19,6 @@ import jam
 from grown import grown
 
 GAPS = (1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
-STAGES = [(1e-2, 500.0), (3e-4, 1e7)]
 
 
 def timed(start, **options):
@@ -60,7 +60,7 @@ def row_of(n, seed, gap, ended, exact):
 
 
 def measured(n, seed, folder):
-    start, _ = grown(n, seed, STAGES, folder)
+    start, _ = grown(n, seed, [(1e-2, 500.0), (3e-4, 1e5 if n <= 1024 else 1e7)], folder)
     exact = timed(start)
     rows = [row_of(n, seed, gap, timed(start, duality_gap=gap), exact) for gap in GAPS]
     r = exact[1]

@@ -157,6 +157,18 @@ class Copies(unittest.TestCase):
         a.velocities = np.random.default_rng(0).normal(size=(20, 3))
         self.check_same(a, pickle.loads(pickle.dumps(a)))
 
+    def test_a_crunch_at_a_duality_gap_goes_on_from_its_checkpoint(self):
+        a = jam.System.random(n=128, dim=3, seed=3)
+        a.compress(stages=[(1e-2, 1e4)])
+        with tempfile.TemporaryDirectory() as folder:
+            report = a.crunch(duality_gap=1e-7, checkpoint=folder + "/c")
+            b = jam.System.from_checkpoint(folder + "/c")
+        self.assertEqual((report.status, report.stop_reason.name), (jam.StatusCode.OK, "DUALITY_GAP"))
+        self.assertTrue(report.stationary is True and report.jammed is False and report.force_residual < 1e-10)
+        rest = b.crunch()
+        self.assertTrue(rest.jammed)
+        self.assertGreater(rest.packing_fraction, report.packing_fraction)
+
     def test_pickles_and_checkpoints_go_on_to_the_same_bits(self):
         for options in ({}, {"model": "mk"}, {"model": "mk", "mk_zeta": 1.0}):
             a = jam.System.random(n=64, seed=7, **options)

@@ -738,7 +738,7 @@ JAM_API jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, doub
 /* How the LPs are solved. @since 0.1 */
 typedef enum jam_lp_solver {
   JAM_LP_IPM = 0, /* libjam's interior point on the particle graph; Clp if it fails */
-  JAM_LP_CLP = 1  /* Clp's dual simplex: slow, independent */
+  JAM_LP_CLP = 1  /* Clp's simplex: slow, independent */
 } jam_lp_solver;
 
 /* Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
@@ -791,10 +791,11 @@ typedef struct jam_crunch_options {
                      * images, which only strains move */
   int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there
                        * are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
-  double duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality
-                       * gap e, for packings too large for the jamming point. No small motion lets Gamma grow by more
-                       * than e, so that phi_J <= phi (1 + e)^(d/2). Contacts are then named by force and gap, and the
-                       * report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain */
+  double
+      duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality
+                    * gap e, for packings too large for the jamming point. To first order no motion lets Gamma grow by
+                    * more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts are then named by force and gap,
+                    * and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */

@@ -86,7 +86,7 @@ inline void transpose_times(const PackingLp &lp, const double *y, double *out) {
   columns_transpose_times(lp.strain.data(), static_cast<size_t>(lp.strains), lp.rows(), y, out + lp.spheres());
 }
 
-// Clp's dual simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
+// Clp's simplex on the same LP: slow and independent. threads-safe: one model a call. monitor, which may be NULL,
 // can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0: not known), or
 // NULL. tolerance: of rows, over the bound; of multipliers, over their mean.
 constexpr double clp_tolerance = 1e-9, basis_inside = 2.0, basis_at_lower = 4.0;

@@ -73,35 +73,34 @@ def draw(data, picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(13, 4))
+    figure, axes = plt.subplots(1, 3, figsize=(13, 4.4))
     for k, n in enumerate(sorted({r["n"] for r in data["rows"]})):
         for seed in sorted({r["seed"] for r in data["rows"]}):
             rows = [r for r in data["rows"] if r["n"] == n and r["seed"] == seed and r["ended"] == "DUALITY_GAP"]
             good = [r for r in rows if r["within"]]
-            label = f"N = {n}" if seed == 1 else None
             style = dict(color=f"C{k}", marker="o", ms=4)
+
+            def named(what):
+                return f"N = {n}: {what}" if seed == 1 else None
+
             x = [r["seconds"] for r in good]
-            axes[0].loglog(x, [r["below"] for r in good], ls="-", label=label and f"{label}: phi", **style)
+            axes[0].loglog(x, [r["below"] for r in good], ls="-", label=named("phi"), **style)
             floor = [max(r["bound_error"], 1e-16) for r in good]
-            axes[0].loglog(x, floor, ls=":", label=label and f"{label}: phi and duality gap", **style)
-            axes[0].loglog(
-                [r["seconds"] for r in rows if not r["within"]],
-                [r["below"] for r in rows if not r["within"]],
-                "x",
-                color=f"C{k}",
-            )
+            axes[0].loglog(x, floor, ls=":", label=named("phi with duality gap"), **style)
+            left = [r for r in rows if not r["within"]]
+            x = [r["seconds"] for r in left]
+            axes[0].loglog(x, [r["below"] for r in left], "x", color=f"C{k}", label=named("phi, a saddle left later"))
             x = [r["reached"] for r in good]
-            axes[1].loglog(x, [r["undecided"] for r in good], ls="-", label=label and f"{label}: undecided", **style)
-            axes[1].loglog(
-                x, [max(r["wrong"], 0.5) for r in good], ls=":", label=label and f"{label}: wrong (0 at 0.5)", **style
-            )
-            axes[2].loglog(x, [r["force_error"] for r in good], ls="-", label=label, **style)
+            axes[1].loglog(x, [r["undecided"] for r in good], ls="-", label=named("undecided"), **style)
+            wrong = [max(r["wrong"], 0.5) for r in good]
+            axes[1].loglog(x, wrong, ls=":", label=named("wrong (none at 0.5)"), **style)
+            axes[2].loglog(x, [r["force_error"] for r in good], ls="-", label=named("forces"), **style)
     axes[0].set(xlabel="processor time (s)", ylabel="distance from phi_J")
     axes[1].set(xlabel="duality gap", ylabel="pairs")
     axes[2].set(xlabel="duality gap", ylabel="largest error of a force, over the mean")
     for axis in axes:
         axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
+        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2)
     figure.tight_layout()
     figure.savefig(picture, dpi=100)
 

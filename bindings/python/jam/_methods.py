@@ -362,9 +362,9 @@ class Methods:
             than 2^24 coordinates in all, every second, fourth, ... is kept
         duality_gap : float, optional
             0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for
-            packings too large for the jamming point. No small motion lets Gamma grow by more than e, so that phi_J <=
-            phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their
-            forces balance. Needs BARRIER_PATH and no strain
+            packings too large for the jamming point. To first order no motion lets Gamma grow by more than e, so that
+            phi_J is about phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts
+            undecided ones; their forces balance. Needs BARRIER_PATH and no strain
 
         Returns
         -------

@@ -144,7 +144,7 @@ const JAM_ISOCONF_PRESSURE = Int32(12)  # reduced pressure: since the start of t
 
 # jam_lp_solver: How the LPs are solved. @since 0.1
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
-const JAM_LP_CLP = Int32(1)  # Clp's dual simplex: slow, independent
+const JAM_LP_CLP = Int32(1)  # Clp's simplex: slow, independent
 
 # jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
 const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
@@ -526,7 +526,7 @@ mutable struct jam_crunch_options
     full_lps::Int32  # 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain
     strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
     keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
-    duality_gap::Cdouble  # 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for packings too large for the jamming point. No small motion lets Gamma grow by more than e, so that phi_J <= phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain
+    duality_gap::Cdouble  # 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for packings too large for the jamming point. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain
     jam_crunch_options() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 

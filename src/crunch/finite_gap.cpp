@@ -13,9 +13,6 @@
 namespace jam {
 namespace {
 
-constexpr double balanced = 1e-10;  // of the mean force
-constexpr int max_rounds = 8;
-
 // Pairs of stable spheres whose force and gap are of one size, each in its own unit.
 int64_t count_undecided(const CrunchState &s) {
   const std::vector<int32_t> &z = s.out.contacts.coordination;
@@ -33,7 +30,7 @@ int64_t count_undecided(const CrunchState &s) {
 bool balance(CrunchState &s) {
   ContactNetwork &net = s.out.contacts;
   const Packing &p = s.out.packing;
-  for (int round = 0; round < max_rounds && net.size() > 0 && !s.monitor.interrupted(); ++round) {
+  for (int round = 0; round < s.tuning.max_projections && net.size() > 0 && !s.monitor.interrupted(); ++round) {
     s.system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, s.o.threads);
     std::vector<double> weight(net.force), diagonal(p.position.size(), 1e-14);
     for (double &w : weight) w *= w;
@@ -48,7 +45,7 @@ bool balance(CrunchState &s) {
     for (size_t k = 0; k < on.size(); ++k) on[k] = net.force[k] > 0.0;
     const auto pulling = std::count(on.begin(), on.end(), 0);
     s.monitor.log(JAM_LOG_DEBUG, "finite gap: %td of %zu contacts pull", pulling, net.size());
-    if (pulling == 0) return balance_residual(p.dim, p.n(), net) < balanced;
+    if (pulling == 0) return balance_residual(p.dim, p.n(), net) < s.tuning.balanced;
     net.force = before;
     net = subset(net, on, p.dim);
   }

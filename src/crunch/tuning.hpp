@@ -67,9 +67,11 @@ struct Tuning {
   // At a finite duality gap a contact is in doubt where its force over the mean is within this factor squared of twice
   // its gap: one of 12000 is wrong beyond it (finite_gap.py).
   double doubt = 100.0;
-  double next_gap = 0.3;  // where forces do not balance at that gap, the path goes on to this part of it
-  int max_kicks = 10;     // motions along a flex
-  double kick = 0.02;     // the longest
+  double balanced = 1e-10;  // largest net force on a sphere there, over the mean force
+  int max_projections = 8;  // of forces on those that balance; contacts that pull are dropped between two
+  double next_gap = 0.3;    // where forces do not balance at that gap, the path goes on to this part of it
+  int max_kicks = 10;       // motions along a flex
+  double kick = 0.02;       // the longest
 
   // Rounding of closed contacts grows with the box over the diameter.
   double closed_limit(const Packing &p) const {

@@ -75,12 +75,10 @@ class PackingModel {
   }
   // Displacements and g, with the slack of every row; where some rows miss the tolerance, all hold for a g less by as
   // much.
-  // For packing LPs the dual simplex takes 1.5 to 30 times as long as the primal one, which copes with many closed rows
-  // at once (tests/bench/clp_race). For motions off a saddle the primal one takes 1.5 times as long.
-  enum class Simplex { primal, dual };
-  LpSolution solve(Simplex simplex) {
+  // warm: from a basis near the optimum, where the primal simplex copes better with many closed rows at once.
+  LpSolution solve(bool warm) {
     LpSolution out;
-    if (simplex == Simplex::primal)
+    if (warm)
       model.primal();
     else
       model.dual();
@@ -138,7 +136,7 @@ LpSolution solve_lp_clp(const PackingLp &lp, double tolerance, const Monitor *mo
       model.setRowStatus(k, start->basis_rows[k] > 0.0 ? status(start->basis_rows[k]) : ClpSimplex::basic);
     for (int k = 0; k < columns; ++k) model.setColumnStatus(k, status(start->basis_columns[k]));
   }
-  LpSolution out = packing.solve(PackingModel::Simplex::primal);
+  LpSolution out = packing.solve(start && !start->basis_columns.empty());
   const double *dual = model.dualRowSolution();
   for (int k = 0; k < rows; ++k) out.y.push_back(std::max(dual[k] / carrying, 0.0));
   for (int k = 0; k < rows; ++k) out.basis_rows.push_back(1.0 + model.getRowStatus(k));
@@ -154,7 +152,7 @@ LpSolution solve_motion_clp(const PackingLp &lp, const std::vector<double> &dire
     packing.model.setObjectiveCoefficient(static_cast<int>(k), -direction[k]);
   for (int c = 0; c < lp.dim; ++c) packing.model.setColumnBounds(fixed * lp.dim + c, 0.0, 0.0);
   packing.model.setColumnBounds(packing.model.numberColumns() - 1, 0.0, 0.0);
-  return packing.solve(PackingModel::Simplex::dual);
+  return packing.solve(false);
 }
 
 }  // namespace jam

@@ -416,4 +416,5 @@ def _bar(progress: bool, total: int, done: int) -> Any:
         from tqdm import tqdm
     except ImportError:
         return None
-    return tqdm(total=total, initial=done, unit="packing", disable=None)
+    make: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
+    return make(total=total, initial=done, unit="packing", disable=None)

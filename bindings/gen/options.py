@@ -137,8 +137,8 @@ TABLE = {
             "duality-gap",
             "not_negative",
             "GAP",
-            "end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts named by force and gap: for packings "
-            "too large for the jamming point (0: the jamming point)",
+            "end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts from an LP there: for packings too large "
+            "for the jamming point (0: the jamming point)",
             0.0,
         ),
         Option("threads", "integer", "T", "1 or 2 (1; the same bits each time on 1)", 1, 1, 2),

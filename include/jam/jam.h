@@ -791,11 +791,11 @@ typedef struct jam_crunch_options {
                      * images, which only strains move */
   int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there
                        * are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
-  double
-      duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality
-                    * gap e, for packings too large for the jamming point. To first order no motion lets Gamma grow by
-                    * more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts are then named by force and gap,
-                    * and the report counts undecided ones; their forces balance. Needs BARRIER_PATH and no strain */
+  double duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the
+                       * barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their
+                       * own duality gap e is in the report. To first order no motion lets Gamma grow by more than e,
+                       * so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
+                       * as undecided. Needs BARRIER_PATH and no strain */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */

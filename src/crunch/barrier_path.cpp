@@ -123,6 +123,7 @@ class BarrierPath {
     for (size_t k = 0; k < spheres; ++k) worst = std::max(worst, std::fabs(unbalanced_[k]));
     balance_ = worst * static_cast<double>(spheres) / scale;
     for (size_t k = spheres; k < unbalanced_.size(); ++k) balance_ = std::max(balance_, std::fabs(unbalanced_[k]));
+    balance_ = std::max(balance_, std::fabs(rest_));
     return std::isfinite(gap_) && std::isfinite(balance_);
   }
 

@@ -16,8 +16,17 @@ namespace {
 
 // Pairs a sphere that lists near jamming hold, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
 constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0, 27.0, 40.0};
-// Steps of a path: from a state grown to high pressure, and from a dilute start, whose network buckles again and again.
-constexpr double steps_dense = 60.0, steps_dilute = 300.0;
+// Factorisations from a state grown slowly to high pressure, median of five: 17 to 34 for N = 128 to 1024, 70 for 4096,
+// 232 for 16384. Single packings scatter by a factor of two and more. A path to a duality gap of 1e-6 to 1e-9 takes
+// 24 to 75 for N = 1024 to 65536. Sequential LPs take three times as many, dilute starts buckle again and again.
+constexpr double steps_small = 17.0, steps_1024 = 34.0, steps_power = 0.69, steps_to_gap = 50.0, steps_dilute = 300.0;
+
+double steps(const Packing &p, const jam_crunch_options &o) {
+  if (free_spacing(p) > 0.05) return steps_dilute;
+  const double grown = std::max(steps_small, steps_1024 * std::pow(static_cast<double>(p.n()) / 1024.0, steps_power));
+  if (o.method == JAM_CRUNCH_SEQUENTIAL_LP) return 3.0 * grown;
+  return o.duality_gap > 0.0 ? std::min(grown, steps_to_gap) : grown;
+}
 
 // Median contact gap below which the step bound of sequential LPs stays near its first value.
 constexpr double close_gap = 3e-5;
@@ -127,8 +136,7 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   const double lists = 3.0 * rows * (8.0 + 8.0 * d),
                tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(most.factor) / (d * d);
   e.bytes = e.factor_bytes + blocks + vectors + lists + tables;
-  e.factorisations = o.method == JAM_CRUNCH_SEQUENTIAL_LP ? 3.0 * steps_dense : steps_dense;
-  if (free_spacing(p) > 0.05) e.factorisations = steps_dilute;
+  e.factorisations = steps(p, o);
   // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
   // times. Large factors are floats but for the last few.
   const double rate = usual.flops > Tuning().single.work ? measured_rate<float>(192) : measured_rate<double>(192);

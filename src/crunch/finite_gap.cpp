@@ -1,55 +1,58 @@
 // The end of a crunch at a finite duality gap. On the path y c = mu for every row: a contact has much force and a small
-// gap, another pair the reverse. Those in between stay undecided until the path goes on.
+// gap, another pair the reverse. The linear program at this point parts those in between, from the multipliers of the
+// path in a few iterations. A curved path may still part some of them the other way: they are counted.
 //
-//   multipliers of the path -> contacts (the rule of LPs) -> forces that balance -> duality gap of these forces
-#include <algorithm>
-#include <cmath>
+//   multipliers of the path -> LP -> contacts and forces -> forces that balance -> duality gap of these forces
+#include <utility>
 
 #include "core/pair_rule.hpp"
 #include "crunch/gap_rows.hpp"
 #include "crunch/state.hpp"
+#include "lp/interior_point.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam {
 namespace {
 
-// Pairs of stable spheres whose force and gap are of one size, each in its own unit.
-int64_t count_undecided(const CrunchState &s) {
-  const std::vector<int32_t> &z = s.out.contacts.coordination;
+// Pairs of stable spheres whose force on the path and gap are of one size, each in its own unit.
+int64_t count_undecided(const CrunchState &s, const std::vector<double> &path, const std::vector<int32_t> &z) {
   const double carrying = static_cast<double>(s.lp.spheres()), most = s.tuning.doubt * s.tuning.doubt;
   int64_t count = 0;
   for (size_t k = 0; k < s.lp.rows(); ++k) {
-    const double force = s.answer.y[k] * carrying, gap = s.answer.w[k];
+    const double force = path[k] * carrying, gap = s.lp.c[k];
     count += z[s.pairs.i[k]] > 0 && z[s.pairs.j[k]] > 0 && force < most * gap && gap < most * force;
   }
   return count;
 }
 
-// The balanced forces nearest to those of the path, each measured by itself: weak ones change little. A contact that
-// would pull carries no force at this gap; it goes, and the rest is balanced again.
-bool balance(CrunchState &s) {
-  ContactNetwork &net = s.out.contacts;
+// Contacts and forces of the LP at this point, without a bound on motions.
+bool name_contacts(CrunchState &s, const std::vector<double> &path, ContactNetwork &net) {
+  IpmControl control;
+  double gap = 0.0;
+  for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.lp.c[k];
+  control.tolerance = s.tuning.part_of_gap * gap;
+  control.threads = s.o.threads;
+  control.multipliers = &path;
+  s.answer = s.interior_point.solve(s.lp, control, &s.monitor);
+  if (s.hooks.answer) s.hooks.answer(s.answer, JAM_LP_IPM);
+  if (!s.answer.solved) return false;
+  ++s.out.report.lp_solves;
+  net = make_contacts(s.out.packing, s.pairs, s.answer, find_active_set(s.lp, s.answer, 0.0));
+  return net.size() > 0 && !s.monitor.interrupted();
+}
+
+// The balanced forces nearest to those of the LP, each measured by itself: weak ones change little. False where one
+// would pull.
+bool balance(CrunchState &s, ContactNetwork &net) {
   const Packing &p = s.out.packing;
-  for (int round = 0; round < s.tuning.max_projections && net.size() > 0 && !s.monitor.interrupted(); ++round) {
-    s.system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, s.o.threads);
-    std::vector<double> weight(net.force), diagonal(p.position.size(), 1e-14);
-    for (double &w : weight) w *= w;
-    for (size_t i = 0; i < p.n(); ++i)
-      for (int c = 0; c < p.dim && net.coordination[i] == 0; ++c) diagonal[i * p.dim + c] = 1.0;
-    GapRows rows(net.pairs, p.dim, net.vector, diagonal, s.system);
-    rows.weigh(weight);
-    if (!rows.factorise()) return false;
-    const std::vector<double> before = net.force;
-    rows.balance(net.force);
-    std::vector<char> on(net.size());
-    for (size_t k = 0; k < on.size(); ++k) on[k] = net.force[k] > 0.0;
-    const auto pulling = std::count(on.begin(), on.end(), 0);
-    s.monitor.log(JAM_LOG_DEBUG, "finite gap: %td of %zu contacts pull", pulling, net.size());
-    if (pulling == 0) return balance_residual(p.dim, p.n(), net) < s.tuning.balanced;
-    net.force = before;
-    net = subset(net, on, p.dim);
-  }
-  return false;
+  s.system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, s.o.threads);
+  std::vector<double> weight(net.force);
+  for (double &w : weight) w *= w;
+  GapRows rows(net, p.dim, net.vector, s.tuning.weighted_ground, s.system);
+  rows.weigh(weight);
+  if (!rows.factorise()) return false;
+  rows.balance(net.force);
+  return pushes_only(net) && balance_residual(p.dim, p.n(), net) < s.tuning.balanced;
 }
 
 // sum y c with sum y = 1: by LP duality no small motion gains more (lp/packing_lp.hpp).
@@ -62,37 +65,26 @@ double duality_gap(const Packing &p, const ContactNetwork &net) {
   return gap / sum;
 }
 
-void scale_to_mean(ContactNetwork &net) {
-  double mean = 0.0;
-  for (const double f : net.force) mean += f / static_cast<double>(net.size());
-  for (double &f : net.force) f /= mean;
-  net.force_scale *= mean;
-}
-
 }  // namespace
 
 bool ends_at_gap(CrunchState &s, const Multipliers &path) {
   s.pairs = path.pairs;
   s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing));
-  s.answer = LpSolution();
-  s.answer.y = path.y, s.answer.w = s.lp.c;
-  s.active = find_active_set(s.lp, s.answer, 0.0);
-  s.out.contacts = make_contacts(s.out.packing, s.pairs, s.answer, s.active);
-  const size_t named = s.out.contacts.size();
-  jam_crunch_report &r = s.out.report;
-  r.stationary = balance(s) && !s.interrupted();
-  if (!r.stationary) {
-    s.monitor.log(JAM_LOG_INFO, "finite gap: forces of %zu contacts do not balance, the path goes on", named);
-    s.active = ActiveSet();
-    s.out.contacts = ContactNetwork();
-    s.out.contacts.coordination.assign(s.out.packing.n(), 0);
+  ContactNetwork net;
+  const bool balanced = name_contacts(s, path.y, net) && balance(s, net);
+  if (s.interrupted()) return false;
+  if (!balanced) {
+    s.monitor.log(JAM_LOG_INFO, "finite gap: forces do not balance, the path goes on");
     return false;
   }
-  scale_to_mean(s.out.contacts);
-  r.duality_gap = duality_gap(s.out.packing, s.out.contacts);
-  r.undecided_contacts = count_undecided(s);
+  scale_to_mean(net);
+  jam_crunch_report &r = s.out.report;
+  r.stationary = 1;
+  r.duality_gap = duality_gap(s.out.packing, net);
+  r.undecided_contacts = count_undecided(s, path.y, net.coordination);
   s.monitor.log(JAM_LOG_INFO, "finite gap: duality gap %.2e, %zu contacts, %lld undecided pairs", r.duality_gap,
-                s.out.contacts.size(), static_cast<long long>(r.undecided_contacts));
+                net.size(), static_cast<long long>(r.undecided_contacts));
+  s.out.contacts = std::move(net);
   s.stop(JAM_STOP_DUALITY_GAP, JAM_OK);
   return true;
 }

@@ -2,6 +2,7 @@
 #include "core/pair_rule.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace jam {
 
@@ -22,16 +23,22 @@ std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net) {
   return a;
 }
 
-GapRows::GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal,
-                 NewtonSystem &system)
-    : system_(system),
-      pairs_(pairs),
-      d_(dim),
-      a_(a),
-      diagonal_(diagonal),
-      weight_(pairs.size(), 1.0),
-      row_(pairs.size()),
-      rhs_(diagonal.size()) {}
+void scale_to_mean(ContactNetwork &net) {
+  double mean = 0.0;
+  for (const double f : net.force) mean += std::fabs(f) / static_cast<double>(net.size());
+  for (double &f : net.force) f /= mean;
+  net.force_scale *= mean;
+}
+
+bool pushes_only(const ContactNetwork &net) {
+  return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
+}
+
+GapRows::GapRows(const ContactNetwork &net, int dim, const std::vector<double> &a, double ground, NewtonSystem &system)
+    : system_(system), pairs_(net.pairs), d_(dim), a_(a), weight_(net.size(), 1.0), row_(net.size()) {
+  for (const int32_t z : net.coordination) diagonal_.insert(diagonal_.end(), dim, z > 0 ? ground : 1.0);
+  rhs_.resize(diagonal_.size());
+}
 
 Motion GapRows::towards(const std::vector<double> &wanted, std::vector<double> &rows) {
   Motion sum, step;

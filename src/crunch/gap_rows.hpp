@@ -21,12 +21,16 @@ void move(Packing &p, PairList &pairs, const Motion &motion, double part = 1.0);
 // Rows of the relative gaps h = |r| / sigma - 1.
 std::vector<double> relative_rows(const Packing &p, const ContactNetwork &net);
 
+// Forces in units of their mean size, as a network has them.
+void scale_to_mean(ContactNetwork &net);
+
+bool pushes_only(const ContactNetwork &net);
+
 class GapRows {
  public:
-  // system: holds the graph of these pairs. diagonal: fixes what no row does (translations, rattlers). pairs, a and
-  // diagonal are kept by reference.
-  GapRows(const PairList &pairs, int dim, const std::vector<double> &a, const std::vector<double> &diagonal,
-          NewtonSystem &system);
+  // system: holds the graph of the contacts. ground: diagonal that fixes translations; on rattlers it is 1. Iterative
+  // refinement wins back the accuracy. net and a are kept by reference.
+  GapRows(const ContactNetwork &net, int dim, const std::vector<double> &a, double ground, NewtonSystem &system);
   // Weights of the rows in the norms below, instead of 1; before factorise().
   void weigh(const std::vector<double> &weight) { weight_ = weight; }
   bool factorise() { return system_.factorise(a_.data(), weight_.data(), diagonal_.data()); }
@@ -41,8 +45,8 @@ class GapRows {
   NewtonSystem &system_;
   const PairList &pairs_;
   const int d_;
-  const std::vector<double> &a_, &diagonal_;
-  std::vector<double> weight_, row_, rhs_;
+  const std::vector<double> &a_;
+  std::vector<double> diagonal_, weight_, row_, rhs_;
 };
 
 }  // namespace jam

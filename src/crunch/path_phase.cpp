@@ -48,7 +48,7 @@ Phase follow_path(CrunchState &s) {
   while (path.reached && path.gap > s.tuning.path_end(s.out.packing) && s.o.duality_gap > 0.0 && !s.interrupted()) {
     if (ends_at_gap(s, path.multipliers)) return Phase::done;
     control.from = s.history.stage.path;
-    control.least_gap = s.tuning.next_gap * path.gap;
+    control.least_gap = s.tuning.reduction * path.gap;
     path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
   }
   if (s.history.behind(s.out.packing)) add_history_row(s, path.gap, 0, PathPoint());

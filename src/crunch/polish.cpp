@@ -8,14 +8,6 @@
 namespace jam {
 namespace {
 
-// A tiny diagonal fixes the translations, a unit one the rattlers. Iterative refinement wins back the accuracy.
-std::vector<double> small_diagonal(const Packing &p, const ContactNetwork &net) {
-  std::vector<double> diagonal(p.position.size(), 1e-12);
-  for (size_t i = 0; i < p.n(); ++i)
-    for (int c = 0; c < p.dim && net.coordination[i] == 0; ++c) diagonal[i * p.dim + c] = 1.0;
-  return diagonal;
-}
-
 double largest(const std::vector<double> &x) {
   double m = 0.0;
   for (double v : x) m = std::max(m, std::fabs(v));
@@ -26,10 +18,6 @@ double norm(const std::vector<double> &x) {
   double sum = 0.0;
   for (double v : x) sum += v * v;
   return std::sqrt(sum);
-}
-
-bool pushes_only(const ContactNetwork &net) {
-  return std::all_of(net.force.begin(), net.force.end(), [](double f) { return f > 0.0; });
 }
 
 class Polish {
@@ -94,9 +82,9 @@ class Polish {
 
   // One Gauss-Newton step of all gaps to zero over positions and the common factor of the diameters. With a single
   // state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
-  void close_once(Packing &p, ContactNetwork &net, const std::vector<double> &diagonal) {
+  void close_once(Packing &p, ContactNetwork &net) {
     const std::vector<double> a = relative_rows(p, net);
-    GapRows rows(net.pairs, p.dim, a, diagonal, system_);
+    GapRows rows(net, p.dim, a, t_.ground, system_);
     if (!rows.factorise()) return;
     std::vector<double> wanted(net.gap), got;
     for (double &h : wanted) h = -h;
@@ -107,7 +95,6 @@ class Polish {
   // False when interrupted.
   bool close_all(Packing &p, ContactNetwork &net) {
     system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
-    const std::vector<double> diagonal = small_diagonal(p, net);
     const auto open = [&] { return excess_contacts(net, p.dim) > 0 ? norm(net.gap) : largest(net.gap); };
     double worst = open();
     for (int round = 0; round < 4 && worst > 1e-16; ++round) {
@@ -115,7 +102,7 @@ class Polish {
       if (monitor_ && monitor_->interrupted()) return false;
       Packing p_old = p;
       ContactNetwork old = net;
-      close_once(p, net, diagonal);
+      close_once(p, net);
       const double now = open();
       if (!(now < 0.5 * worst)) {  // rounding, or the contacts cannot all close
         if (!(now < worst)) p = std::move(p_old), net = std::move(old);
@@ -128,14 +115,10 @@ class Polish {
 
   // The nearest forces that balance on every sphere, in units of their mean.
   void balance_forces(const Packing &p, ContactNetwork &net) {
-    const std::vector<double> diagonal = small_diagonal(p, net);
-    GapRows rows(net.pairs, p.dim, net.vector, diagonal, system_);
+    GapRows rows(net, p.dim, net.vector, t_.ground, system_);
     if (!rows.factorise()) return;
     rows.balance(net.force);
-    double mean = 0.0;
-    for (double f : net.force) mean += std::fabs(f) / static_cast<double>(net.size());
-    for (double &f : net.force) f /= mean;
-    net.force_scale *= mean;
+    scale_to_mean(net);
   }
 
   NewtonSystem &system_;

@@ -93,8 +93,8 @@ Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict);
 // path_phase.cpp
 Phase follow_path(CrunchState &s);
 bool path_is_shorter(const CrunchState &s, double gain, double step);
-// finite_gap.cpp: ends a crunch that was asked for a duality gap, with contacts named by force and gap. False where
-// their forces do not balance, or when interrupted: no contacts are left then.
+// finite_gap.cpp: ends a crunch that was asked for a duality gap, with contacts named by an LP. False where
+// their forces do not balance, or when interrupted.
 bool ends_at_gap(CrunchState &s, const Multipliers &path);
 // identify.cpp
 Phase identify(CrunchState &s);

@@ -64,14 +64,15 @@ struct Tuning {
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
   int max_narrow_lps = 20;
   int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
-  // At a finite duality gap a contact is in doubt where its force over the mean is within this factor squared of twice
-  // its gap: one of 12000 is wrong beyond it (finite_gap.py).
-  double doubt = 100.0;
+  // At a finite duality gap a contact is in doubt where its force on the path over the mean is within this factor
+  // squared of twice its gap. An LP that ends at part_of_gap of the path's gap names contacts (finite_gap.py: 1e-2
+  // names one in a thousand more, 1e-4 no fewer).
+  double doubt = 100.0, part_of_gap = 1e-3;
   double balanced = 1e-10;  // largest net force on a sphere there, over the mean force
-  int max_projections = 8;  // of forces on those that balance; contacts that pull are dropped between two
-  double next_gap = 0.3;    // where forces do not balance at that gap, the path goes on to this part of it
-  int max_kicks = 10;       // motions along a flex
-  double kick = 0.02;       // the longest
+  // Diagonal that fixes translations beside rows of unit vectors; the second where squared forces weigh the rows.
+  double ground = 1e-12, weighted_ground = 1e-14;
+  int max_kicks = 10;  // motions along a flex
+  double kick = 0.02;  // the longest
 
   // Rounding of closed contacts grows with the box over the diameter.
   double closed_limit(const Packing &p) const {

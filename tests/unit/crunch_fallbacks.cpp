@@ -130,6 +130,56 @@ void refused_polish_ends(void **) {
   assert_true(r.report.max_overlap < 1e-12 && r.report.max_contact_gap < 1e-10);
 }
 
+// Forces that do not balance at a duality gap: the path goes on, and the log says so. Here the LP at the gap has no
+// answer once, and the crunch ends at a smaller gap; then no residual is small enough, and it ends jammed.
+void forces_that_do_not_balance_at_a_gap(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  jam_crunch_options o = default_crunch_options();
+  o.duality_gap = 1e-6;
+  const CrunchResult whole = run(p, o);
+  assert_int_equal(whole.report.stop_reason, JAM_STOP_DUALITY_GAP);
+  CrunchHooks spoiled, strict;
+  int64_t asked = 0;
+  spoiled.answer = [&](LpSolution &x, jam_lp_solver) { x.solved = ++asked != whole.report.lp_solves; };
+  strict.tuning.balanced = 0.0;
+  const auto goes_on = [&](const CrunchHooks &hooks) {
+    std::string log;
+    Monitor monitor;
+    listen(monitor, log, JAM_LOG_INFO);
+    const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
+    assert_true(log.find("finite gap: forces do not balance, the path goes on") != std::string::npos);
+    assert_true(r.status == JAM_OK && r.report.max_overlap < 1e-12 && r.report.force_residual < 1e-13);
+    return r.report;
+  };
+  const jam_crunch_report smaller = goes_on(spoiled), jammed = goes_on(strict);
+  assert_int_equal(smaller.stop_reason, JAM_STOP_DUALITY_GAP);
+  assert_true(smaller.duality_gap < 0.5 * whole.report.duality_gap);
+  assert_int_equal(jammed.stop_reason, JAM_STOP_CONVERGED);
+  assert_true(jammed.jammed && jammed.undecided_contacts == 0);
+}
+
+// Cancelled while the LP at the gap names contacts: that is no failure of the forces, and no contacts are left.
+void cancelled_at_a_gap(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  jam_crunch_options o = default_crunch_options();
+  o.duality_gap = 1e-6;
+  const CrunchResult whole = run(p, o);
+  std::string log;
+  Monitor monitor;
+  listen(monitor, log, JAM_LOG_INFO);
+  CrunchHooks hooks;
+  int64_t asked = 0;
+  hooks.answer = [&](LpSolution &, jam_lp_solver) {
+    if (++asked == whole.report.lp_solves) monitor.cancel();
+  };
+  const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
+  assert_true(r.status == JAM_CANCELLED && r.report.stop_reason == JAM_STOP_CANCELLED);
+  assert_true(r.contacts.size() == 0 && r.report.rattlers == -1 && !r.report.stationary);
+  assert_true(log.find("do not balance") == std::string::npos);
+  assert_memory_equal(r.packing.position.data(), whole.packing.position.data(),
+                      whole.packing.position.size() * sizeof(double));
+}
+
 }  // namespace
 
 int main() {
@@ -138,6 +188,8 @@ int main() {
                               cmocka_unit_test(clp_alone),
                               cmocka_unit_test(nobody_solves),
                               cmocka_unit_test(refused_polish_takes_narrow_lps),
-                              cmocka_unit_test(refused_polish_ends)};
+                              cmocka_unit_test(refused_polish_ends),
+                              cmocka_unit_test(forces_that_do_not_balance_at_a_gap),
+                              cmocka_unit_test(cancelled_at_a_gap)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

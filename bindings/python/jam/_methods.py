@@ -361,10 +361,11 @@ class Methods:
             states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more
             than 2^24 coordinates in all, every second, fourth, ... is kept
         duality_gap : float, optional
-            0, the default: to the jamming point. Else 1e-12 .. 1e-2: the barrier path ends at this duality gap e, for
-            packings too large for the jamming point. To first order no motion lets Gamma grow by more than e, so that
-            phi_J is about phi (1 + e)^(d/2). Contacts are then named by force and gap, and the report counts
-            undecided ones; their forces balance. Needs BARRIER_PATH and no strain
+            0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier
+            path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is
+            in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 +
+            e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no
+            strain
 
         Returns
         -------

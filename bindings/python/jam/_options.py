@@ -71,8 +71,8 @@ OPTIONS = (
     ('lp', 'choice', '', 'ipm', (0, 0), ('ipm', 'clp'), False,
         "linear programs by interior point (default) or Clp's simplex"),
     ('duality-gap', 'not_negative', 'GAP', 0.0, (0, 0), (), False,
-        'end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts named by force and gap: '
-        'for packings too large for the jamming point (0: the jamming point)'),
+        'end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts from an LP there: for '
+        'packings too large for the jamming point (0: the jamming point)'),
     ('threads', 'integer', 'T', 1, (1, 2), (), False,
         '1 or 2 (1; the same bits each time on 1)'),
     ('no-crunch', 'switch', '', None, (0, 0), (), False,

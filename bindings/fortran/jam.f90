@@ -683,7 +683,7 @@ module jam
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
     integer(c_int64_t) :: idle_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a factor of 1e4 of twice their gap
+    ! pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
     integer(c_int64_t) :: undecided_contacts = 0
     ! stable spheres with d force-carrying contacts or fewer
     integer(c_int64_t) :: bridges = 0

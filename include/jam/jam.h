@@ -820,8 +820,8 @@ typedef struct jam_crunch_report {
   int64_t flexes;        /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
   int64_t idle_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
   int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list. After
-                                   * JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a
-                                   * factor of 1e4 of twice their gap */
+                                   * JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean
+                                   * is within a factor of 1e4 of twice their gap */
   int64_t bridges;                /* stable spheres with d force-carrying contacts or fewer */
   int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
   double rigidity_margin;         /* smallest eigenvalue of S^T S on force-carrying contacts that is no translation */

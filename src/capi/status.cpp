@@ -85,7 +85,7 @@ const char *jam_stop_string(int32_t reason) {
     case JAM_STOP_SADDLE:
       return "saddle";
     case JAM_STOP_DUALITY_GAP:
-      return "duality gap";
+      return "duality_gap";
     default:
       return "unknown";
   }

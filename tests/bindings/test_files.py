@@ -153,6 +153,7 @@ class CommandLine(unittest.TestCase):
                 "free",
             ],
             ["--n", "64", "--plant", "0.5", "--zeta", "3", "--growth", "0.1:30"],
+            ["--n", "128", "--seed", "3", "--growth", "1e-2:1e4", "--duality-gap", "1e-7"],
         ):
             with tempfile.TemporaryDirectory() as folder:
                 for name, program in (("a", [PACK]), ("b", [sys.executable, "-m", "jam"])):

@@ -131,7 +131,7 @@ static void bad_values_are_refused(void **state) {
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
   o.method = JAM_CRUNCH_BARRIER_PATH, o.strain = JAM_STRAIN_FREE;
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(strcmp(jam_stop_string(JAM_STOP_DUALITY_GAP), "duality gap"), 0);
+  assert_int_equal(strcmp(jam_stop_string(JAM_STOP_DUALITY_GAP), "duality_gap"), 0);
   jam_destroy(sys);
 }
 

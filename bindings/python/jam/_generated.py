@@ -535,7 +535,7 @@ class CrunchReport(Report):
     excess_contacts: contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     idle_contacts: closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a factor of 1e4 of twice their gap
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
     bridges: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin: smallest eigenvalue of S^T S on force-carrying contacts that is no translation

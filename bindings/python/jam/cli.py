@@ -222,6 +222,7 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
         "bucklers",
         "isostatic_contacts",
         "excess_contacts",
+        "undecided_contacts",
         "max_overlap",
         "force_residual",
         "gamma_residual",

@@ -178,6 +178,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_count(f, "bucklers", r->bucklers, crunched);
   put_count(f, "isostatic_contacts", r->isostatic_contacts, crunched);
   put_count(f, "excess_contacts", r->excess_contacts, crunched);
+  put_count(f, "undecided_contacts", r->undecided_contacts, crunched);
   put_number(f, "max_overlap", crunched ? r->max_overlap : NAN);
   put_number(f, "force_residual", certified ? r->force_residual : NAN);
   put_number(f, "gamma_residual", certified ? r->gamma_residual : NAN);
@@ -197,6 +198,11 @@ int write_report(const options *o, const outcome *result, const char *path) {
   return close_output(&out);
 }
 
+static const char *verdict(const jam_crunch_report *r) {
+  if (r->jammed) return "jammed";
+  return r->stop_reason == JAM_STOP_DUALITY_GAP ? "not tested" : "not jammed";
+}
+
 void print_summary(const outcome *result) {
   const jam_crunch_report *r = &result->crunch;
   const jam_info *info = &result->info;
@@ -206,9 +212,12 @@ void print_summary(const outcome *result) {
     printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", result->pressure, (double)result->collisions,
            result->seconds_md, jam_stop_string(result->md_stop));
   if (!result->has_crunch) return;
-  printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", r->jammed ? "jammed" : "not jammed",
-         jam_stop_string(r->stop_reason), (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
+  printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", verdict(r), jam_stop_string(r->stop_reason),
+         (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
   if (r->contacts == 0) return;
+  if (r->stop_reason == JAM_STOP_DUALITY_GAP)
+    printf("  gap       %.2e, so that phi_J is about %.12f; %lld undecided pairs\n", r->duality_gap,
+           info->packing_fraction * pow(1.0 + r->duality_gap, 0.5 * info->dim), (long long)r->undecided_contacts);
   printf("  network   %lld contacts (isostatic %+lld), %lld rattlers, %lld bucklers\n", (long long)r->contacts,
          (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
   printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n",

@@ -552,7 +552,7 @@ mutable struct jam_crunch_report
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
     flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     idle_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force over the mean is within a factor of 1e4 of twice their gap
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
     bridges::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin::Cdouble  # smallest eigenvalue of S^T S on force-carrying contacts that is no translation

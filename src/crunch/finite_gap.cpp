@@ -73,14 +73,16 @@ bool ends_at_gap(CrunchState &s, const Multipliers &path) {
   ContactNetwork net;
   const bool balanced = name_contacts(s, path.y, net) && balance(s, net);
   if (s.interrupted()) return false;
-  if (!balanced) {
-    s.monitor.log(JAM_LOG_INFO, "finite gap: forces do not balance, the path goes on");
+  const double gap = balanced ? duality_gap(s.out.packing, net) : 0.0;
+  if (!balanced || gap > s.o.duality_gap) {
+    s.monitor.log(JAM_LOG_INFO, "finite gap: %s, the path goes on",
+                  balanced ? "larger than asked for" : "forces do not balance");
     return false;
   }
   scale_to_mean(net);
   jam_crunch_report &r = s.out.report;
   r.stationary = 1;
-  r.duality_gap = duality_gap(s.out.packing, net);
+  r.duality_gap = gap;
   r.undecided_contacts = count_undecided(s, path.y, net.coordination);
   s.monitor.log(JAM_LOG_INFO, "finite gap: duality gap %.2e, %zu contacts, %lld undecided pairs", r.duality_gap,
                 net.size(), static_cast<long long>(r.undecided_contacts));

@@ -37,7 +37,7 @@ Phase follow_path(CrunchState &s) {
   control.opening =
       std::max({0.5 * s.out.report.gain, 0.1 * s.out.report.max_step * s.out.report.max_step, s.tuning.min_opening});
   control.strain = s.strain;
-  control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap;
+  control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap / s.tuning.lp_over_path;
   if (s.strain.count() > 0) control.opening = s.tuning.free_opening;
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;

@@ -94,7 +94,7 @@ Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict);
 Phase follow_path(CrunchState &s);
 bool path_is_shorter(const CrunchState &s, double gain, double step);
 // finite_gap.cpp: ends a crunch that was asked for a duality gap, with contacts named by an LP. False where
-// their forces do not balance, or when interrupted.
+// their forces do not balance or leave a larger gap, or when interrupted.
 bool ends_at_gap(CrunchState &s, const Multipliers &path);
 // identify.cpp
 Phase identify(CrunchState &s);

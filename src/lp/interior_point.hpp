@@ -18,6 +18,7 @@ struct IpmControl {
       0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a sequence)
   double balance =
       1e-5;  // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
+  bool floats = false;  // also for the second half of the digits: the caller takes out the imbalance that they leave
   int max_iterations = 80;
   int correctors = 3;
   int threads = 1;

@@ -32,7 +32,7 @@ bool name_contacts(CrunchState &s, const std::vector<double> &path, ContactNetwo
   for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.lp.c[k];
   control.tolerance = s.tuning.part_of_gap * gap;
   control.threads = s.o.threads;
-  control.floats = true;
+  control.doubles_from = s.tuning.doubles_from;
   control.multipliers = &path;
   s.answer = s.interior_point.solve(s.lp, control, &s.monitor);
   if (s.hooks.answer) s.hooks.answer(s.answer, JAM_LP_IPM);

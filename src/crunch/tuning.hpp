@@ -68,8 +68,9 @@ struct Tuning {
   // squared of twice its gap. An LP that ends at part_of_gap of the path's gap names contacts (finite_gap.py: 1e-2
   // names one in a thousand more, 1e-4 no fewer).
   double doubt = 100.0, part_of_gap = 1e-3;
-  double lp_over_path = 0.6;  // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
-  double balanced = 1e-10;    // largest net force on a sphere there, over the mean force
+  double doubles_from = 1e-11;  // gap in that LP from which factors are doubles: floats no longer balance there
+  double lp_over_path = 0.6;    // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
+  double balanced = 1e-10;      // largest net force on a sphere there, over the mean force
   // Diagonal that fixes translations beside rows of unit vectors; the second where squared forces weigh the rows.
   double ground = 1e-12, weighted_ground = 1e-14;
   int max_kicks = 10;  // motions along a flex

@@ -188,7 +188,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     if (monitor) monitor->expect_factorisations(system_.factorisations);
     weights();
     // Directions from floats leave some imbalance: doubles take it out over the second half of the digits.
-    const double least = control.floats ? 0.0 : std::sqrt(control.tolerance);
+    const double least = control.doubles_from < 0.0 ? std::sqrt(control.tolerance) : control.doubles_from;
     if (!factor_.factorise(lp_->a.data(), weight_.data(), diagonal_.data(), gap, least)) break;
     if (!predictor_corrector(main_)) break;
     Steps a = longest(main_);

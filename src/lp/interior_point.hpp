@@ -18,7 +18,8 @@ struct IpmControl {
       0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP of a sequence)
   double balance =
       1e-5;  // on the dual residual, see LpCheck: what rounding of the normal equations leaves; polish takes the rest
-  bool floats = false;  // also for the second half of the digits: the caller takes out the imbalance that they leave
+  double doubles_from =
+      -1.0;  // sum at which factors become doubles, which balance to more digits; < 0: tolerance^(1/2)
   int max_iterations = 80;
   int correctors = 3;
   int threads = 1;

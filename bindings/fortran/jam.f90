@@ -298,7 +298,7 @@ module jam
     integer(c_int32_t) :: overlap = 0
     ! jam_model, default EUCLID
     integer(c_int32_t) :: model = 0
-    ! MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium
+    ! MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
     real(c_double) :: mk_zeta = 0
     ! jam_masses, default EQUAL
     integer(c_int32_t) :: masses = 0

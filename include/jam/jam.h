@@ -200,8 +200,8 @@ typedef struct jam_create_options {
   double packing_fraction; /* of a random start, > 0, default 0.2 */
   int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
   int32_t model;           /* jam_model, default EUCLID */
-  double mk_zeta;   /* MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in
-                       equilibrium */
+  double mk_zeta;   /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted
+                       in equilibrium */
   int32_t masses;   /* jam_masses, default EQUAL */
   int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;

@@ -28,7 +28,8 @@ void check_options(const jam_create_options &o) {
     fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
   if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
   if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
-  if (o.model == JAM_MODEL_MK && !(o.mk_zeta >= 0.0)) fail(JAM_E_ARGUMENT, "mk_zeta is %g, it must be >= 0", o.mk_zeta);
+  if (o.model == JAM_MODEL_MK && !is_mk_zeta(o.mk_zeta))
+    fail(JAM_E_ARGUMENT, "mk_zeta is %g, supported are 0..%g and infinity", o.mk_zeta, limits::mk_zeta_max);
 }
 
 size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t diameters_len) {

@@ -1,6 +1,7 @@
 // Every limit of libjam's input, in one place. The table "Limits" at the head of jam.h states the same numbers for
 // users; every entrance checks through the functions below, so that an error names the quantity and its value.
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include "core/packing.hpp"
@@ -14,6 +15,7 @@ constexpr double cell_height_min = 1e-3;           // distance of two faces over
 constexpr double diameter_min = 1e-9;              // over the box: coordinates resolve 1e-16 of it
 constexpr double size_ratio_max = 1e4;             // largest diameter over smallest
 constexpr double non_additivity_max = 1.0;         // and above -1: contact distances are positive
+constexpr double mk_zeta_max = 1e15;               // strength of shifts, or infinity: draws of 53 bits keep a fraction
 constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
 constexpr double images_max = 1e6;       // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
 constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
@@ -31,6 +33,7 @@ void check_dim(int64_t dim);
 void check_n(int64_t n);
 void check_box(double box);
 void check_non_additivity(double delta);
+inline bool is_mk_zeta(double zeta) { return zeta >= 0.0 && (zeta <= limits::mk_zeta_max || std::isinf(zeta)); }
 // Diameters in the unit of `box`: the smallest, and the ratio of the largest to it. That no sphere is wider than the
 // box is a question of overlaps (core/create.hpp).
 void check_diameters(const std::vector<double> &diameter, double box);

@@ -55,6 +55,8 @@ class MkShifts {
     return x * zeta_ - std::nearbyint(x * zeta_);
   }
   const std::vector<MkRedrawn> &redrawn() const { return redrawn_; }
+  uint64_t key() const { return key_; }
+  double zeta() const { return zeta_; }
 
  private:
   int32_t attempt(int32_t a, int32_t b) const {

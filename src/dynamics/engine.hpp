@@ -223,19 +223,15 @@ class Engine final : public EngineBase, private Units<Shift> {
   double crossing_time(int32_t i, int *axis) const;
   void cross(int32_t i);
 
-  // -- Mari-Kurchan model: outer lists, engine_quenched.hpp
-  struct Outer {
-    int32_t k, attempt;  // of the shift of this pair
+  // -- Mari-Kurchan model, engine_quenched.hpp
+  struct Redrawn {
+    int32_t number, attempt;  // of the user, of the shift of this pair
   };
   void take_redrawn();
+  void note_centre(int32_t i);
+  std::array<int64_t, D> shift_of(int32_t a, const Redrawn &partner) const;
   template <class F>
-  void each_outer_partner(int32_t i, F &&f) const;
-  void build_outer();
-  void check_outer();
-  bool tune_outer();
-  void renew_outer(int32_t i);
-  bool left_outer(int32_t i) const;
-  std::array<int64_t, D> shift_of(int32_t i, const Outer &partner) const;
+  void each_partner(int32_t i, F &&f) const;
 
   int64_t side_of_cells(int c) const {
     if constexpr (Shift)
@@ -299,15 +295,13 @@ class Engine final : public EngineBase, private Units<Shift> {
   std::vector<int32_t> cell_first_, cell_next_;
   std::vector<std::array<int32_t, D>> cell_;  // of each sphere
 
-  // outer lists of the Mari-Kurchan model
-  std::vector<std::vector<Outer>> outer_;
-  std::vector<Place> outer_centre_;
-  std::vector<double> outer_reach_;               // rho up to which they hold
-  double outer_safe_ = 0.0, outer_width_ = 0.25;  // the second in the largest radius
-  int64_t renewals_ = 0, outer_exits_ = 0;        // since all outer lists were made; exits_ then
-  std::vector<int32_t> internal_;                 // inverse of user_
-  std::vector<Outer> redrawn_;                    // partners (user's numbers) of each sphere with a shift drawn again
+  // Mari-Kurchan model
+  std::vector<int32_t> internal_;  // inverse of user_
+  std::vector<Redrawn> redrawn_;   // partners of each sphere with a shift drawn again
   std::vector<size_t> redrawn_first_;
+  std::vector<int32_t> partner_x_;  // what partners_ looks at
+  std::vector<float> partner_reach_;
+  Partners<D> partners_{};
 
 #ifdef JAM_CHECK_PAIRS
   Packing start_;  // what a state is written into to be checked

@@ -52,16 +52,6 @@ void Engine<D, Shift>::archive(Archive &a) {
   for (int64_t *k : {&exits_, &exits_before_, &collisions_before_, &events_before_, &rebase_at_}) a(*k);
   for (double *x : {&search_cost_, &widest_shell_, &tuned_time_, &time_before_, &bucket_width_, &collision_time_})
     a(*x);
-  if (quenched_) {
-    a(outer_centre_);
-    a(outer_reach_);
-    a(outer_safe_);
-    a(outer_width_);
-    a(renewals_);
-    a(outer_exits_);
-    if (a.reading()) outer_.resize(static_cast<size_t>(n_));
-    for (std::vector<Outer> &list : outer_) a(list);
-  }
   if (a.reading()) {
     options_.instruction_set = InstructionSet::best;  // of this processor, not of the one that wrote
     check_archive();
@@ -112,17 +102,6 @@ void Engine<D, Shift>::check_archive() const {
   }
   Archive::check(cell_range_ >= 1 && cell_range_ <= 3);  // scratch grows with its power, with or without cells
   if (cells_ != 0 || cells_alone_ != 0) check_cells();
-  if (!quenched_) return;
-  Archive::check(outer_centre_.size() == n && outer_reach_.size() == n);
-  Archive::check(outer_width_ > 0.0 && std::isfinite(outer_width_) && outer_safe_ >= 0.0 && renewals_ >= 0 &&
-                 renewals_ < int64_t{1} << 60 && outer_exits_ >= 0 && outer_exits_ < int64_t{1} << 60);
-  for (size_t i = 0; i < n; ++i)
-    for (const Outer &partner : outer_[i]) {
-      Archive::check(sphere(partner.k) && partner.attempt >= 0);
-      const std::vector<Outer> &list = outer_[partner.k];
-      Archive::check(
-          std::count_if(list.begin(), list.end(), [i](const Outer &o) { return static_cast<size_t>(o.k) == i; }) == 1);
-    }
 }
 
 template <int D, bool Shift>

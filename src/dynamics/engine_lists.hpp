@@ -11,12 +11,7 @@ namespace jam {
 template <int D, bool Shift>
 void Engine<D, Shift>::choose_cells() {
   cells_ = 0;
-  search_cost_ = static_cast<double>(n_) * 4.0;
-  if (quenched_) {
-    size_t length = 0;
-    for (const auto &list : outer_) length += list.size();
-    search_cost_ = 2.0 * static_cast<double>(length) / n_;
-  }
+  search_cost_ = static_cast<double>(n_) * (quenched_ ? 0.5 : 4.0);
   if constexpr (Shift) return choose_image_cells();
   const double reach = 2.0 * rho_max_ * unit;
   double best = 0.5 * n_;  // in units of tune_shell
@@ -70,7 +65,8 @@ void Engine<D, Shift>::build_lists() {
     rho_max_ = std::max(rho_max_, rho_[i]);
   }
   if (choose_cells_alone(sigma)) return build_cells_alone();
-  if (quenched_) check_outer();
+  if (quenched_)
+    for (int32_t i = 0; i < n_; ++i) note_centre(i);
   choose_cells();
   if (cells_ > 0) build_blocks();
   std::fill(neighbours_.begin(), neighbours_.end(), 0);
@@ -136,9 +132,9 @@ void Engine<D, Shift>::candidates(int32_t i, F &&f) {
   using Offset = std::array<int64_t, D>;
   if constexpr (Shift)
     if (quenched_) {
-      for (const Outer &partner : outer_[i])
-        each_image(i, partner.k, rho_[i] + rho_[partner.k], shift_of(i, partner),
-                   [&](const Offset *offset) { f(partner.k, offset); });
+      each_partner(i, [&](int32_t k, const Offset &shift) {
+        each_image(i, k, rho_[i] + rho_[k], shift, [&](const Offset *offset) { f(k, offset); });
+      });
       return;
     }
   const auto check = [&](int32_t k) {
@@ -235,7 +231,7 @@ void Engine<D, Shift>::recentre(int32_t i) {
   if constexpr (Shift) lattice_.wrap(b.x);
   for (int c = 0; c < D; ++c) centre_[i][c] = b.x[c];
   if (cells_ > 0) put(i, cell_of(home_of(i)));
-  if (quenched_ && left_outer(i)) renew_outer(i);
+  if (quenched_) note_centre(i);
   candidates(i, [&](int32_t k, const std::array<int64_t, D> *offset) { append(i, k, offset); });
 }
 

@@ -148,8 +148,7 @@ template <int D, bool Shift>
 void Engine<D, Shift>::rebase() {
   shift_origin();
   check_pairs();
-  const bool outer = quenched_ && tune_outer();
-  if (tune_shell() || outer)
+  if (tune_shell())
     refresh(1.0, true);
   else
     sort_calendar();

@@ -1,5 +1,6 @@
-// The two inner loops of the engine: the earliest collision of one sphere with those of a list, and the spheres of
-// some cells near a place. Each is compiled for several instruction sets (pair_kernel_*.cpp), which give the same bits.
+// The inner loops of the engine: the earliest collision of one sphere with those of a list, the spheres of some cells
+// near a place, and those that a shift of the Mari-Kurchan model brings near. Each is compiled for several instruction
+// sets (pair_kernel_*.cpp), which give the same bits.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,20 @@ struct Earliest {
   int32_t entry;
 };
 
+// Spheres of the Mari-Kurchan model by the user's numbers. Whole vectors are read: x and reach have `stride` places, a
+// multiple of 8, for n spheres.
+template <int D>
+struct Partners {
+  const int32_t *x;    // (D, stride): components along the cell vectors in units of 2^-32
+  const float *reach;  // two spheres are partners within the sum of theirs; in units of 2^-32 V^(1/d)
+  size_t stride;
+  float height[D];  // distance of two faces of the cell, V^(1/d)
+  bool cube;
+  uint64_t key;  // of all shifts, as MkShifts::pair_key takes it
+  double zeta;   // strength of the shifts, at most 1e15, or infinity
+  int32_t n;
+};
+
 template <int D>
 struct PairKernel {
   static constexpr int32_t batch = 64;  // longest list
@@ -55,6 +70,9 @@ struct PairKernel {
   // number.
   int32_t (*search)(const Block<D> *block, const size_t *cells, size_t count, const int32_t *x, float reach,
                     int32_t *found);
+  // Writes the partners of sphere `self` in order, and a few other spheres, to `found`; returns their number. It takes
+  // the first shift that each pair drew.
+  int32_t (*partners)(const Partners<D> &spheres, int32_t self, int32_t *found);
 };
 
 enum class InstructionSet : int64_t { best, portable, avx2, avx512 };

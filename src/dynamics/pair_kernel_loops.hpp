@@ -190,9 +190,66 @@ JAM_SIMD_TARGET int32_t search(const Block<D> *block, const size_t *cells, size_
   return size;
 }
 
+// mix64 of core/rng.hpp.
+JAM_SIMD_INLINE Unsigned4 mixed(Unsigned4 x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// The shifts of eight pairs along one cell vector in units of 2^-32, from 64 bits each; MkShifts::component.
+template <bool Uniform>
+JAM_SIMD_INLINE UnsignedInt8 shifts(const Unsigned4 &first, const Unsigned4 &last, double zeta) {
+  if (Uniform) return upper_halves(first, last) ^ 0x80000000u;  // half a box less turns the highest bit
+  Unsigned4 bits[2] = {first, last};
+  for (Unsigned4 &half : bits) {
+    const Double4 x = (to_double((Long4)(half >> 11)) * 0x1p-53 - 0.5) * zeta;
+    half = (Unsigned4)to_integer((x - to_double(to_integer(x))) * 0x1p32) << 32;
+  }
+  return upper_halves(bits[0], bits[1]);
+}
+
+// In any cell the component of a distance along a cell vector, times the height there, is no longer than the distance.
+template <int D, bool Uniform, bool Cube>
+JAM_SIMD_TARGET int32_t partners(const Partners<D> &q, int32_t self, int32_t *found) {
+  const auto own = static_cast<uint64_t>(self);
+  int32_t size = 0;
+  for (int32_t b = 0; b < q.n; b += 8) {
+    Unsigned4 pair[2];
+    for (int h = 0; h < 2; ++h) {
+      const Unsigned4 other = Unsigned4{0, 1, 2, 3} + static_cast<uint64_t>(b + 4 * h);
+      pair[h] = mixed(q.key ^ mixed(other < own ? other << 32 | own : own << 32 | other));
+    }
+    const Int8 number = Int8{0, 1, 2, 3, 4, 5, 6, 7} + b;
+    const UnsignedInt8 below = (UnsignedInt8)(number < self);  // the shift of a pair changes sign with its order
+    Float8 r2{};
+    for (int c = 0; c < D; ++c) {
+      const auto k = static_cast<uint64_t>(c);
+      const UnsignedInt8 shift = shifts<Uniform>(mixed(pair[0] + k), mixed(pair[1] + k), q.zeta);
+      const int32_t *x = q.x + static_cast<size_t>(c) * q.stride;
+      const UnsignedInt8 way = static_cast<uint32_t>(x[self]) - load<UnsignedInt8>(x + b) + ((shift ^ below) - below);
+      Float8 r = __builtin_convertvector((Int8)way, Float8);
+      if (!Cube) r *= q.height[c];
+      r2 = Cube ? r2 + r * r : r2 > r * r ? r2 : r * r;
+    }
+    const Float8 reach = load<Float8>(q.reach + b) + q.reach[self];
+    unsigned hits = bits_of((Int8)(r2 < reach * reach) & (number != self) & (number < q.n));
+    for (; hits; hits &= hits - 1) found[size++] = b + __builtin_ctz(hits);
+  }
+  return size;
+}
+
+template <int D>
+JAM_SIMD_TARGET int32_t partners(const Partners<D> &q, int32_t self, int32_t *found) {
+  const bool uniform = q.zeta > 1e15;
+  if (q.cube) return uniform ? partners<D, true, true>(q, self, found) : partners<D, false, true>(q, self, found);
+  return uniform ? partners<D, true, false>(q, self, found) : partners<D, false, false>(q, self, found);
+}
+
 template <int D>
 PairKernel<D> pair_kernel() {
-  return {collisions<D>, search<D>};
+  return {collisions<D>, search<D>, partners<D>};
 }
 template PairKernel<2> pair_kernel<2>();
 template PairKernel<3> pair_kernel<3>();

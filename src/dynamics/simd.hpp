@@ -108,6 +108,15 @@ JAM_SIMD_INLINE void transpose(Double4 &a, Double4 &b, Double4 &c, Double4 &d) {
   d = JAM_SHUFFLE(ab1, cd1, 2, 3, 6, 7);
 }
 
+// The upper 32 bits of each lane, those of a first.
+JAM_SIMD_INLINE UnsignedInt8 upper_halves(const Unsigned4 &a, const Unsigned4 &b) {
+#if defined(__clang__) || __GNUC__ >= 12
+  return __builtin_shufflevector((UnsignedInt8)a, (UnsignedInt8)b, 1, 3, 5, 7, 9, 11, 13, 15);
+#else
+  return __builtin_shuffle((UnsignedInt8)a, (UnsignedInt8)b, UnsignedInt8{1, 3, 5, 7, 9, 11, 13, 15});
+#endif
+}
+
 // The nearest double, as the processor's conversion of one integer gives it: both halves become the low bits of
 // doubles (2^52 + low and 2^84 + 2^63 + high 2^32), whose differences are exact; the last sum rounds once.
 JAM_SIMD_INLINE Double4 to_double(const Long4 &v) {

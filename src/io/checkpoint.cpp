@@ -25,7 +25,7 @@ constexpr double tilt_max = 16.0;
 // than 1.1e4.
 constexpr double vectors_max = 1e7;
 
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '5'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '6'};
 
 struct Header {
   char magic[8];
@@ -164,7 +164,7 @@ Packing read_checkpoint(const char *path, Unfinished &work) {
   p.cell = Cell::from_triangle(h.dim, h.cell);
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
-              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && !(h.mk_zeta < 0.0) &&
+              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && is_mk_zeta(h.mk_zeta) &&
               work.crunch <= (h.stage > 0);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {

@@ -91,6 +91,8 @@ const Scene scenes[] = {
     {"mixture10_2000", 3, 2000, 0.2, 0.5, 10.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"mk_1024", 3, 1024, 0.1, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},
     {"mk_4096", 3, 4096, 0.1, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},
+    {"mk_planted_1024", 3, 1024, 1.6, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},
+    {"mk_planted_4096", 3, 4096, 1.6, 1.6, 1.0, JAM_MODEL_MK, 0.0, 0.0},
     {"small_box_24", 3, 24, 0.2, 0.4, 1.0, JAM_MODEL_EUCLID, 0.0, 0.0},
     {"grown_1024", 3, 1024, 0.2, 0.2, 1.0, JAM_MODEL_EUCLID, 1e-2, 500.0},
     {"grown_16384", 3, 16384, 0.2, 0.2, 1.0, JAM_MODEL_EUCLID, 1e-2, 500.0},

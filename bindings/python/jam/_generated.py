@@ -835,7 +835,7 @@ OPTIONS = {
         "packing_fraction": ("float", 'of a random start, > 0, default 0.2'),
         "overlap": ("OverlapPolicy", 'OverlapPolicy for given positions, default REFUSE'),
         "model": ("Model", 'Model, default EUCLID'),
-        "mk_zeta": ("float", 'MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium'),
+        "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'Masses, default EQUAL'),
         "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
         "wall_time": ("float", "seconds for a random start or the search for overlaps, > 0, default infinity: then 'limit'"),

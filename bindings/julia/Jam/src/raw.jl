@@ -292,7 +292,7 @@ mutable struct jam_create_options
     packing_fraction::Cdouble  # of a random start, > 0, default 0.2
     overlap::Int32  # jam_overlap_policy for given positions, default REFUSE
     model::Int32  # jam_model, default EUCLID
-    mk_zeta::Cdouble  # MK: strength of the shifts, >= 0; default infinity: uniform shifts. A random start is planted in equilibrium
+    mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
     non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.

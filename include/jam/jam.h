@@ -70,6 +70,7 @@
  * - diameter / box            1e-9 .. 1
  * - largest / least diameter  1 .. 1e4
  * - non_additivity            above -1, at most 1
+ * - mk_zeta                   0 .. 1e15, or infinity
  * - packing fraction          above 0; a random start: below saturation, 0.38 in d = 3
  * - radii of pair searches    at most 1000 mean diameters
  * - growth rate               above 0, at most 1000

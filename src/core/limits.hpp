@@ -33,6 +33,7 @@ void check_dim(int64_t dim);
 void check_n(int64_t n);
 void check_box(double box);
 void check_non_additivity(double delta);
+// Strength of the shifts of the Mari-Kurchan model.
 inline bool is_mk_zeta(double zeta) { return zeta >= 0.0 && (zeta <= limits::mk_zeta_max || std::isinf(zeta)); }
 // Diameters in the unit of `box`: the smallest, and the ratio of the largest to it. That no sphere is wider than the
 // box is a question of overlaps (core/create.hpp).

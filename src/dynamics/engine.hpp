@@ -34,6 +34,7 @@
 #include "dynamics/lattice.hpp"
 #include "dynamics/observer.hpp"
 #include "dynamics/pair_kernel.hpp"
+#include "dynamics/partner_table.hpp"
 
 namespace jam {
 
@@ -227,7 +228,7 @@ class Engine final : public EngineBase, private Units<Shift> {
   struct Redrawn {
     int32_t number, attempt;  // of the user, of the shift of this pair
   };
-  void take_redrawn();
+  void prepare_partners();
   void note_centre(int32_t i);
   std::array<int64_t, D> shift_of(int32_t a, const Redrawn &partner) const;
   template <class F>
@@ -299,9 +300,7 @@ class Engine final : public EngineBase, private Units<Shift> {
   std::vector<int32_t> internal_;  // inverse of user_
   std::vector<Redrawn> redrawn_;   // partners of each sphere with a shift drawn again
   std::vector<size_t> redrawn_first_;
-  std::vector<int32_t> partner_x_;  // what partners_ looks at
-  std::vector<float> partner_reach_;
-  Partners<D> partners_{};
+  std::unique_ptr<PartnerTable<D>> partner_table_;
 
 #ifdef JAM_CHECK_PAIRS
   Packing start_;  // what a state is written into to be checked

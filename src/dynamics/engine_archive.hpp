@@ -56,7 +56,10 @@ void Engine<D, Shift>::archive(Archive &a) {
     options_.instruction_set = InstructionSet::best;  // of this processor, not of the one that wrote
     check_archive();
     make_scratch();
-    if (quenched_) take_redrawn();
+    if (quenched_) {
+      prepare_partners();
+      for (int32_t i = 0; i < n_; ++i) note_centre(i);
+    }
   }
 }
 

@@ -11,7 +11,8 @@ namespace jam {
 template <int D, bool Shift>
 void Engine<D, Shift>::choose_cells() {
   cells_ = 0;
-  search_cost_ = static_cast<double>(n_) * (quenched_ ? 0.5 : 4.0);
+  constexpr double look = 4.0, look_in_vectors = 0.125;  // at one sphere, in units of tune_shell
+  search_cost_ = n_ * (quenched_ ? look_in_vectors : look);
   if constexpr (Shift) return choose_image_cells();
   const double reach = 2.0 * rho_max_ * unit;
   double best = 0.5 * n_;  // in units of tune_shell

@@ -8,9 +8,9 @@
 namespace jam {
 
 // Partners with shifts drawn again, sphere by sphere and both ways round, so that a walk over all partners meets them
-// in order.
+// in order. The table of places is empty after it.
 template <int D, bool Shift>
-void Engine<D, Shift>::take_redrawn() {
+void Engine<D, Shift>::prepare_partners() {
   const size_t n = static_cast<size_t>(n_);
   internal_.resize(n);
   for (int32_t i = 0; i < n_; ++i) internal_[user_[i]] = i;
@@ -22,33 +22,14 @@ void Engine<D, Shift>::take_redrawn() {
   // Sorted by (i, j): for each sphere the partners below it come first, in order, then those above.
   for (const MkRedrawn &r : quenched_->redrawn()) redrawn_[at[r.j]++] = {r.i, r.attempt};
   for (const MkRedrawn &r : quenched_->redrawn()) redrawn_[at[r.i]++] = {r.j, r.attempt};
-
-  const size_t stride = (n + 7) / 8 * 8;
-  partner_x_.resize(stride * D);
-  partner_reach_.resize(stride);
   found_.resize(n);
-  partners_.x = partner_x_.data();
-  partners_.reach = partner_reach_.data();
-  partners_.stride = stride;
-  for (int c = 0; c < D; ++c) partners_.height[c] = static_cast<float>(lattice_.height(c));
-  partners_.cube = lattice_.cube();
-  partners_.key = quenched_->key();
-  partners_.zeta = quenched_->zeta();
-  partners_.n = n_;
-  for (int32_t i = 0; i < n_; ++i) note_centre(i);
+  partner_table_ = std::make_unique<PartnerTable<D>>(*quenched_, lattice_, n_);
 }
 
-// What the loop over all spheres knows of sphere i. The factor covers the rounding of its floats, the addend the
-// bits that two places and a shift lose: below 3 x 2^-32 of a cell vector, while two spheres add four heights.
+// The search looks for partners of i where its list is.
 template <int D, bool Shift>
 void Engine<D, Shift>::note_centre(int32_t i) {
-  const auto a = static_cast<size_t>(user_[i]);
-  double s[D];
-  lattice_.fraction(centre_[i], s);
-  for (int c = 0; c < D; ++c)
-    partner_x_[c * partners_.stride + a] = static_cast<int32_t>(static_cast<int64_t>(std::floor(s[c] * 0x1p32)));
-  const float tallest = *std::max_element(partners_.height, partners_.height + D);
-  partner_reach_[a] = static_cast<float>(rho_[i] * unit * 0x1p32 * (1.0 + 1e-6)) + 2.0f * std::max(1.0f, tallest);
+  partner_table_->set(user_[i], centre_[i], rho_[i] * unit);
 }
 
 template <int D, bool Shift>
@@ -68,7 +49,7 @@ std::array<int64_t, D> Engine<D, Shift>::shift_of(int32_t a, const Redrawn &part
 template <int D, bool Shift>
 template <class F>
 void Engine<D, Shift>::each_partner(int32_t i, F &&f) const {
-  const int32_t a = user_[i], found = kernel_.partners(partners_, a, found_.data());
+  const int32_t a = user_[i], found = kernel_.partners(partner_table_->spheres(), a, found_.data());
   size_t next = redrawn_first_[a];
   const size_t end = redrawn_first_[a + 1];
   const auto give = [&](const Redrawn &partner) { f(internal_[partner.number], shift_of(a, partner)); };

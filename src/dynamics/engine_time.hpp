@@ -35,7 +35,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
 #endif
   if (mk) {
     quenched_ = std::make_unique<MkShifts>(p);
-    take_redrawn();
+    prepare_partners();
   }
   if (from) {
     archive(*from);

@@ -56,7 +56,8 @@ struct Partners {
   float height[D];  // distance of two faces of the cell, V^(1/d)
   bool cube;
   uint64_t key;  // of all shifts, as MkShifts::pair_key takes it
-  double zeta;   // strength of the shifts, at most 1e15, or infinity
+  bool uniform;  // shifts; else zeta is their strength, at most 1e15
+  double zeta;
   int32_t n;
 };
 

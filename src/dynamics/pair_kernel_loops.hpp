@@ -198,7 +198,7 @@ JAM_SIMD_INLINE Unsigned4 mixed(Unsigned4 x) {
   return x ^ (x >> 31);
 }
 
-// The shifts of eight pairs along one cell vector in units of 2^-32, from 64 bits each; MkShifts::component.
+// The shifts of eight pairs along one cell vector in units of 2^-32, from 64 bits each (MkShifts::component).
 template <bool Uniform>
 JAM_SIMD_INLINE UnsignedInt8 shifts(const Unsigned4 &first, const Unsigned4 &last, double zeta) {
   if (Uniform) return upper_halves(first, last) ^ 0x80000000u;  // half a box less turns the highest bit
@@ -242,9 +242,8 @@ JAM_SIMD_TARGET int32_t partners(const Partners<D> &q, int32_t self, int32_t *fo
 
 template <int D>
 JAM_SIMD_TARGET int32_t partners(const Partners<D> &q, int32_t self, int32_t *found) {
-  const bool uniform = q.zeta > 1e15;
-  if (q.cube) return uniform ? partners<D, true, true>(q, self, found) : partners<D, false, true>(q, self, found);
-  return uniform ? partners<D, true, false>(q, self, found) : partners<D, false, false>(q, self, found);
+  if (q.cube) return q.uniform ? partners<D, true, true>(q, self, found) : partners<D, false, true>(q, self, found);
+  return q.uniform ? partners<D, true, false>(q, self, found) : partners<D, false, false>(q, self, found);
 }
 
 template <int D>

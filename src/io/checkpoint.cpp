@@ -25,6 +25,7 @@ constexpr double tilt_max = 16.0;
 // than 1.1e4.
 constexpr double vectors_max = 1e7;
 
+// The last character is the version of the format, which rises with every change of what the engine archives.
 constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '6'};
 
 struct Header {
@@ -125,6 +126,9 @@ void write_checkpoint(const Packing &p, const Unfinished &work, const char *path
 Packing read_checkpoint(const char *path, Unfinished &work) {
   const std::string all = slurp(path);
   Header h{};
+  if (all.size() > sizeof magic && std::memcmp(all.data(), magic, sizeof magic - 1) == 0 &&
+      all[sizeof magic - 1] != magic[sizeof magic - 1])
+    fail(JAM_E_FORMAT, "%s is a checkpoint of another version of libjam", path);
   if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0)
     fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
   std::memcpy(&h, all.data(), sizeof h);
@@ -164,8 +168,8 @@ Packing read_checkpoint(const char *path, Unfinished &work) {
   p.cell = Cell::from_triangle(h.dim, h.cell);
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
-              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) && is_mk_zeta(h.mk_zeta) &&
-              work.crunch <= (h.stage > 0);
+              (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) &&
+              (h.model == JAM_MODEL_EUCLID || is_mk_zeta(h.mk_zeta)) && work.crunch <= (h.stage > 0);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {
     good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 &&

@@ -46,7 +46,13 @@ static void bad_options_are_refused(void **state) {
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "overlap is 7");
   o.overlap = 0, o.model = 5;
   refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "model is 5");
-  o.model = 0, o.struct_size = sizeof o + 8;
+  o.model = JAM_MODEL_MK, o.mk_zeta = -1.0;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "mk_zeta is -1, supported are 0..1e+15 and infinity");
+  o.mk_zeta = 1.1e15;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "mk_zeta is 1.1e+15");
+  o.mk_zeta = NAN;
+  refused(&o, NULL, 0, NULL, 0, JAM_E_ARGUMENT, "mk_zeta is");
+  o.mk_zeta = INFINITY, o.model = 0, o.struct_size = sizeof o + 8;
   refused(&o, NULL, 0, NULL, 0, JAM_E_STRUCT_SIZE, "struct_size");
   o.struct_size = 0;
   refused(&o, NULL, 0, NULL, 0, JAM_E_STRUCT_SIZE, "struct_size is 0");

@@ -260,14 +260,13 @@ static uint64_t mix64(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-static void damaged_checkpoints_are_refused(void **state) {
-  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 60, 0.3), *out = NULL;
+static void refuse_damaged(int32_t model) {
+  jam_system *sys = make(model, 3, 60, 0.3), *out = NULL;
   static unsigned char data[200000];
   jam_compress_options c;
   size_t size, k, at;
   int refused = 0;
   FILE *f;
-  (void)state;
   jam_compress_options_init(&c, sizeof c);
   c.collisions_per_particle = 20;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
@@ -307,10 +306,31 @@ static void damaged_checkpoints_are_refused(void **state) {
   remove(path);
 }
 
+static void damaged_checkpoints_are_refused(void **state) {
+  (void)state;
+  refuse_damaged(JAM_MODEL_EUCLID);
+  refuse_damaged(JAM_MODEL_MK);
+}
+
+static void checkpoints_of_another_version_are_refused(void **state) {
+  jam_system *sys = make(JAM_MODEL_EUCLID, 3, 10, 0.2), *out = NULL;
+  FILE *f;
+  (void)state;
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  jam_destroy(sys);
+  f = fopen(path, "rb+");
+  fseek(f, 7, SEEK_SET);
+  fputc('0', f);
+  fclose(f);
+  assert_int_equal(jam_checkpoint_read(path, &out), JAM_E_FORMAT);
+  assert_non_null(strstr(jam_last_error(), "another version"));
+  remove(path);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(growth_goes_on_to_the_same_bits), cmocka_unit_test(cancelled_runs_go_on_to_the_same_bits),
-      cmocka_unit_test(checkpoint_from_the_callback), cmocka_unit_test(finished_stages_cannot_be_resumed),
-      cmocka_unit_test(damaged_checkpoints_are_refused)};
+      cmocka_unit_test(checkpoint_from_the_callback),    cmocka_unit_test(finished_stages_cannot_be_resumed),
+      cmocka_unit_test(damaged_checkpoints_are_refused), cmocka_unit_test(checkpoints_of_another_version_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 // The Mari-Kurchan model in the engine: the search for partners against all images of all pairs, and no overlaps.
 #include <algorithm>
 
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "dynamics/engine.hpp"
@@ -12,7 +13,8 @@ using namespace jamtest;
 
 namespace {
 
-const double no_shift = 0.0, weak = 0.3, strong = 7.3, uniform = std::numeric_limits<double>::infinity();
+const double no_shift = 0.0, weak = 0.3, strong = 7.3, strongest = limits::mk_zeta_max,
+             uniform = std::numeric_limits<double>::infinity();
 
 Monitor &begun() {
   static Monitor monitor;
@@ -57,28 +59,21 @@ void check_search(int n, double zeta, const std::vector<double> &rows) {
   const MkShifts shifts(p);
   const Units<true> units(p.cell);
   const Lattice<D> lattice(p.cell, units.scale);
-  const size_t stride = (static_cast<size_t>(n) + 7) / 8 * 8;
-  std::vector<int32_t> x(stride * D), found(n), first;
-  std::vector<float> reach(stride);
+  PartnerTable<D> table(shifts, lattice, n);
+  std::vector<int32_t> found, first;
   std::vector<double> rho(n);
   for (int i = 0; i < n; ++i) {
     std::array<uint64_t, D> place;
-    double s[D];
     for (int c = 0; c < D; ++c)
       place[c] = static_cast<uint64_t>(std::llrint(p.position[i * D + c] / p.cell.side() * units.scale));
-    lattice.fraction(place, s);
-    for (int c = 0; c < D; ++c)
-      x[c * stride + i] = static_cast<int32_t>(static_cast<int64_t>(std::floor(s[c] * 0x1p32)));
     rho[i] = 0.05 + 0.1 * (i % 3);
-    reach[i] = static_cast<float>(rho[i] * 0x1p32 * (1.0 + 1e-6)) + 10.0f;
+    table.set(i, place, rho[i]);
   }
-  Partners<D> q{x.data(), reach.data(), stride, {}, lattice.cube(), shifts.key(), zeta, n};
-  for (int c = 0; c < D; ++c) q.height[c] = static_cast<float>(lattice.height(c));
   for (int i = 0; i < n; ++i)
     for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
       if (!has_instruction_set(set)) continue;
       found.resize(n);
-      found.resize(pair_kernel<D>(set).partners(q, i, found.data()));
+      found.resize(pair_kernel<D>(set).partners(table.spheres(), i, found.data()));
       assert_true(std::is_sorted(found.begin(), found.end()) && !std::binary_search(found.begin(), found.end(), i));
       int true_ones = 0;
       for (int j = 0; j < n; ++j)
@@ -99,15 +94,67 @@ void check_search(int n, double zeta, const std::vector<double> &rows) {
 void every_partner_is_found(void **) {
   const std::vector<double> cube, oblique = {1.0, 0.0, 0.45, 0.8}, brick = {1, 0, 0, 0, 1, 0, 0, 0, 6},
                                   monoclinic = {1.0, 0.0, 0.0, 0.0, 1.2, 0.0, 0.35, 0.0, 0.9};
-  for (double zeta : {no_shift, weak, strong, uniform}) {
+  for (double zeta : {no_shift, weak, strong, strongest, uniform}) {
     for (int n : {1, 2, 7, 8, 9, 150}) check_search<3>(n, zeta, cube);
     check_search<2>(150, zeta, cube);
+    check_search<4>(150, zeta, cube);
     check_search<5>(150, zeta, cube);
+    check_search<6>(60, zeta, cube);
+    check_search<7>(60, zeta, cube);
     check_search<8>(60, zeta, cube);
     check_search<2>(150, zeta, oblique);
     check_search<3>(150, zeta, brick);
     check_search<3>(150, zeta, monoclinic);
   }
+}
+
+// Two spheres along one height of the cell, where floats and 32 bits have nothing to spare: they touch to 1e-12 (small:
+// 1e-6), or in a cube are apart by 1e-5. Small: 5e-10 to 3e-9 of the height, some units of 2^-32.
+template <int D>
+void check_edge(double zeta, const std::vector<double> &rows, bool small) {
+  Packing p = quenched(D, 2, zeta, rows);
+  const MkShifts shifts(p);
+  const Units<true> units(p.cell);
+  const Lattice<D> lattice(p.cell, units.scale);
+  double s[D], shift[D];
+  shifts.get(0, 1, s);
+  p.cell.combine(s, shift);
+  Rng rng(5, Stream::rsa_positions);
+  for (int k = 0; k < 300; ++k) {
+    const double distance = (0.05 + 0.3 * rng.uniform()) * p.cell.height(D - 1) * (small ? 1e-8 : 1.0);
+    std::array<uint64_t, D> place[2];
+    for (int c = 0; c < D; ++c) {
+      const double x = rng.uniform(), y = x + shift[c] + (c == D - 1 ? distance : 0.0);
+      place[0][c] = static_cast<uint64_t>(std::llrint(x / p.cell.side() * units.scale));
+      place[1][c] = static_cast<uint64_t>(std::llrint(y / p.cell.side() * units.scale));
+    }
+    for (auto &x : place) lattice.wrap(x);
+    for (const bool apart : {false, true}) {
+      PartnerTable<D> table(shifts, lattice, 2);
+      const double reach = 0.5 * distance / p.cell.side() * (1.0 + (apart ? -1e-5 : small ? 1e-6 : 1e-12));
+      for (int i = 0; i < 2; ++i) table.set(i, place[i], reach);
+      for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+        if (!has_instruction_set(set)) continue;
+        int32_t found[2];
+        for (int i = 0; i < 2; ++i) {
+          const int32_t partners = pair_kernel<D>(set).partners(table.spheres(), i, found);
+          if (!apart) assert_int_equal(partners, 1);
+          if (apart && lattice.cube() && !small) assert_int_equal(partners, 0);
+        }
+      }
+    }
+  }
+}
+
+void partners_at_the_edge_are_found(void **) {
+  for (double zeta : {no_shift, weak, strong, strongest, uniform})
+    for (const bool small : {false, true}) {
+      check_edge<2>(zeta, {}, small);
+      check_edge<3>(zeta, {}, small);
+      check_edge<8>(zeta, {}, small);
+      check_edge<3>(zeta, {1, 0, 0, 0, 1, 0, 0, 0, 6}, small);
+      check_edge<3>(zeta, {1.0, 0.0, 0.0, 0.0, 1.2, 0.0, 0.35, 0.0, 0.9}, small);
+    }
 }
 
 // All images of all pairs are looked at when it is over; planting has drawn shifts again.
@@ -147,6 +194,7 @@ void never_overlaps(void **) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(every_partner_is_found),
+      cmocka_unit_test(partners_at_the_edge_are_found),
       cmocka_unit_test(never_overlaps),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -733,15 +733,15 @@ module jam
     integer(c_int32_t) :: reserved = 0
     ! of the longest neighbour list
     integer(c_int64_t) :: pairs = 0
-    ! peak memory beside what is in use now; mostly good to a factor of 2. Large crunches need half of it until their end, where factors become doubles
+    ! peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
     real(c_double) :: bytes = 0
     ! of it for the factorisation
     real(c_double) :: factor_bytes = 0
-    ! of one factorisation
+    ! of one factorisation on the path (sequential LPs: of the widest LP)
     real(c_double) :: flops = 0
-    ! a guess from density and method, good to a factor of 5
+    ! median of packings grown slowly; single ones scatter by a factor of 2, others of 5
     real(c_double) :: factorisations = 0
-    ! of one factorisation and what goes with it, on this core
+    ! of one factorisation and what goes with it, on this core; mean over first LP and path
     real(c_double) :: step_seconds = 0
     ! the product of both
     real(c_double) :: seconds = 0

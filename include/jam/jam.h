@@ -864,12 +864,11 @@ typedef struct jam_estimate {
   uint32_t struct_size;  /* set by the caller: sizeof(jam_estimate) */
   int32_t reserved;      /* 0 */
   int64_t pairs;         /* of the longest neighbour list */
-  double bytes;          /* peak memory beside what is in use now; mostly good to a factor of 2. Large crunches
-                          * need half of it until their end, where factors become doubles */
+  double bytes;          /* peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 % */
   double factor_bytes;   /* of it for the factorisation */
-  double flops;          /* of one factorisation */
-  double factorisations; /* a guess from density and method, good to a factor of 5 */
-  double step_seconds;   /* of one factorisation and what goes with it, on this core */
+  double flops;          /* of one factorisation on the path (sequential LPs: of the widest LP) */
+  double factorisations; /* median of packings grown slowly; single ones scatter by a factor of 2, others of 5 */
+  double step_seconds;   /* of one factorisation and what goes with it, on this core; mean over first LP and path */
   double seconds;        /* the product of both */
 } jam_estimate;
 

@@ -14,14 +14,6 @@ namespace {
 
 double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0; }
 
-// Pairs farther apart than the reach cannot meet in this LP.
-double reach_of(const CrunchState &s) {
-  const double unit = diameter_mean(s.out.packing);
-  if (s.o.neighbour_radius > 0.0)
-    return std::max(0.0, s.o.neighbour_radius * unit - contact_distance_max(s.out.packing));
-  return s.tuning.reach_per_bound * s.bound * unit;
-}
-
 // What an answer must fulfil to be used. One that ended early leans on bounds that it has not reached: any feasible
 // point is a safe step, if it gains no less than staying does.
 bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
@@ -128,12 +120,17 @@ void build_lp(CrunchState &s, double reach) {
   s.lp.bound = s.bound;
 }
 
-// The free spacing of a dilute start, down to a tenth of a diameter near jamming and less where gaps are closed.
-double first_bound(const CrunchState &s) {
-  if (s.o.step_bound > 0.0) return s.o.step_bound;
-  const double spacing = s.tuning.first_bound + s.tuning.bound_per_spacing * free_spacing(s.out.packing);
-  const double closed = s.tuning.bound_per_root_gap * std::sqrt(contact_gap(s.out.packing));
-  return std::min(spacing, std::max(s.tuning.min_bound, closed));
+double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t) {
+  if (o.step_bound > 0.0) return o.step_bound;
+  const double spacing = t.first_bound + t.bound_per_spacing * free_spacing(p);
+  const double closed = t.bound_per_root_gap * std::sqrt(contact_gap(p));
+  return std::min(spacing, std::max(t.min_bound, closed));
+}
+
+double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, double bound) {
+  const double unit = diameter_mean(p);
+  if (o.neighbour_radius > 0.0) return std::max(0.0, o.neighbour_radius * unit - contact_distance_max(p));
+  return t.reach_per_bound * bound * unit;
 }
 
 LpStep make_step(CrunchState &s, double reach) {
@@ -155,7 +152,7 @@ LpStep make_step(CrunchState &s, double reach) {
 }
 
 Phase approach(CrunchState &s) {
-  const double reach = reach_of(s);
+  const double reach = lp_reach(s.out.packing, s.o, s.tuning, s.bound);
   build_lp(s, reach);
   if (!solve(s)) return s.interrupted(), Phase::done;
   s.multipliers = {s.pairs, s.answer.y};

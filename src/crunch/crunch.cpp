@@ -67,7 +67,7 @@ static void run_phases(CrunchState &s) {
   begun.pressure = begun.fraction = std::numeric_limits<double>::quiet_NaN();
   s.monitor.expect(begun);
   const LeavingScope scope(CallScope::memory_limit(), &s.monitor);
-  s.bound = first_bound(s);
+  s.bound = first_bound(s.out.packing, s.o, s.tuning);
   for (Phase phase = first_phase(s); phase != Phase::done;) {
     switch (phase) {
       case Phase::approach:

@@ -50,6 +50,12 @@ double free_spacing(const Packing &p);
 // estimate.cpp: median gap of the d n nearest pairs, the contacts to be; 0.5 when there are not as many.
 double contact_gap(const Packing &p);
 
+// approach.cpp: bound of the first LP: the free spacing of a dilute start, down to a tenth of a diameter near jamming
+// and less where gaps are closed.
+double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t);
+// Pairs farther apart cannot meet in an LP of this bound.
+double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, double bound);
+
 // ---- parts, one file each
 
 // step.cpp: moves p by alpha (s, g) with the largest alpha <= 1 for which no pair outside the list overlaps.

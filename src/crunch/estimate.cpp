@@ -30,43 +30,44 @@ double steps(const Packing &p, const jam_crunch_options &o) {
 
 // Median contact gap below which the step bound of sequential LPs stays near its first value.
 constexpr double close_gap = 3e-5;
+// Factorisations of the LP that a path begins with, at most half of all; the later half of them are in doubles.
+constexpr double steps_of_lp = 13.0;
 
-// The list that the run begins with, a little denser as the spheres grow before it is shortened, and from a start with
-// few neighbours at least as many of the nearest pairs as a list holds near jamming.
-PairList longest_list(const Packing &p, const jam_crunch_options &o) {
-  const double unit = diameter_mean(p), free = free_spacing(p),
-               jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
-  const double lp_reach = 2.2 * (o.step_bound > 0.0           ? o.step_bound
-                                 : contact_gap(p) > close_gap ? Tuning().max_bound
-                                                              : 0.1 + 0.6 * free);
-  double reach = unit * (o.method == JAM_CRUNCH_SEQUENTIAL_LP ? lp_reach
-                         : o.step_bound > 0.0                 ? std::max(lp_reach, 0.15 + 1.5 * free)
-                                                              : 0.15 + 1.5 * free);
-  if (o.neighbour_radius > 0.0) reach = std::max(0.0, o.neighbour_radius * unit - diameter_max(p));
-  // How far the diameters grow before the list gets shorter: sequential LPs and mixtures keep theirs, the path of equal
-  // spheres shortens it early.
-  const double part = o.method == JAM_CRUNCH_SEQUENTIAL_LP || diameter_max(p) > 1.3 * unit ? 1.0 : 0.3;
-  const double grown = std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
-  PairList pairs =
-      o.method == JAM_CRUNCH_SEQUENTIAL_LP ? find_pairs(p, reach, grown) : select_neighbours(p, reach, grown);
-  const double enough =
-      std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
-  for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < enough; ++k) {
-    reach = 1.1 * reach + 0.01 * unit;
-    pairs = find_pairs(p, reach, 1.0);
+// A list of pairs, and the matrix of those that it couples.
+struct Part {
+  double rows = 0.0, edges = 0.0;
+  BlockCholesky::Sizes sizes{};
+
+  // Numbers of the factor in doubles: crunches of all sizes end in doubles. Blocks before elimination; a dozen vectors
+  // and the rows themselves for each pair, two dozen for each unknown; three pair lists; tables of the symbolic part
+  // (an index for each block of the factor among them).
+  double factor_bytes() const { return 8.0 * static_cast<double>(sizes.factor + sizes.fronts); }
+  double bytes(double d, double n) const {
+    const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 27.0);
+    const double lists = 3.0 * rows * (8.0 + 8.0 * d),
+                 tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(sizes.factor) / (d * d);
+    return factor_bytes() + blocks + vectors + lists + tables;
   }
-  return pairs;
-}
+  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
+  // times.
+  double seconds(double rate, int threads) const {
+    return sizes.flops / (0.5 * rate * std::min(threads, 2)) + 4e-9 * static_cast<double>(sizes.factor) + 4e-7 * rows;
+  }
+};
 
 // The edges of the particle graph, sorted as the pairs are: several images of one pair are one edge.
-struct Edges {
-  std::vector<int32_t> i, j;
+class Edges {
+ public:
   void add(int32_t a, int32_t b) {
-    if (a != b && (i.empty() || i.back() != a || j.back() != b)) i.push_back(a), j.push_back(b);
+    if (a != b && (i_.empty() || i_.back() != a || j_.back() != b)) i_.push_back(a), j_.push_back(b);
   }
-  BlockCholesky::Sizes measure(const Packing &p, int threads) const {
-    return BlockCholesky::measure(p.dim, static_cast<int32_t>(p.n()), i.data(), j.data(), i.size(), threads);
+  Part part(const Packing &p, size_t rows, int threads) const {
+    return {static_cast<double>(rows), static_cast<double>(i_.size()),
+            BlockCholesky::measure(p.dim, static_cast<int32_t>(p.n()), i_.data(), j_.data(), i_.size(), threads)};
   }
+
+ private:
+  std::vector<int32_t> i_, j_;
 };
 
 // h = r / sigma - 1 of each pair.
@@ -78,15 +79,52 @@ std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
   return gap;
 }
 
-// Of the pairs that a path lists those that its matrix couples on most of its way: up to `far_slack` of the gap that
-// the farthest carrying row has. A first LP with a wide bound couples more, for a few of the factorisations.
-Edges coupled_edges(const Packing &p, const PairList &pairs) {
+// How far the diameters grow before a list gets shorter.
+double growth(const Packing &p, double part) {
+  const double jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
+  return std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
+}
+
+// From a start with few neighbours at least as many of the nearest pairs as a list holds near jamming.
+PairList enough_pairs(const Packing &p, const jam_crunch_options &o, PairList pairs, double reach) {
+  const double wanted =
+      std::min(jammed_pairs[p.dim], 0.5 * static_cast<double>(p.n() - 1)) * static_cast<double>(p.n());
+  for (int k = 0; k < 40 && o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < wanted; ++k) {
+    reach = 1.1 * reach + 0.01 * diameter_mean(p);
+    pairs = find_pairs(p, reach, 1.0);
+  }
+  return pairs;
+}
+
+// The LP that a crunch begins with, or the widest of sequential ones, which keep their list while the spheres grow.
+Part largest_lp(const Packing &p, const jam_crunch_options &o) {
+  const Tuning t;
+  const bool sequence = o.method == JAM_CRUNCH_SEQUENTIAL_LP;
+  const bool widens = sequence && o.step_bound == 0.0 && contact_gap(p) > close_gap;
+  const double bound = widens ? t.max_bound : first_bound(p, o, t), reach = lp_reach(p, o, t, bound);
+  const PairList pairs = enough_pairs(p, o, find_pairs(p, reach, sequence ? growth(p, 1.0) : 1.0), reach);
+  PackingLp lp = make_lp(p, pairs, diameter_mean(p));
+  lp.bound = bound;
+  WorkingSet split;
+  split.choose(lp);
+  Edges edges;
+  for (size_t k = 0; k < split.near_pairs.size(); ++k) edges.add(split.near_pairs.i[k], split.near_pairs.j[k]);
+  return edges.part(p, pairs.size(), o.threads);
+}
+
+// The list that the path begins with, a little denser as the spheres grow before it is shortened. Its matrix couples
+// pairs up to `far_slack` of the gap that the farthest carrying row has.
+Part barrier_path(const Packing &p, const jam_crunch_options &o) {
+  const Tuning t;
+  const double unit = diameter_mean(p), reach = unit * (t.least_reach + t.reach_per_spacing * free_spacing(p));
+  const double grown = growth(p, diameter_max(p) > 1.3 * unit ? 1.0 : 0.3);  // mixtures shorten it late
+  const PairList pairs = enough_pairs(p, o, select_neighbours(p, reach, grown), reach);
   const std::vector<double> gap = relative_gaps(p, pairs);
   const double slack = far_slack * carrying_slack(gap, p.dim, static_cast<int32_t>(p.n()));
   Edges edges;
-  for (size_t k = 0; k < gap.size(); ++k)
+  for (size_t k = 0; k < pairs.size(); ++k)
     if (gap[k] <= slack) edges.add(pairs.i[k], pairs.j[k]);
-  return edges;
+  return edges.part(p, pairs.size(), o.threads);
 }
 
 // Flops a second of this core in blocks as large as the fronts are; a millisecond.
@@ -117,31 +155,21 @@ double contact_gap(const Packing &p) {
 
 jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   check_options(p, o);
-  PairList pairs = longest_list(p, o);
-  Edges listed;
-  for (size_t k = 0; k < pairs.size(); ++k) listed.add(pairs.i[k], pairs.j[k]);
-  const double d = p.dim, n = static_cast<double>(p.n()), rows = static_cast<double>(pairs.size()),
-               edges = static_cast<double>(listed.i.size());
-  const BlockCholesky::Sizes most = listed.measure(p, o.threads);
-  const BlockCholesky::Sizes usual =
-      o.method == JAM_CRUNCH_SEQUENTIAL_LP ? most : coupled_edges(p, pairs).measure(p, o.threads);
+  const double d = p.dim, n = static_cast<double>(p.n());
+  const Part lp = largest_lp(p, o), path = o.method == JAM_CRUNCH_SEQUENTIAL_LP ? lp : barrier_path(p, o);
+  const Part &most = lp.bytes(d, n) > path.bytes(d, n) ? lp : path;
+  const double full = measured_rate<double>(192),
+               rate = path.sizes.flops > Tuning().single.work ? measured_rate<float>(192) : full;
 
   jam_estimate e{};
-  e.pairs = static_cast<int64_t>(rows);
-  e.flops = usual.flops;
-  e.factor_bytes = 8.0 * static_cast<double>(most.factor + most.fronts);
-  // Blocks before elimination; a dozen vectors and the rows themselves for each pair, two dozen for each unknown; three
-  // pair lists; tables of the symbolic part (an index for each block of the factor among them).
-  const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 27.0);
-  const double lists = 3.0 * rows * (8.0 + 8.0 * d),
-               tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(most.factor) / (d * d);
-  e.bytes = e.factor_bytes + blocks + vectors + lists + tables;
+  e.pairs = static_cast<int64_t>(std::max(lp.rows, path.rows));
+  e.flops = path.sizes.flops;
+  e.factor_bytes = most.factor_bytes();
+  e.bytes = most.bytes(d, n);
   e.factorisations = steps(p, o);
-  // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
-  // times. Large factors are floats but for the last few.
-  const double rate = usual.flops > Tuning().single.work ? measured_rate<float>(192) : measured_rate<double>(192);
-  e.step_seconds =
-      usual.flops / (0.5 * rate * std::min(o.threads, 2)) + 4e-9 * static_cast<double>(usual.factor) + 4e-7 * rows;
+  const double in_lp = std::min(steps_of_lp / e.factorisations, 0.5);
+  e.step_seconds = (1.0 - in_lp) * path.seconds(rate, o.threads) +
+                   0.5 * in_lp * (lp.seconds(rate, o.threads) + lp.seconds(full, o.threads));
   e.seconds = e.factorisations * e.step_seconds;
   return e;
 }

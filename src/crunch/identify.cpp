@@ -132,6 +132,7 @@ static bool converged(const CrunchState &s) { return s.out.report.gain <= defaul
 // Collectively jammed or not, from positions alone. LPs go on from a saddle, narrow ones where contacts are in doubt.
 Phase judge(CrunchState &s) {
   for (;;) {
+    s.system.release();  // the test has a factor of its own
     const PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, Jamming::collective);
     log_verdict(s, verdict);
     double open = 0.0;

@@ -58,7 +58,7 @@ Phase follow_path(CrunchState &s) {
                 path.reached ? "reached" : "stopped at", path.gap, path.factorisations, path.increases,
                 packing_fraction(s.out.packing));
   if (path.reached && frees_cell(s)) return free_cell(s), Phase::barrier_path;
-  s.bound = path.reached && s.o.step_bound == 0.0 ? s.tuning.min_bound : first_bound(s);
+  s.bound = path.reached && s.o.step_bound == 0.0 ? s.tuning.min_bound : first_bound(s.out.packing, s.o, s.tuning);
   s.multipliers = std::move(path.multipliers);
   s.at_bound = 0;
   s.moved = path.reached ? 0.0 : 1.0;

@@ -55,7 +55,7 @@ Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
                 packing_fraction(p), static_cast<long long>(verdict.result.flexes), longest);
   if (!(longest > s.tuning.closed_gap)) return Kick::none;
   if (longest < s.tuning.narrow_bound) return Kick::blocked;
-  s.bound = first_bound(s);
+  s.bound = first_bound(s.out.packing, s.o, s.tuning);
   s.moved = 1.0;
   s.stalled = 0;
   s.exact = false;

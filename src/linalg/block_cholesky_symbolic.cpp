@@ -233,6 +233,12 @@ BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *e
   return {trial.flops_, trial.value_count_, trial.stack_count_};
 }
 
+void BlockCholesky::release() {
+  for (ScratchBuffer *buffer : {&values_, &original_diagonal_, &kept_}) buffer->release();
+  for (Stack &stack : stacks_)
+    for (ScratchBuffer &memory : stack.memory) memory.release();
+}
+
 size_t BlockCholesky::bytes() const {
   size_t sum = values_.capacity() + original_diagonal_.capacity() + kept_.capacity();
   for (const Stack &stack : stacks_)

@@ -12,10 +12,13 @@ class ScratchBuffer {
  public:
   void need(size_t size) {
     if (size <= capacity_) return;
-    memory_.reset();
-    capacity_ = 0;
+    release();
     memory_.reset(new unsigned char[(size + size / 8) * sizeof(double)]);
     capacity_ = size + size / 8;
+  }
+  void release() {
+    memory_.reset();
+    capacity_ = 0;
   }
   template <class Real>
   Real *as() {

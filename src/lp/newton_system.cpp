@@ -53,6 +53,11 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
   seconds_assemble += now_seconds() - t0;
 }
 
+void NewtonSystem::release() {
+  cholesky_.release();
+  dim_ = 0;
+}
+
 void NewtonSystem::set_strain(const double *strain, int count) {
   strain_ = strain, strains_ = count;
   const size_t spheres = static_cast<size_t>(n_) * dim_;

@@ -43,7 +43,7 @@ typedef struct measured {
 
 /* The whole life of a packing in a fresh process: how much its peak grows while it crunches. The longest lists come
  * early. */
-static measured life(int64_t n, double phi, double pressure, int factorisations) {
+static measured life(int64_t n, double phi, double pressure, int factorisations, int32_t threads) {
   jam_system *small = start(200, 0.3), *sys;
   jam_crunch_options o;
   jam_compress_options c;
@@ -52,27 +52,29 @@ static measured life(int64_t n, double phi, double pressure, int factorisations)
   jam_destroy(small);
   sys = start(n, phi);
   jam_compress_options_init(&c, sizeof c);
-  c.growth_rate = 0.1, c.pressure = pressure;
+  c.growth_rate = 1e-2, c.pressure = pressure;
   if (pressure > 0.0) jam_compress(sys, &c, NULL);
   jam_crunch_options_init(&o, sizeof o);
   o.steps = 1; /* the callback hears of each */
+  o.threads = threads;
   m.estimate = estimated(sys, &o).bytes;
   m.taken = peak();
   jam_set_progress(sys, stop_after, &factorisations);
-  m.taken = jam_crunch(sys, &o, NULL) == JAM_CANCELLED ? peak() - m.taken : -1.0;
+  jam_crunch(sys, &o, NULL);
+  m.taken = peak() - m.taken;
   jam_destroy(sys);
   return m;
 }
 
 /* Floats take half of what the estimate says: it is for the end, where factors of all sizes are doubles. */
-static void memory(int64_t n, double phi, double pressure, int factorisations, double share) {
+static void memory(int64_t n, double phi, double pressure, int factorisations, int32_t threads, double share) {
   int ends[2], status = -1;
   measured m = {0.0, 0.0};
   pid_t child;
   assert_int_equal(pipe(ends), 0);
   child = fork();
   if (child == 0) {
-    m = life(n, phi, pressure, factorisations);
+    m = life(n, phi, pressure, factorisations, threads);
     _exit(write(ends[1], &m, sizeof m) != sizeof m);
   }
   close(ends[1]);
@@ -81,15 +83,16 @@ static void memory(int64_t n, double phi, double pressure, int factorisations, d
   assert_true(waitpid(child, &status, 0) == child && status == 0);
   print_message("n %d: estimate %.1f MB, taken %.1f MB\n", (int)n, m.estimate / 1e6, m.taken / 1e6);
 #ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed */
-  assert_true(m.taken > 0.5 * share * m.estimate && m.taken < 2.0 * share * m.estimate);
+  assert_true(m.taken > share * m.estimate / 1.5 && m.taken < 1.5 * share * m.estimate);
 #endif
   assert_true(m.taken > 0.0);
 }
 
-static void memory_estimate_is_good_to_a_factor_of_two(void **state) {
+static void memory_estimate_is_good_to_a_half(void **state) {
   (void)state;
-  memory(1024, 0.3, 30.0, 30, 1.0);
-  memory(4096, 0.3, 0.0, 2, 0.5); /* two factors in floats */
+  memory(4096, 0.3, 0.0, 2, 1, 0.5);        /* two factors in floats */
+  memory(2000, 0.3, 500.0, 100000, 1, 1.0); /* to the verdict, which has a factor of its own */
+  memory(2000, 0.3, 500.0, 100000, 2, 1.0);
 }
 
 /* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */
@@ -109,12 +112,12 @@ static void estimates_scale_with_the_number_of_spheres(void **state) {
   jam_destroy(small), jam_destroy(large);
 }
 
-/* The path couples only pairs near contact; an LP couples all pairs that its step bound lets close. */
+/* The path couples pairs near contact; an LP couples those too that its step bound lets close. */
 static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
   jam_system *sys = start(300, 0.3);
   jam_compress_options c;
   jam_crunch_options o;
-  jam_estimate path, lps;
+  jam_estimate path, lps, wide;
   (void)state;
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 0.1, c.pressure = 1e3;
@@ -128,7 +131,10 @@ static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
   lps = estimated(sys, &o);
   assert_true((double)path.pairs >
               0.95 * (double)lps.pairs); /* the list of the LPs may be for slightly larger diameters */
-  assert_true(path.flops < 0.8 * lps.flops && path.step_seconds < lps.step_seconds);
+  assert_true(path.flops < lps.flops && path.step_seconds < lps.step_seconds);
+  o.neighbour_radius = 2.0; /* far pairs are rows, but stay out of the matrix */
+  wide = estimated(sys, &o);
+  assert_true((double)wide.pairs > 2.0 * (double)lps.pairs && wide.flops < 1.2 * lps.flops);
   jam_destroy(sys);
 }
 
@@ -167,10 +173,9 @@ static void bad_calls_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_estimate_is_good_to_a_factor_of_two),
-                                     cmocka_unit_test(estimates_scale_with_the_number_of_spheres),
-                                     cmocka_unit_test(the_path_factorises_fewer_pairs_than_the_lps),
-                                     cmocka_unit_test(the_estimate_is_logged_first),
-                                     cmocka_unit_test(bad_calls_are_refused)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(memory_estimate_is_good_to_a_half), cmocka_unit_test(estimates_scale_with_the_number_of_spheres),
+      cmocka_unit_test(the_path_factorises_fewer_pairs_than_the_lps), cmocka_unit_test(the_estimate_is_logged_first),
+      cmocka_unit_test(bad_calls_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

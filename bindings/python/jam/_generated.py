@@ -598,11 +598,11 @@ class Estimate(Report):
     """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
 
     pairs: of the longest neighbour list
-    bytes: peak memory beside what is in use now; mostly good to a factor of 2. Large crunches need half of it until their end, where factors become doubles
+    bytes: peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
     factor_bytes: of it for the factorisation
-    flops: of one factorisation
-    factorisations: a guess from density and method, good to a factor of 5
-    step_seconds: of one factorisation and what goes with it, on this core
+    flops: of one factorisation on the path (sequential LPs: of the widest LP)
+    factorisations: median of packings grown slowly; single ones scatter by a factor of 2, others of 5
+    step_seconds: of one factorisation and what goes with it, on this core; mean over first LP and path
     seconds: the product of both"""
     pairs: int
     bytes: float

@@ -43,7 +43,7 @@ def routes_from(n, name):
     settings = routes.SETTINGS[-2:] if large and not near else routes.SETTINGS
     yield "barrier path", lambda start: routes.crunched(start, settings)
     if not large or name == "p = 1e7":
-        settings_lps = routes.SETTINGS[-3:] if large else routes.SETTINGS
+        settings_lps = routes.SETTINGS[-1:] if large else routes.SETTINGS if near else routes.SETTINGS[-2:]
         yield "sequential LPs", lambda start: routes.crunched(start, settings_lps, method="sequential_lp")
     if near and not large:
         yield "sequential LPs by Clp", lambda start: routes.crunched(

@@ -582,11 +582,11 @@ mutable struct jam_estimate
     struct_size::UInt32  # set by the caller: sizeof(jam_estimate)
     reserved::Int32  # 0
     pairs::Int64  # of the longest neighbour list
-    bytes::Cdouble  # peak memory beside what is in use now; mostly good to a factor of 2. Large crunches need half of it until their end, where factors become doubles
+    bytes::Cdouble  # peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
     factor_bytes::Cdouble  # of it for the factorisation
-    flops::Cdouble  # of one factorisation
-    factorisations::Cdouble  # a guess from density and method, good to a factor of 5
-    step_seconds::Cdouble  # of one factorisation and what goes with it, on this core
+    flops::Cdouble  # of one factorisation on the path (sequential LPs: of the widest LP)
+    factorisations::Cdouble  # median of packings grown slowly; single ones scatter by a factor of 2, others of 5
+    step_seconds::Cdouble  # of one factorisation and what goes with it, on this core; mean over first LP and path
     seconds::Cdouble  # the product of both
     jam_estimate() = new(64, 0, 0, 0, 0, 0, 0, 0, 0)
 end

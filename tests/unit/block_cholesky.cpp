@@ -163,6 +163,23 @@ void single_precision_loses_pivots(void **) {
   assert_true(std::isfinite(x[0]) && std::isfinite(x[1]));
 }
 
+void released_and_used_again(void **) {
+  for (const int threads : {1, 2}) {
+    const Problem p = make_problem(3, 300, 9.0, true, 1);
+    BlockCholesky f;
+    assert_int_equal(analyse_and_factorise(f, p, threads), 0);
+    std::vector<double> x(static_cast<size_t>(p.n) * 3, 1.0), y = x;
+    f.solve(x.data());
+    const size_t before = f.bytes();
+    f.release();
+    assert_true(f.bytes() + 8 * f.factor_nonzeros() < before);
+    assert_int_equal(analyse_and_factorise(f, p, threads), 0);
+    assert_int_equal(f.bytes(), before);
+    f.solve(y.data());
+    assert_true(x == y);
+  }
+}
+
 void dimension_refused(void **) {
   const Problem p = make_problem(2, 7, 3.0, false, 1);
   for (const int dim : {0, 9}) {
@@ -386,6 +403,7 @@ int main() {
                               cmocka_unit_test(random_graphs),
                               cmocka_unit_test(single_precision),
                               cmocka_unit_test(single_precision_loses_pivots),
+                              cmocka_unit_test(released_and_used_again),
                               cmocka_unit_test(dimension_refused),
                               cmocka_unit_test(threads_agree),
                               cmocka_unit_test(two_threads_share_fronts),

@@ -158,26 +158,51 @@ void forces_that_do_not_balance_at_a_gap(void **) {
   assert_true(jammed.jammed && jammed.undecided_contacts == 0);
 }
 
-// Cancelled while the LP at the gap names contacts: that is no failure of the forces, and no contacts are left.
-void cancelled_at_a_gap(void **) {
+// A path that ends at a hundred times the gap asked for: the balanced forces tell that, and the path goes on.
+void gaps_larger_than_asked_for(void **) {
+  const Packing p = start(60, 3, 0.3, 6);
+  jam_crunch_options o = default_crunch_options();
+  o.duality_gap = 1e-6;
+  CrunchHooks hooks;
+  hooks.tuning.lp_over_path = 0.01;
+  std::string log;
+  Monitor monitor;
+  listen(monitor, log, JAM_LOG_INFO);
+  const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
+  assert_true(log.find("finite gap: larger than asked for, the path goes on") != std::string::npos);
+  assert_int_equal(r.report.stop_reason, JAM_STOP_DUALITY_GAP);
+  assert_true(r.report.duality_gap > 0.0 && r.report.duality_gap <= o.duality_gap);
+  assert_true(r.report.force_residual < 1e-13 && r.report.max_overlap < 1e-12);
+}
+
+// Cancelled, or out of time, while the LP at the gap names contacts: that is no failure of the forces, and no contacts
+// are left.
+void interrupted_at_a_gap(void **) {
   const Packing p = start(60, 3, 0.3, 6);
   jam_crunch_options o = default_crunch_options();
   o.duality_gap = 1e-6;
   const CrunchResult whole = run(p, o);
-  std::string log;
-  Monitor monitor;
-  listen(monitor, log, JAM_LOG_INFO);
-  CrunchHooks hooks;
-  int64_t asked = 0;
-  hooks.answer = [&](LpSolution &, jam_lp_solver) {
-    if (++asked == whole.report.lp_solves) monitor.cancel();
-  };
-  const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
-  assert_true(r.status == JAM_CANCELLED && r.report.stop_reason == JAM_STOP_CANCELLED);
-  assert_true(r.contacts.size() == 0 && r.report.rattlers == -1 && !r.report.stationary);
-  assert_true(log.find("do not balance") == std::string::npos);
-  assert_memory_equal(r.packing.position.data(), whole.packing.position.data(),
-                      whole.packing.position.size() * sizeof(double));
+  for (const bool cancelled : {true, false}) {
+    std::string log;
+    Monitor monitor;
+    listen(monitor, log, JAM_LOG_INFO);
+    CrunchHooks hooks;
+    int64_t asked = 0;
+    hooks.answer = [&](LpSolution &, jam_lp_solver) {
+      if (++asked != whole.report.lp_solves) return;
+      if (cancelled)
+        monitor.cancel();
+      else
+        monitor.wall_time = 1e-9;
+    };
+    const CrunchResult r = crunch(p, o, monitor, nullptr, &hooks);
+    assert_int_equal(r.status, cancelled ? JAM_CANCELLED : JAM_LIMIT);
+    assert_int_equal(r.report.stop_reason, cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
+    assert_true(r.contacts.size() == 0 && r.report.rattlers == -1 && !r.report.stationary);
+    assert_true(log.find("do not balance") == std::string::npos);
+    assert_memory_equal(r.packing.position.data(), whole.packing.position.data(),
+                        whole.packing.position.size() * sizeof(double));
+  }
 }
 
 }  // namespace
@@ -190,6 +215,7 @@ int main() {
                               cmocka_unit_test(refused_polish_takes_narrow_lps),
                               cmocka_unit_test(refused_polish_ends),
                               cmocka_unit_test(forces_that_do_not_balance_at_a_gap),
-                              cmocka_unit_test(cancelled_at_a_gap)};
+                              cmocka_unit_test(gaps_larger_than_asked_for),
+                              cmocka_unit_test(interrupted_at_a_gap)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -739,7 +739,7 @@ module jam
     real(c_double) :: factor_bytes = 0
     ! of one factorisation on the path (sequential LPs: of the widest LP)
     real(c_double) :: flops = 0
-    ! median of packings grown slowly; single ones scatter by a factor of 2, others of 5
+    ! median of packings as near to jamming; single ones scatter by a factor of 2
     real(c_double) :: factorisations = 0
     ! of one factorisation and what goes with it, on this core; mean over first LP and path
     real(c_double) :: step_seconds = 0

@@ -867,7 +867,7 @@ typedef struct jam_estimate {
   double bytes;          /* peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 % */
   double factor_bytes;   /* of it for the factorisation */
   double flops;          /* of one factorisation on the path (sequential LPs: of the widest LP) */
-  double factorisations; /* median of packings grown slowly; single ones scatter by a factor of 2, others of 5 */
+  double factorisations; /* median of packings as near to jamming; single ones scatter by a factor of 2 */
   double step_seconds;   /* of one factorisation and what goes with it, on this core; mean over first LP and path */
   double seconds;        /* the product of both */
 } jam_estimate;

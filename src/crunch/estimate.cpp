@@ -16,20 +16,25 @@ namespace {
 
 // Pairs a sphere that lists near jamming hold, d = 2..8: measured to d = 5, beyond by the kissing numbers' growth.
 constexpr std::array<double, 9> jammed_pairs = {0, 0, 3.0, 5.0, 7.8, 12.0, 18.0, 27.0, 40.0};
-// Factorisations from a state grown slowly to high pressure, median of five: 17 to 34 for N = 128 to 1024, 70 for 4096,
-// 232 for 16384. Single packings scatter by a factor of two and more. A path to a duality gap of 1e-6 to 1e-9 takes
-// 24 to 75 for N = 1024 to 65536. Sequential LPs take three times as many, dilute starts buckle again and again.
-constexpr double steps_small = 17.0, steps_1024 = 34.0, steps_power = 0.69, steps_to_gap = 50.0, steps_dilute = 300.0;
+// Median gap of contacts to be of a packing near jamming. The step bound of its sequential LPs stays near its first
+// value.
+constexpr double close_gap = 3e-5;
+// Factorisations of a path, as a power of N / 1024. Near jamming, grown at 3e-4 or 1e-3, medians are 17 (N = 128), 34
+// (512), 34 and 63 (1024), 83 (2048), 70 (4096), 232 (16384); to a duality gap of 1e-6 to 1e-9, 24 to 75 for all N.
+// From p = 500 they are 82 (1024) and 175 (2048), from random starts 156 and 241 (tests/bench/estimate.py). Single
+// packings scatter by a factor of two and more. Sequential LPs take several times as many.
+constexpr double steps_least = 17.0, steps_near = 45.0, power_near = 0.58, steps_to_gap = 50.0, times_near = 2.0;
+constexpr double steps_far = 120.0, power_far = 0.8, times_far = 10.0;
 
 double steps(const Packing &p, const jam_crunch_options &o) {
-  if (free_spacing(p) > 0.05) return steps_dilute;
-  const double grown = std::max(steps_small, steps_1024 * std::pow(static_cast<double>(p.n()) / 1024.0, steps_power));
-  if (o.method == JAM_CRUNCH_SEQUENTIAL_LP) return 3.0 * grown;
-  return o.duality_gap > 0.0 ? std::min(grown, steps_to_gap) : grown;
+  const bool near = contact_gap(p) < close_gap;
+  const double size = static_cast<double>(p.n()) / 1024.0;
+  const double path = near ? std::max(steps_least, steps_near * std::pow(size, power_near))
+                           : std::max(steps_least, steps_far * std::pow(size, power_far));
+  if (o.method == JAM_CRUNCH_SEQUENTIAL_LP) return path * (near ? times_near : times_far);
+  return near && o.duality_gap > 0.0 ? std::min(path, steps_to_gap) : path;
 }
 
-// Median contact gap below which the step bound of sequential LPs stays near its first value.
-constexpr double close_gap = 3e-5;
 // Factorisations of the LP that a path begins with, at most half of all; the later half of them are in doubles.
 constexpr double steps_of_lp = 13.0;
 

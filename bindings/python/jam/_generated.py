@@ -601,7 +601,7 @@ class Estimate(Report):
     bytes: peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
     factor_bytes: of it for the factorisation
     flops: of one factorisation on the path (sequential LPs: of the widest LP)
-    factorisations: median of packings grown slowly; single ones scatter by a factor of 2, others of 5
+    factorisations: median of packings as near to jamming; single ones scatter by a factor of 2
     step_seconds: of one factorisation and what goes with it, on this core; mean over first LP and path
     seconds: the product of both"""
     pairs: int

@@ -585,7 +585,7 @@ mutable struct jam_estimate
     bytes::Cdouble  # peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
     factor_bytes::Cdouble  # of it for the factorisation
     flops::Cdouble  # of one factorisation on the path (sequential LPs: of the widest LP)
-    factorisations::Cdouble  # median of packings grown slowly; single ones scatter by a factor of 2, others of 5
+    factorisations::Cdouble  # median of packings as near to jamming; single ones scatter by a factor of 2
     step_seconds::Cdouble  # of one factorisation and what goes with it, on this core; mean over first LP and path
     seconds::Cdouble  # the product of both
     jam_estimate() = new(64, 0, 0, 0, 0, 0, 0, 0, 0)

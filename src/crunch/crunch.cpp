@@ -12,9 +12,10 @@
 
 namespace jam {
 
+double jammed_fraction(int dim) { return dim == 2 ? 0.84 : 0.64 * std::pow(0.7, dim - 3); }
+
 double free_spacing(const Packing &p) {
-  const double jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
-  return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed, -1.0 / p.dim));
+  return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed_fraction(p.dim), -1.0 / p.dim));
 }
 
 CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_in,

@@ -44,8 +44,10 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
 // estimate.cpp: memory and work of a crunch before it runs. Throws for bad options.
 jam_estimate estimate(const Packing &start, const jam_crunch_options &o);
 
-// By how much the mean spacing of spheres, phi^(-1/d) diameters, exceeds that of a random jammed packing (0.84 in d =
-// 2, about 0.64 * 0.7^(d-3) above): how far a sphere may have to travel. 0 when denser.
+// Packing fraction of random jammed packings: 0.84 in d = 2, about 0.64 * 0.7^(d-3) above.
+double jammed_fraction(int dim);
+// By how much the mean spacing of spheres, phi^(-1/d) diameters, exceeds that of a random jammed packing: how far a
+// sphere may have to travel. 0 when denser.
 double free_spacing(const Packing &p);
 // estimate.cpp: median gap of the d n nearest pairs, the contacts to be; 0.5 when there are not as many.
 double contact_gap(const Packing &p);

@@ -84,10 +84,9 @@ std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
   return gap;
 }
 
-// How far the diameters grow before a list gets shorter.
+// Factor by which the diameters grow before a list gets shorter: this part of the way to jamming.
 double growth(const Packing &p, double part) {
-  const double jammed = p.dim == 2 ? 0.84 : 0.64 * std::pow(0.7, p.dim - 3);
-  return std::pow(std::max(1.0, jammed / packing_fraction(p)), part / p.dim);
+  return std::pow(std::max(1.0, jammed_fraction(p.dim) / packing_fraction(p)), part / p.dim);
 }
 
 // From a start with few neighbours at least as many of the nearest pairs as a list holds near jamming.

@@ -1,6 +1,7 @@
 // Places and reaches of all spheres in the Mari-Kurchan model, as the search for partners takes them (pair_kernel.hpp).
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 

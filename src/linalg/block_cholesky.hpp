@@ -34,7 +34,7 @@ class BlockCholesky {
   // The same for nrhs vectors one after the other in x.
   void solve_many(double *x, int nrhs) const;
 
-  // Gives the memory of the numbers back. The next call is analyse() or analyse_keep_order().
+  // Frees the memory of the numbers. The next call is analyse() or analyse_keep_order().
   void release();
 
   // What analyse() would come to, without the memory for the numbers: flops of one factorisation; doubles in the factor

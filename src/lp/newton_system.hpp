@@ -18,7 +18,7 @@ class NewtonSystem {
   // Symbolic part; reused by every factorise() until the pairs change (nothing is done for the same pairs). Images of
   // one pair share a block. keep_order: the elimination order stays, for a graph that got a few pairs more.
   void set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order = false);
-  // Gives the memory of the factor back; the next call is set_graph.
+  // Frees the memory of the factor; the next call is set_graph.
   void release();
   // Columns of strain for the pairs of set_graph, (pairs, count); kept by pointer. set_graph takes them away.
   void set_strain(const double *strain, int count);

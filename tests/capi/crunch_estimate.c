@@ -60,8 +60,7 @@ static measured life(int64_t n, double phi, double pressure, int factorisations,
   m.estimate = estimated(sys, &o).bytes;
   m.taken = peak();
   jam_set_progress(sys, stop_after, &factorisations);
-  jam_crunch(sys, &o, NULL);
-  m.taken = peak() - m.taken;
+  m.taken = jam_crunch(sys, &o, NULL) >= 0 ? peak() - m.taken : -1.0;
   jam_destroy(sys);
   return m;
 }

@@ -2,7 +2,7 @@
 
 usage: python3 tests/bench/atlas FOLDER [--sizes 1024,4096] [--only-draw] [--analysis build/tests/bench/analysis]
 
-Writes atlas.json, three charts and digits.md (what so many digits of phi_J cost) into FOLDER; some 30 minutes on one core.
+Writes atlas.json, three charts and digits.md (what so many digits of phi_J cost) into FOLDER; 27 minutes on one core.
 Times are processor times. What atlas.json holds already is not measured again, so a killed atlas goes on. PYTHONPATH: the
 built module.
 """
@@ -43,7 +43,7 @@ def routes_from(n, name):
     settings = routes.SETTINGS[-2:] if large and not near else routes.SETTINGS
     yield "barrier path", lambda start: routes.crunched(start, settings)
     if not large or name == "p = 1e7":
-        settings_lps = routes.SETTINGS[-1:] if large else routes.SETTINGS if near else routes.SETTINGS[-2:]
+        settings_lps = routes.SETTINGS[-1:] if large else routes.SETTINGS
         yield "sequential LPs", lambda start: routes.crunched(start, settings_lps, method="sequential_lp")
     if near and not large:
         yield "sequential LPs by Clp", lambda start: routes.crunched(

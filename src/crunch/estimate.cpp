@@ -44,11 +44,11 @@ struct Part {
   BlockCholesky::Sizes sizes{};
 
   // Numbers of the factor in doubles: crunches of all sizes end in doubles. Blocks before elimination; a dozen vectors
-  // and the rows themselves for each pair, two dozen for each unknown; three pair lists; tables of the symbolic part
+  // and the rows themselves for each pair, 45 for each unknown; three pair lists; tables of the symbolic part
   // (an index for each block of the factor among them).
   double factor_bytes() const { return 8.0 * static_cast<double>(sizes.factor + sizes.fronts); }
   double bytes(double d, double n) const {
-    const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 27.0);
+    const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 45.0);
     const double lists = 3.0 * rows * (8.0 + 8.0 * d),
                  tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(sizes.factor) / (d * d);
     return factor_bytes() + blocks + vectors + lists + tables;
@@ -162,8 +162,8 @@ jam_estimate estimate(const Packing &p, const jam_crunch_options &o) {
   const double d = p.dim, n = static_cast<double>(p.n());
   const Part lp = largest_lp(p, o), path = o.method == JAM_CRUNCH_SEQUENTIAL_LP ? lp : barrier_path(p, o);
   const Part &most = lp.bytes(d, n) > path.bytes(d, n) ? lp : path;
-  const double full = measured_rate<double>(192),
-               rate = path.sizes.flops > Tuning().single.work ? measured_rate<float>(192) : full;
+  const bool floats = path.sizes.flops > Tuning().single.work * static_cast<double>(path.sizes.factor);
+  const double full = measured_rate<double>(192), rate = floats ? measured_rate<float>(192) : full;
 
   jam_estimate e{};
   e.pairs = static_cast<int64_t>(std::max(lp.rows, path.rows));

@@ -42,8 +42,9 @@ struct Tuning {
   double whole_step = 0.95;  // longer steps need no corrector
 
   // ---- factors in single precision, of LPs and of the path (tests/bench/README.md, "Factors in single precision")
-  // Below 2e9 flops solves eat up what the factor wins. A direction may be wrong by 1e-2, and take 5 products.
-  SinglePrecision single{2e9, 1e-2, 5};
+  // Below 150 flops a number of the factor, solves eat up what it wins. A direction may be wrong by 1e-3, and take 8
+  // products.
+  SinglePrecision single{150.0, 1e-3, 8};
 
   // ---- schedule of mu
   double reduction = 0.2;       // of mu at its maximum

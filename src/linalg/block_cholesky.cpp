@@ -17,6 +17,8 @@ namespace {
 constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
 // Numbers of a panel that take some 0.1 ms to read: the callback is told between such panels.
 constexpr size_t worth_a_look = 100000;
+// In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings (tests/bench/README.md).
+constexpr double lost_in_floats = 4e-6;
 constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
 
 }  // namespace
@@ -110,11 +112,12 @@ void BlockCholesky::eliminate(int32_t index, const double *diag, const double *o
   const size_t m = below(s);
   const int front = static_cast<int>(columns(s) + m), width = static_cast<int>(columns(s)), rows = static_cast<int>(m);
   Real *panel = values_.as<Real>() + s.value_start;
+  const bool floats = sizeof(Real) == sizeof(float);
+  const PivotRule rule{floats ? lost_in_floats : relative_, floor_, floats};
   assemble<Real>(s, diag, off);
   for (const int32_t c : s.children) extend_add<Real>(c, nullptr, threads);
-  replaced +=
-      factor_panel(panel, front, front, width, original_diagonal_.as<Real>() + static_cast<size_t>(s.first) * dim_,
-                   {relative_, floor_}, threads);
+  replaced += factor_panel(panel, front, front, width,
+                           original_diagonal_.as<Real>() + static_cast<size_t>(s.first) * dim_, rule, threads);
   const int side = s.side;
   const bool stacked = kept_at_[index] == on_stack;
   Real *update = stacked ? stack.memory[side].as<Real>() + stack.top[side] : kept_.as<Real>() + kept_at_[index];

@@ -21,13 +21,15 @@ class BlockCholesky {
                std::vector<int32_t> order = {});
   // The same with the elimination order of the last call, for a graph that changed little; analyse() when n is another.
   void analyse_keep_order(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1);
-  // A pivot at or below max(relative * its diagonal entry in A, floor) counts as lost. Default 1e-16 and 0.
+  // A pivot at or below max(relative * its diagonal entry in A, floor) counts as lost. Default 1e-16 and 0. Floats have
+  // 4e-6 for `relative`.
   void set_pivot_rule(double relative, double floor) { relative_ = relative, floor_ = floor; }
   // Numeric part, allocates nothing. diag: n blocks of dim * dim, full and symmetric; off: one block an edge,
   // row-major, rows of ei and columns of ej. A pivot lost to rounding is replaced by a huge number, which fixes that
   // component of the solution at 0 (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997, ch. 11). Returns how
   // many were; -1: the result is not finite. In single precision it takes some half of the time, and solutions have six
-  // digits over the condition number; matrix and solutions stay doubles.
+  // digits over the condition number; matrix and solutions stay doubles. A pivot lost there is replaced by the bound,
+  // so that the factor still serves as a preconditioner.
   int factorise(const double *diag, const double *off, Precision precision = Precision::full);
   // x := A^-1 x, n * dim. May run on several x at once from different threads.
   void solve(double *x) const { solve_many(x, 1); }

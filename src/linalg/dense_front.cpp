@@ -33,11 +33,12 @@ int factor_small(Real *a, int lda, int columns, const Real *original, const Pivo
   int replaced = 0;
   for (int j = 0; j < columns; ++j) {
     Real *cj = a + static_cast<size_t>(j) * lda;
+    const auto bound = static_cast<Real>(std::max(rule.relative * original[j], rule.floor));
     Real pivot = cj[j];
-    if (pivot > std::max(rule.relative * original[j], rule.floor)) {
+    if (pivot > bound) {
       pivot = std::sqrt(pivot);
     } else if (std::isfinite(pivot)) {  // else it stays and factorise() finds it
-      pivot = huge_pivot<Real>;
+      pivot = rule.raise && bound > 0 ? std::sqrt(bound) : huge_pivot<Real>;
       ++replaced;
     }
     cj[j] = pivot;

@@ -4,9 +4,11 @@
 
 namespace jam {
 
-// A pivot at or below max(relative * its entry in the matrix, floor) is lost and replaced by a huge number.
+// A pivot at or below max(relative * its entry in the matrix, floor) is lost. It is replaced by that bound (raise), or
+// by a huge number.
 struct PivotRule {
   double relative, floor;
+  bool raise = false;
 };
 
 // Cholesky of the first `columns` columns of a panel of `rows` rows. original: the diagonal in the matrix. Returns how

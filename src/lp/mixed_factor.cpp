@@ -6,7 +6,8 @@ namespace jam {
 
 bool MixedFactor::factorise(const double *a, const double *weight, const double *box, double gap, double least) {
   a_ = a, weight_ = weight, box_ = box, gap_ = gap;
-  floats_ = system_.cholesky().flops() > single_.work && gap > std::max(least, failed_at_);
+  const double work = system_.cholesky().flops() / static_cast<double>(system_.cholesky().factor_nonzeros());
+  floats_ = work > single_.work && gap > std::max(least, failed_at_);
   return (floats_ && system_.factorise(a, weight, box, Precision::single)) || factorise_fully();
 }
 

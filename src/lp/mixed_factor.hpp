@@ -8,7 +8,7 @@
 namespace jam {
 
 struct SinglePrecision {
-  double work = std::numeric_limits<double>::infinity();  // flops of a factorisation; below, doubles
+  double work = std::numeric_limits<double>::infinity();  // flops a number of the factor; below, doubles
   double accuracy = 0.0;                                  // error of a direction in the norm of the matrix
   int max_products = 0;  // of conjugate gradients for it; past them a factor in doubles takes over
 };

@@ -55,6 +55,7 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
 
 void NewtonSystem::release() {
   cholesky_.release();
+  gradients_ = ConjugateGradients();
   dim_ = 0;
 }
 
@@ -125,7 +126,8 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   ++factorisations;
   const double t2 = now_seconds();
   seconds_factor += t2 - t1;
-  if (replaced < 0 || (replaced > 0 && precision == Precision::single)) return false;
+  if (replaced < 0) return false;
+  gradients_.forget(box_.size() + 1);
   transpose_times(a, weight, column_.data());
   delta_ = 0.0;
   for (size_t k = 0; k < pair_i_.size(); ++k) delta_ += weight[k];
@@ -198,40 +200,22 @@ double NewtonSystem::operator_times(const double *ds, double dg, double rest) {
 
 bool NewtonSystem::solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most) {
   const double t0 = now_seconds();
-  residual_.assign(rhs, rhs + box_.size());
-  const bool near = conjugate_gradients(h, ds, dg, accuracy, most);
+  const size_t unknowns = box_.size();
+  bordered_rhs_.assign(rhs, rhs + unknowns);
+  bordered_rhs_.push_back(h);
+  bordered_.resize(unknowns + 1);
+  const bool near = gradients_.solve(
+      bordered_rhs_.data(), accuracy, most,
+      [&](const double *in, double *out) { solve_once(in, in[unknowns], out, out + unknowns); },
+      [&](const double *in, double *out) {
+        out[unknowns] = -operator_times(in, in[unknowns], 0.0);
+        for (size_t k = 0; k < unknowns; ++k) out[k] = work_[k] + box_[k] * in[k];
+      },
+      bordered_.data());
+  std::copy(bordered_.begin(), bordered_.end() - 1, ds);
+  *dg = bordered_.back();
   seconds_solve += now_seconds() - t0;
   return near;
-}
-
-// residual_ holds the right-hand side. The squared error in the norm of the matrix is about r . M^-1 r.
-bool NewtonSystem::conjugate_gradients(double h, double *ds, double *dg, double accuracy, int most) {
-  const size_t unknowns = box_.size();
-  std::fill(ds, ds + unknowns, 0.0);
-  *dg = 0.0;
-  double correction_g = 0.0, direction_g = 0.0, product = 0.0, first = 0.0;
-  direction_.assign(unknowns, 0.0);
-  for (int step = 0;; ++step) {
-    solve_once(residual_.data(), h, correction_.data(), &correction_g);
-    const double next = dot(residual_, correction_.data()) + h * correction_g;
-    if (step == 0) first = next;
-    if (!(next >= 0.0) || !std::isfinite(next)) return false;
-    if (next <= accuracy * accuracy * first) break;
-    if (step == most) return false;
-    const double keep = step == 0 ? 0.0 : next / product;
-    product = next;
-    for (size_t k = 0; k < unknowns; ++k) direction_[k] = correction_[k] + keep * direction_[k];
-    direction_g = correction_g + keep * direction_g;
-    const double row_g = -operator_times(direction_.data(), direction_g, 0.0);
-    for (size_t k = 0; k < unknowns; ++k) work_[k] += box_[k] * direction_[k];
-    const double alpha = product / (dot(work_, direction_.data()) + row_g * direction_g);
-    for (size_t k = 0; k < unknowns; ++k) ds[k] += alpha * direction_[k], residual_[k] -= alpha * work_[k];
-    *dg += alpha * direction_g;
-    h -= alpha * row_g;
-  }
-  for (size_t k = 0; k < unknowns; ++k) ds[k] += correction_[k];  // the last correction costs nothing
-  *dg += correction_g;
-  return true;
 }
 
 void NewtonSystem::solve(const double *rhs, double h, double *ds, double *dg, int refine) {

@@ -10,6 +10,7 @@
 
 #include "core/pairs.hpp"
 #include "linalg/block_cholesky.hpp"
+#include "linalg/conjugate_gradients.hpp"
 
 namespace jam {
 
@@ -23,8 +24,7 @@ class NewtonSystem {
   // Columns of strain for the pairs of set_graph, (pairs, count); kept by pointer. set_graph takes them away.
   void set_strain(const double *strain, int count);
   // a: (pairs, dim) rows; weight: D of each pair; box: a value for each unknown, added to the diagonal. Keeps the
-  // pointers a and weight and a copy of box until the next call. False when the numbers are no longer finite, or when
-  // single precision loses a pivot.
+  // pointers a and weight and a copy of box until the next call. False when the numbers are no longer finite.
   bool factorise(const double *a, const double *weight, const double *box, Precision precision = Precision::full);
   // Solves with up to `refine` steps of iterative refinement against the unassembled operator, as long as the residual
   // is above 1e-9 of the right-hand side.
@@ -32,6 +32,7 @@ class NewtonSystem {
 
   // Solves by conjugate gradients with the factor at hand as preconditioner, until the error is some `accuracy` of the
   // solution in the norm of the matrix. False when that takes more than `most` products, or nothing finite came out.
+  // Later right-hand sides of one matrix take fewer.
   bool solve_near(const double *rhs, double h, double *ds, double *dg, double accuracy, int most);
 
   // out[k] = a_k . (s_i - s_j)
@@ -49,7 +50,6 @@ class NewtonSystem {
   void solve_once(const double *rhs, double h, double *ds, double *dg);
   void border();
   double operator_times(const double *ds, double dg, double rest);
-  bool conjugate_gradients(double h, double *ds, double *dg, double accuracy, int most);
 
   int dim_ = 0, threads_ = 0;
   int32_t n_ = 0;
@@ -64,7 +64,9 @@ class NewtonSystem {
   const double *strain_ = nullptr;
   int strains_ = 0;
   std::vector<double> border_, border_solved_, corner_;
-  std::vector<double> row_work_, work_, residual_, correction_, direction_;
+  std::vector<double> row_work_, work_, residual_, correction_;
+  ConjugateGradients gradients_;
+  std::vector<double> bordered_rhs_, bordered_;  // displacements, strains, g
 };
 
 }  // namespace jam

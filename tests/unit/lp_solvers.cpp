@@ -63,7 +63,7 @@ void floats_serve(void **) {
       const double gap_doubles = std::fabs(check_lp(lp, doubles).gap);
       worst_doubles = std::max(worst_doubles, gap_doubles);
       NewtonSystem system;
-      InteriorPoint ipm(system, {0.0, 1e-2, 5});
+      InteriorPoint ipm(system, {0.0, 1e-3, 8});
       for (int again = 0; again < 2; ++again) {  // the second LP knows where floats failed
         const LpSolution floats = ipm.solve(lp, IpmControl());
         const LpCheck check = check_lp(lp, floats);
@@ -74,7 +74,7 @@ void floats_serve(void **) {
           fail_msg("d %d: gap %.1e, gain off by %.1e, %d iterations", dim, check.gap, floats.g - doubles.g,
                    floats.iterations);
       }
-      const LpSolution refused = InteriorPoint(system, {0.0, 1e-2, 0}).solve(lp, IpmControl());
+      const LpSolution refused = InteriorPoint(system, {0.0, 1e-3, 0}).solve(lp, IpmControl());
       assert_true(refused.s == doubles.s && refused.y == doubles.y);
       assert_true(refused.factorisations > doubles.factorisations);
     }
@@ -307,7 +307,7 @@ void check_sees_errors(void **) {
 // A wide bound around a state whose contacts are all but closed: many rows that started as far cut the first steps.
 // They join together instead of a few at a time, and the LP is solved.
 void far_rows_cut_steps(void **) {
-  Packing p = start(1024, 3, 0.3, 1);
+  Packing p = start(1024, 3, 0.3, 3);
   jam_crunch_options o = default_crunch_options();
   o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 7;
   Monitor monitor;

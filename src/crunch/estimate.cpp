@@ -56,7 +56,7 @@ struct Part {
   // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
   // times.
   double seconds(double rate, int threads) const {
-    return sizes.flops / (0.5 * rate * std::min(threads, 2)) + 4e-9 * static_cast<double>(sizes.factor) + 4e-7 * rows;
+    return sizes.flops / (0.5 * rate * std::min(threads, 2)) + 6e-9 * static_cast<double>(sizes.factor) + 4e-7 * rows;
   }
 };
 

@@ -15,8 +15,9 @@ class ConjugateGradients {
 
   // From now on K is another matrix of so many unknowns.
   void forget(size_t unknowns);
-  // x := K^-1 b, until the error is some `accuracy` of x in the norm of K. precondition: M^-1, nearly K^-1. False when
-  // that takes more than `most` products with K, or nothing finite came out. As many directions are kept at most.
+  // x := K^-1 b, each as long as the unknowns, until the error is some `accuracy` of x in the norm of K. precondition:
+  // M^-1, nearly K^-1. False when that takes more than `most` products with K, or nothing finite came out. As many
+  // directions are kept at most.
   bool solve(const double *b, double accuracy, int most, const Product &precondition, const Product &times_k,
              double *x);
 

@@ -150,8 +150,8 @@ void single_precision(void **) {
     }
 }
 
-// A pivot that doubles find and floats lose is raised to 4e-6 of its entry, and counted. So x[1] is 1 / 4e-6 times what
-// elimination leaves of the right-hand side; the roundings of floats cancel in it to seven digits less.
+// A pivot that doubles find and floats lose is raised to 4e-6 of its entry, and counted. With that
+// pivot x[1] is -1 / 4e-6 and x[0] is 1 / 4e-6, up to the roundings of floats.
 void single_precision_loses_pivots(void **) {
   const std::vector<double> diag = {1.0, 1.0}, off = {1.0 - 1e-9};
   const int32_t i = 0, j = 1;

@@ -60,7 +60,7 @@ void as_near_as_asked(void **) {
 }
 
 // Four entries that the preconditioner misses, and the rest: five products serve, three do not. A second right-hand
-// side then starts in their space, so that few do; after forget() they no longer do.
+// side then starts in their space, so that three do.
 void directions_are_kept(void **) {
   Scene s({1e-3, 0.02, 0.3, 5.0});
   std::vector<double> x;

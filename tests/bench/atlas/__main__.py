@@ -2,7 +2,7 @@
 
 usage: python3 tests/bench/atlas FOLDER [--sizes 1024,4096] [--only-draw] [--analysis build/tests/bench/analysis]
 
-Writes atlas.json, three charts and digits.md (what so many digits of phi_J cost) into FOLDER; 27 minutes on one core.
+Writes atlas.json, its charts and digits.md (what so many digits of phi_J cost) into FOLDER; 27 to 30 minutes on one core.
 Times are processor times. What atlas.json holds already is not measured again, so a killed atlas goes on. PYTHONPATH: the
 built module.
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""lint.py RULE ROOT: checks one rule of the source tree; prints every violation, exit status 1 if there is one."""
+"""lint.py RULE ROOT: checks one rule of the source tree, or `all`; prints every violation, exit status 1 if there is one."""
 import fnmatch
 import pathlib
 import re
@@ -306,6 +306,11 @@ def columns():
                 problem(path, number, f"{len(line)} columns, 120 are allowed")
 
 
-globals()[sys.argv[1]]()
+RULES = [layers, private_headers, doc_comments, names, file_sizes, no_side_effects, plain_words, sentence_length, columns]
+for rule in RULES:
+    if sys.argv[1] in ("all", rule.__name__):
+        rule()
+if sys.argv[1] not in ["all"] + [rule.__name__ for rule in RULES]:
+    problem("tests/lint/lint.py", 0, f"no rule {sys.argv[1]}")
 print("\n".join(problems))
 sys.exit(bool(problems))

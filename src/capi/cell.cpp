@@ -10,11 +10,10 @@ using namespace jam;
 
 namespace {
 
-// What follows a change of the cell: overlaps are settled as at creation, results are dropped.
+// What follows a change of the cell: overlaps are settled as at creation.
 void take_cell(jam_system *sys, Packing &p) {
   settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
   sys->commit(p);
-  sys->drop_results();
 }
 
 }  // namespace

@@ -19,10 +19,11 @@ void jam_system::note_diameters() noexcept {
       std::all_of(packing.diameter.begin(), packing.diameter.end(), [first](double s) { return s == first; });
 }
 
-void jam_system::commit(const Packing &result) noexcept {
+void jam_system::commit(const Packing &result, Results &&found) noexcept {
   show(result);
   paused.reset();
   crunch_paused.reset();
+  results() = std::move(found);
 }
 
 void jam_system::show(const Packing &result) noexcept {
@@ -90,22 +91,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
   return guard([&]() -> jam_status {
     const Reading reading(src, "src");
     need(out, "out");
-    auto sys = std::make_unique<jam_system>();
-    sys->packing = src->packing;
-    sys->contacts = src->contacts;
-    sys->report = src->report;
-    sys->has_report = src->has_report;
-    sys->history = src->history;
-    sys->has_history = src->has_history;
-    sys->kept_steps = src->kept_steps;
-    sys->soft_history = src->soft_history;
-    sys->memory_limit = src->memory_limit;
-    sys->note_diameters();
-    sys->sweeps = src->sweeps;
-    sys->crunch_paused = src->crunch_paused;
-    if (src->runs) sys->runs = std::make_unique<Isoconfigurational>(*src->runs);
-    if (src->paused) sys->paused = read_dynamics(sys->packing, write_dynamics(*src->paused));
-    *out = sys.release();
+    *out = std::make_unique<jam_system>(*static_cast<const SystemState *>(src)).release();
     return JAM_OK;
   });
 }
@@ -156,7 +142,6 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
     wrap_positions(p);
     settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
-    sys->drop_results();
     return JAM_OK;
   });
 }
@@ -186,7 +171,6 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
     check_diameters(p.diameter, p.cell.side());
     if (factor > 1.0) settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
-    sys->drop_results();
     return JAM_OK;
   });
 }

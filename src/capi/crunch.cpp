@@ -44,17 +44,17 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     if (sys->crunch_paused) history.stage = *sys->crunch_paused;
     CrunchResult result = crunch(sys->packing, full, sys->monitor, &history);
     check_packing(result.packing, JAM_E_SOLVER);  // else all stays as before
+    Results found;
+    found.contacts = std::move(result.contacts);
+    found.report = result.report;
+    found.history = std::move(history).rows();
+    found.kept_steps = std::move(history).kept();
+    found.has_report = found.has_history = true;
     // Also after a failure: the state reached is valid and nothing is lost.
-    sys->commit(result.packing);
+    sys->commit(result.packing, std::move(found));
     if (result.status == JAM_CANCELLED || result.status == JAM_LIMIT ||
         result.report.stop_reason == JAM_STOP_DUALITY_GAP)
       sys->crunch_paused = history.stage;
-    sys->contacts = std::move(result.contacts);
-    sys->report = result.report;
-    sys->has_report = true;
-    sys->history = std::move(history).rows();
-    sys->kept_steps = std::move(history).kept();
-    sys->has_history = true;
     give_struct(sys->report, report);
     if (result.status < 0)
       fail(result.status, "%s",

@@ -13,16 +13,21 @@ using namespace jam;
 namespace {
 
 // While a stage runs, callbacks may read it: jam_checkpoint_write saves its state between two events. Snapshots appear
-// in the views. If the call fails later, the handle gets its earlier state back.
+// in the views, and then the handle has no results. If the call fails later, it gets its earlier state back.
 class Live {
  public:
   Live(jam_system *sys, const Dynamics *stage, bool shows) : sys_(sys) {
-    if (shows) before_ = std::make_unique<Packing>(sys->packing);
+    if (shows) {
+      before_ = std::make_unique<Packing>(sys->packing);
+      std::swap(results_, sys->results());
+    }
     sys->live = stage;
   }
   ~Live() {
     sys_->live = nullptr;
-    if (before_) sys_->show(*before_);
+    if (!before_) return;
+    sys_->show(*before_);
+    std::swap(results_, sys_->results());
   }
   Live(const Live &) = delete;
   Live &operator=(const Live &) = delete;
@@ -30,6 +35,7 @@ class Live {
  private:
   jam_system *sys_;
   std::unique_ptr<Packing> before_;
+  Results results_;
 };
 
 // Runs a stage; the handle changes only when nothing is thrown. The handle keeps a stage that was stopped early.
@@ -48,7 +54,6 @@ jam_status run_md(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &l
   }
   check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
   sys->commit(stage->packing());
-  sys->drop_results();
   if (status == JAM_CANCELLED || status == JAM_LIMIT) sys->paused = std::move(stage);
   return status;
 }
@@ -101,13 +106,14 @@ jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_r
   return guard_reporting(sys, report, [&]() -> jam_status {
     if (o) return verb(sys, o, default_compress_options(), check_compress_options, report);
     const Packing before = sys->packing;
+    Results results = sys->results();
     jam_md_report made{};
     jam_status status = JAM_OK;
     try {
       for (const MdStage &stage : default_protocol)
         if (status == JAM_OK) status = run_md(sys, make_stage(sys, stage), stage.limits(), made);
     } catch (...) {
-      sys->commit(before);  // one call, one change
+      sys->commit(before, std::move(results));  // one call, one change
       throw;
     }
     give_struct(made, report);
@@ -118,15 +124,13 @@ jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_r
 jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
-    const Dynamics *kept = sys->paused ? sys->paused.get() : sys->runs.get();
-    if (sys->crunching)
-      write_checkpoint(sys->crunching->reached(), {sys->crunching->stage.bytes(), true}, path);
-    else if (sys->live)
-      write_checkpoint(sys->live->current(), {write_dynamics(*sys->live), false}, path);
-    else if (sys->crunch_paused)
-      write_checkpoint(sys->packing, {sys->crunch_paused->bytes(), true}, path);
-    else
-      write_checkpoint(sys->packing, {kept ? write_dynamics(*kept) : std::string(), false}, path);
+    Moving moving;
+    if (sys->live != sys->runs.get()) moving.dynamics = sys->live;  // the runs from one configuration do not move it
+    if (sys->crunching) moving.crunch = &sys->crunching->stage;
+    const Packing now = sys->crunching    ? sys->crunching->reached()
+                        : moving.dynamics ? moving.dynamics->current()
+                                          : sys->packing;
+    write_checkpoint(now, archive_beside(*sys, moving), path);
     return JAM_OK;
   });
 }
@@ -136,16 +140,11 @@ jam_status jam_checkpoint_read(const char *path, jam_system **out) {
     need(path, "path");
     need(out, "out");
     auto sys = std::make_unique<jam_system>();
-    Unfinished work;
-    sys->packing = read_checkpoint(path, work);
+    std::string beside;
+    sys->packing = read_checkpoint(path, beside);
     settle_overlaps(sys->packing, sys->packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->note_diameters();
-    if (work.crunch)
-      sys->crunch_paused = CrunchStage::of(work.stage);
-    else if (!work.stage.empty())
-      sys->paused = read_dynamics(sys->packing, std::move(work.stage));
-    if (sys->paused && sys->paused->phase() == JAM_PHASE_ISOCONFIGURATIONAL)  // results, and perhaps more to make
-      sys->runs.reset(static_cast<Isoconfigurational *>(sys->paused.release()));
+    read_beside(*sys, std::move(beside));
     *out = sys.release();
     return JAM_OK;
   });

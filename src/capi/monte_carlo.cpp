@@ -42,7 +42,6 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     const jam_monte_carlo_report made = stage->report();
     check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
     sys->commit(stage->packing());
-    sys->drop_results();
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);
     give_struct(made, report);

@@ -18,20 +18,19 @@ void need_soft(const jam_system *sys) {
     fail(JAM_E_STATE, "the system does not allow overlaps: make it with overlap = JAM_OVERLAP_ALLOW");
 }
 
-// The handle shows the soft packing and its network.
-void show_soft(jam_system *sys, SoftResult &&soft, double seconds) {
+// What is known of a soft packing.
+Results soft_results(SoftResult &soft, double seconds) {
   const double nan = std::nan("");
-  jam_crunch_report r{};
+  Results found;
+  jam_crunch_report &r = found.report;
   certify(soft.packing, soft.contacts, r);
   r.jammed = 0;
   r.stop_reason = JAM_STOP_NONE;
   r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
   r.seconds = seconds;
-  sys->commit(soft.packing);
-  sys->contacts = std::move(soft.contacts);
-  sys->report = r;
-  sys->has_report = true;
-  sys->has_history = false;
+  found.contacts = std::move(soft.contacts);
+  found.has_report = true;
+  return found;
 }
 
 // Contacts that both networks have, and the largest difference of their forces where all are the same.
@@ -88,7 +87,7 @@ jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_repo
     SoftResult result = relax(sys->packing, full, sys->monitor);
     const jam_relax_report made = result.report;
     const jam_status status = result.status;
-    show_soft(sys, std::move(result), made.seconds);
+    sys->commit(result.packing, soft_results(result, made.seconds));
     give_struct(made, report);
     return status;
   });
@@ -108,16 +107,16 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     if (full.crunch == 1) judge = [&](const SoftResult &soft) { return judge_by_crunch(soft, sys->monitor, hard); };
     DecompressionResult result = decompress(sys->packing, full, sys->monitor, judge);
     const jam_decompress_report made = result.report;
+    Results found;
     if (made.same_network == 1) {
-      sys->commit(hard.packing);
-      sys->contacts = std::move(hard.contacts);
-      sys->report = hard.report;
-      sys->has_report = true;
-      sys->has_history = false;
+      found.contacts = std::move(hard.contacts);
+      found.report = hard.report;
+      found.has_report = true;
     } else {
-      show_soft(sys, std::move(result.soft), made.seconds);
+      found = soft_results(result.soft, made.seconds);
     }
-    sys->soft_history = std::move(result.history);
+    found.soft_history = std::move(result.history);
+    sys->commit(made.same_network == 1 ? hard.packing : result.soft.packing, std::move(found));
     give_struct(made, report);
     return result.status;
   });

@@ -1,48 +1,84 @@
 // The opaque handle: in C++ the C name is the class, so nothing is cast.
 #pragma once
-#include <atomic>
 #include <memory>
 #include <optional>
+#include <string>
+
 #include "capi/call_gate.hpp"
+#include "capi/results.hpp"
 #include "core/call_scope.hpp"
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
-#include "crunch/history.hpp"
 #include "dynamics/dynamics.hpp"
 #include "dynamics/isoconfigurational.hpp"
 #include "dynamics/observer.hpp"
-#include "jam/jam.h"
-#include "network/contact_network.hpp"
-#include "soft/decompression.hpp"
 
-struct jam_system {
-  jam::Packing packing;          // the view buffers; their addresses stay for the life of the handle
-  jam::ContactNetwork contacts;  // valid when has_report
-  jam_crunch_report report{};
-  bool has_report = false;
-  std::vector<jam::HistoryRow> history;  // valid when has_history
-  bool has_history = false;
-  std::vector<jam::KeptStep> kept_steps;          // of the same crunch; empty unless asked for
-  std::vector<jam::SoftRow> soft_history;         // of the last decompression; empty without one
-  const jam::History *crunching = nullptr;        // of the crunch that runs
-  std::optional<jam::CrunchStage> crunch_paused;  // the last change of spheres was a crunch that did not reach its end
-  jam::Monitor monitor;
-  double memory_limit = jam::default_memory_limit();  // bytes that one call may take
-  mutable jam::CallGate gate;
-  std::unique_ptr<jam::Dynamics> paused;               // was stopped early and can be resumed
-  const jam::Dynamics *live = nullptr;                 // runs now, while callbacks are called
-  std::unique_ptr<jam::Isoconfigurational> runs;       // the last ones from one configuration, complete or not
-  int64_t sweeps = 0;                                  // of Monte Carlo made so far: where its streams go on
-  std::unique_ptr<jam::Observer> observer;             // what was observed
-  bool observing = false;                              // and still is
+namespace jam {
+
+inline std::unique_ptr<Dynamics> clone(const Dynamics &paused) {
+  return read_dynamics(paused.packing(), write_dynamics(paused));
+}
+template <class T>
+std::unique_ptr<T> clone(const T &x) {
+  return std::make_unique<T>(x);
+}
+// A pointer with the meaning of a value: its copy owns a copy.
+template <class T>
+class Owned : public std::unique_ptr<T> {
+ public:
+  using std::unique_ptr<T>::unique_ptr;
+  using std::unique_ptr<T>::operator=;
+  Owned() = default;
+  Owned(Owned &&) noexcept = default;
+  Owned(const Owned &other) : std::unique_ptr<T>(other ? clone(*other) : nullptr) {}
+  Owned &operator=(Owned &&) noexcept = default;
+  Owned &operator=(const Owned &) = delete;
+};
+
+// All that a handle holds between two calls. jam_copy copies it member by member, so a new member cannot be forgotten.
+struct SystemState : Results {
+  Packing packing;                               // the view buffers; their addresses stay for the life of the handle
+  std::optional<CrunchStage> crunch_paused;      // the last change of spheres was a crunch that did not reach its end
+  Owned<Dynamics> paused;                        // was stopped early and can be resumed
+  Owned<Isoconfigurational> runs;                // the last ones from one configuration, complete or not
+  int64_t sweeps = 0;                            // of Monte Carlo made so far: where its streams go on
+  Owned<Observer> observer;                      // what was observed
+  bool observing = false;                        // and still is
+  double memory_limit = default_memory_limit();  // bytes that one call may take
   double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: note_diameters()
   bool monodisperse = true;
+
+  Results &results() { return *this; }
+};
+
+// What moves the packing while a callback writes a checkpoint; both NULL: nothing.
+struct Moving {
+  const Dynamics *dynamics = nullptr;
+  const CrunchStage *crunch = nullptr;
+};
+// results_archive.cpp: what a checkpoint holds beside the packing. What moves takes the place of what was paused, and
+// there are no results of a packing that moves.
+std::string archive_beside(const SystemState &s, const Moving &moving);
+// Into a state that holds the packing alone. Damaged bytes throw JAM_E_FORMAT.
+void read_beside(SystemState &s, std::string bytes);
+
+}  // namespace jam
+
+struct jam_system : jam::SystemState {
+  jam_system() = default;
+  explicit jam_system(const jam::SystemState &state) : SystemState(state) {}
+
+  // Of the call that runs now; a copy has none of it.
+  const jam::History *crunching = nullptr;  // of the crunch that runs
+  const jam::Dynamics *live = nullptr;      // runs now, while callbacks are called
+  jam::Monitor monitor;
+  mutable jam::CallGate gate;
 
   // Copies positions, diameters and velocities into the view buffers, whose addresses stay. Never throws.
   void show(const jam::Packing &state) noexcept;
   // What jam_info tells of the diameters, once for each change of them.
   void note_diameters() noexcept;
-  // The same as show, for a verb's result: a stage that waits has lost its packing.
-  void commit(const jam::Packing &result) noexcept;
-  void drop_results() noexcept { has_report = has_history = false; }
+  // The end of every move: shows its packing with what is known of it. A stage that waits has lost its packing, and all
+  // earlier results are of other positions.
+  void commit(const jam::Packing &result, jam::Results &&found = {}) noexcept;
 };

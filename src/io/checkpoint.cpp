@@ -25,18 +25,18 @@ constexpr double tilt_max = 16.0;
 // than 1.1e4.
 constexpr double vectors_max = 1e7;
 
-// The last character is the version of the format, which rises with every change of what the engine archives.
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '6'};
+// The last character is the version of the format, which rises with every change of what is archived.
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', '7'};
 
 struct Header {
   char magic[8];
-  int64_t n, seed, redrawn, stage;
+  int64_t n, seed, redrawn, beside;
   int32_t dim, model, flags, masses;
   double mk_zeta, pressure, non_additivity;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];  // (dim, dim) cell vectors, the rest 0
 };
 
-constexpr int32_t flag_velocity = 1, flag_overlap_allowed = 2, flag_crunch = 4;
+constexpr int32_t flag_velocity = 1, flag_overlap_allowed = 2;
 
 // A lower triangle with positive edges, tilts in range, and few vectors as short as its shortest row.
 bool has_searchable_cell(const Header &h) {
@@ -94,19 +94,18 @@ std::string slurp(const char *path) {
 
 }  // namespace
 
-void write_checkpoint(const Packing &p, const Unfinished &work, const char *path) {
+void write_checkpoint(const Packing &p, const std::string &beside, const char *path) {
   OutputFile file(path);
   Header h{};
   std::memcpy(h.magic, magic, sizeof magic);
   h.n = static_cast<int64_t>(p.n());
   h.seed = p.seed;
   h.redrawn = static_cast<int64_t>(p.mk_redrawn.size());
-  h.stage = static_cast<int64_t>(work.stage.size());
+  h.beside = static_cast<int64_t>(beside.size());
   h.masses = p.masses;
   h.dim = p.dim;
   h.model = p.model;
-  h.flags = (p.has_velocity ? flag_velocity : 0) | (p.overlap_allowed ? flag_overlap_allowed : 0) |
-            (work.crunch ? flag_crunch : 0);
+  h.flags = (p.has_velocity ? flag_velocity : 0) | (p.overlap_allowed ? flag_overlap_allowed : 0);
   for (int k = 0; k < p.dim; ++k) std::copy(p.cell.row(k), p.cell.row(k) + p.dim, h.cell + k * p.dim);
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
@@ -117,13 +116,13 @@ void write_checkpoint(const Packing &p, const Unfinished &work, const char *path
   put(text, p.diameter);
   put(text, p.velocity);
   put(text, p.mk_redrawn);
-  text += work.stage;
+  text += beside;
   const uint64_t sum = checksum(text.data(), text.size());
   text.append(reinterpret_cast<const char *>(&sum), sizeof sum);
   file.commit();
 }
 
-Packing read_checkpoint(const char *path, Unfinished &work) {
+Packing read_checkpoint(const char *path, std::string &beside) {
   const std::string all = slurp(path);
   Header h{};
   if (all.size() > sizeof magic && std::memcmp(all.data(), magic, sizeof magic - 1) == 0 &&
@@ -137,9 +136,9 @@ Packing read_checkpoint(const char *path, Unfinished &work) {
   if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);
   const size_t room = all.size() - sizeof h - 8;
   if (h.dim < 2 || h.dim > JAM_MAX_DIM || h.n < 1 || h.n > INT32_MAX || h.redrawn < 0 ||
-      static_cast<size_t>(h.redrawn) > room || h.stage < 0 || static_cast<size_t>(h.stage) > room ||
+      static_cast<size_t>(h.redrawn) > room || h.beside < 0 || static_cast<size_t>(h.beside) > room ||
       static_cast<size_t>(h.n) > room ||
-      room - static_cast<size_t>(h.stage) !=
+      room - static_cast<size_t>(h.beside) !=
           static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) +
               static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
     fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(),
@@ -154,14 +153,13 @@ Packing read_checkpoint(const char *path, Unfinished &work) {
   p.non_additivity = h.non_additivity;
   p.has_velocity = (h.flags & flag_velocity) != 0;
   p.overlap_allowed = (h.flags & flag_overlap_allowed) != 0;
-  work.crunch = (h.flags & flag_crunch) != 0;
   const char *at = all.data() + sizeof h;
   const size_t n = static_cast<size_t>(h.n), d = static_cast<size_t>(h.dim);
   take(at, p.position, n * d);
   take(at, p.diameter, n);
   take(at, p.velocity, n * d);
   take(at, p.mk_redrawn, static_cast<size_t>(h.redrawn));
-  work.stage.assign(at, static_cast<size_t>(h.stage));
+  beside.assign(at, static_cast<size_t>(h.beside));
   check_dim(h.dim);
   reduce_cell(h.dim, h.cell);  // for its checks
   if (!has_searchable_cell(h)) fail(JAM_E_FORMAT, "%s holds a cell that is far from reduced", path);
@@ -169,7 +167,7 @@ Packing read_checkpoint(const char *path, Unfinished &work) {
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) &&
-              (h.model == JAM_MODEL_EUCLID || is_mk_zeta(h.mk_zeta)) && work.crunch <= (h.stage > 0);
+              (h.model == JAM_MODEL_EUCLID || is_mk_zeta(h.mk_zeta));
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {
     good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 &&

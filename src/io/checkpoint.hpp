@@ -6,12 +6,8 @@
 
 namespace jam {
 
-// What was under way.
-struct Unfinished {
-  std::string stage;    // bytes of a paused stage; empty: nothing
-  bool crunch = false;  // it is one of a crunch, not of dynamics
-};
-void write_checkpoint(const Packing &p, const Unfinished &work, const char *path);
-Packing read_checkpoint(const char *path, Unfinished &work);
+// beside: bytes of the results and of the unfinished work of that packing (capi/results_archive.cpp).
+void write_checkpoint(const Packing &p, const std::string &beside, const char *path);
+Packing read_checkpoint(const char *path, std::string &beside);
 
 }  // namespace jam

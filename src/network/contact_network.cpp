@@ -43,6 +43,7 @@ ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, in
     out.pairs.offset.insert(out.pairs.offset.end(), &net.pairs.offset[k * dim], &net.pairs.offset[k * dim] + dim);
     out.vector.insert(out.vector.end(), &net.vector[k * dim], &net.vector[k * dim] + dim);
     out.gap.push_back(net.gap[k]), out.force.push_back(net.force[k]);
+    if (!net.stiffness.empty()) out.stiffness.push_back(net.stiffness[k]), out.prestress.push_back(net.prestress[k]);
   }
   return out;
 }

@@ -47,6 +47,7 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
     if (!g.distance.empty()) out.distance.push_back(g.distance[k]);
     if (!g.sigma.empty()) out.sigma.push_back(g.sigma[k]);
     if (!g.force.empty()) out.force.push_back(g.force[k]);
+    if (!g.stiffness.empty()) out.stiffness.push_back(g.stiffness[k]), out.prestress.push_back(g.prestress[k]);
   }
   return out;
 }

@@ -1,0 +1,27 @@
+// What calls found out about the packing that a handle holds now. It is one value: every call that moves spheres clears
+// all of it (jam_system::commit), copies and checkpoints take all of it.
+#pragma once
+#include <vector>
+
+#include "core/archive.hpp"
+#include "crunch/history.hpp"
+#include "jam/jam.h"
+#include "network/contact_network.hpp"
+#include "soft/decompression.hpp"
+
+namespace jam {
+
+struct Results {
+  ContactNetwork contacts;  // valid when has_report
+  jam_crunch_report report{};
+  bool has_report = false;
+  std::vector<HistoryRow> history;  // of the crunch that led here; valid when has_history
+  bool has_history = false;
+  std::vector<KeptStep> kept_steps;   // of the same crunch; empty unless asked for
+  std::vector<SoftRow> soft_history;  // of the decompression that led here; empty without one
+
+  // results_archive.cpp. Reading throws JAM_E_FORMAT unless they fit the packing p.
+  void archive(Archive &a, const Packing &p);
+};
+
+}  // namespace jam

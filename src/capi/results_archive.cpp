@@ -1,0 +1,153 @@
+// Results and unfinished work as bytes of a checkpoint. The bytes may come from a damaged file or a stranger, so all
+// that later calls rely on is checked: sizes, numbers of spheres, and that the contacts are those of the packing.
+#include <cmath>
+
+#include "capi/system.hpp"
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+
+namespace jam {
+namespace {
+
+void check(bool good) {
+  if (!good) fail(JAM_E_FORMAT, "the results kept in the checkpoint do not fit its packing");
+}
+bool all_finite(const std::vector<double> &x) {
+  for (const double v : x)
+    if (!std::isfinite(v)) return false;
+  return true;
+}
+
+void archive(Archive &a, std::string &text) {
+  std::vector<char> bytes(text.begin(), text.end());
+  a(bytes);
+  text.assign(bytes.begin(), bytes.end());
+}
+
+// Distances of two spheres that the stored contact and the packing give may differ by the rounding of coordinates.
+double resolution(const Packing &p, double sigma) {
+  constexpr double of_contact = 1e-9, of_coordinate = 1e-13;
+  return of_contact * sigma + of_coordinate * p.cell.half_diagonal();
+}
+
+void check_network(const ContactNetwork &c, const Packing &p) {
+  const size_t m = c.pairs.i.size(), n = p.n(), d = static_cast<size_t>(p.dim);
+  check(c.pairs.j.size() == m && c.pairs.offset.size() == m * d && c.vector.size() == m * d && c.gap.size() == m);
+  check(c.force.size() == m && (c.stiffness.empty() || c.stiffness.size() == m));
+  check(c.prestress.size() == c.stiffness.size());
+  check(c.coordination.size() == n || (c.coordination.empty() && m == 0));
+  for (const auto *x : {&c.pairs.offset, &c.vector, &c.gap, &c.force, &c.stiffness, &c.prestress})
+    check(all_finite(*x));
+  std::vector<int32_t> coordination(c.coordination.size(), 0);
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < m; ++k) {
+    const int32_t i = c.pairs.i[k], j = c.pairs.j[k];
+    check(i >= 0 && i <= j && static_cast<size_t>(j) < n);
+    check(k == 0 || std::make_pair(c.pairs.i[k - 1], c.pairs.j[k - 1]) <= std::make_pair(i, j));
+    ++coordination[i], ++coordination[j];
+    pair_vector(p, c.pairs, k, r);
+    const double sigma = contact_distance(p, i, j), length = sigma * (1.0 + c.gap[k]);
+    for (size_t e = 0; e < d; ++e) check(std::fabs(r[e] - length * c.vector[k * d + e]) <= resolution(p, sigma));
+  }
+  check(coordination == c.coordination);
+}
+
+void archive(Archive &a, ContactNetwork &c) {
+  a(c.pairs.i), a(c.pairs.j), a(c.pairs.offset);
+  a(c.vector), a(c.gap), a(c.force), a(c.stiffness), a(c.prestress);
+  a(c.force_scale), a(c.coordination);
+}
+
+void archive(Archive &a, KeptStep &s, const Packing &p, size_t rows) {
+  a(s.step), a(s.diameter), a(s.fraction), a(s.position);
+  std::vector<double> cell = s.cell.rows();
+  a(cell);
+  if (!a.reading()) return;
+  const size_t d = static_cast<size_t>(p.dim);
+  check(s.step >= 0 && static_cast<size_t>(s.step) <= rows && s.position.size() == p.position.size());
+  check(s.diameter > 0.0 && std::isfinite(s.diameter) && std::isfinite(s.fraction));
+  check(cell.size() == d * d && all_finite(cell));
+  for (size_t k = 0; k < d; ++k) check(cell[k * d + k] > 0.0);
+  for (const float x : s.position) check(std::isfinite(x));
+  s.cell = Cell::from_triangle(p.dim, cell.data());
+}
+
+void check_history(const std::vector<HistoryRow> &history) {
+  for (const HistoryRow &row : history) {
+    const double phase = row[JAM_HISTORY_PHASE];
+    check(phase == JAM_STEP_PATH || phase == JAM_STEP_LP || phase == JAM_STEP_POLISH);
+  }
+}
+
+// The parts of a checkpoint that wait: bytes of their own, empty where there is nothing.
+struct Waiting {
+  std::string crunch, paused, runs;
+  int64_t sweeps = 0;
+  bool has_results = false;
+  void archive(Archive &a) {
+    jam::archive(a, crunch), jam::archive(a, paused), jam::archive(a, runs);
+    a(sweeps), a(has_results);
+  }
+};
+
+}  // namespace
+
+void Results::archive(Archive &a, const Packing &p) {
+  // A report with other fields is another format: raise the version in io/checkpoint.cpp.
+  a(has_report), a(report), jam::archive(a, contacts);
+  a(has_history), a(history), a(soft_history);
+  uint64_t kept = kept_steps.size();
+  a(kept);
+  if (a.reading()) {
+    check(report.struct_size == sizeof report || !has_report);
+    check(!has_report || report.contacts == static_cast<int64_t>(contacts.size()));
+    check_network(contacts, p);
+    check_history(history);
+    check(kept <= history.size() + 1);
+    kept_steps.resize(kept);
+  }
+  int64_t last = -1;
+  for (KeptStep &s : kept_steps) {
+    jam::archive(a, s, p, history.size());
+    check(s.step > last);
+    last = s.step;
+  }
+}
+
+std::string archive_beside(const SystemState &s, const Moving &moving) {
+  Waiting w;
+  const bool moves = moving.crunch || moving.dynamics;
+  if (moving.crunch || (!moves && s.crunch_paused))
+    w.crunch = (moving.crunch ? *moving.crunch : *s.crunch_paused).bytes();
+  if (moving.dynamics || (!moves && s.paused))
+    w.paused = write_dynamics(moving.dynamics ? *moving.dynamics : *s.paused);
+  if (s.runs) w.runs = write_dynamics(*s.runs);
+  w.sweeps = s.sweeps;
+  w.has_results = !moves && (s.has_report || s.has_history || !s.soft_history.empty());
+  Archive a;
+  w.archive(a);
+  if (w.has_results) {
+    Results copy = s;
+    copy.report.struct_size = sizeof copy.report;
+    copy.archive(a, s.packing);
+  }
+  return a.bytes();
+}
+
+void read_beside(SystemState &s, std::string bytes) {
+  Archive a(std::move(bytes));
+  Waiting w;
+  w.archive(a);
+  check(w.sweeps >= 0);
+  if (w.has_results) s.results().archive(a, s.packing);
+  a.end();
+  s.sweeps = w.sweeps;
+  if (!w.crunch.empty()) s.crunch_paused = CrunchStage::of(w.crunch);
+  if (!w.paused.empty()) s.paused = read_dynamics(s.packing, std::move(w.paused));
+  if (w.runs.empty()) return;
+  std::unique_ptr<Dynamics> runs = read_dynamics(s.packing, std::move(w.runs));
+  check(runs->phase() == JAM_PHASE_ISOCONFIGURATIONAL && (!s.paused || s.paused->phase() != runs->phase()));
+  s.runs.reset(static_cast<Isoconfigurational *>(runs.release()));
+}
+
+}  // namespace jam

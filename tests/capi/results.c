@@ -1,0 +1,314 @@
+/* Results belong to the packing: copies and checkpoints hold them whole, and whatever moves a sphere clears them whole.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "test.h"
+
+#include "jam/jam.h"
+
+static const char *path = "results.bin";
+
+static jam_system *start(int32_t dim, int64_t n, double fraction, int32_t overlap) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim, o.n = n, o.packing_fraction = fraction, o.overlap = overlap, o.seed = 3;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_status crunch(jam_system *sys, int32_t strain, int64_t max_lps, double gap, int32_t keep) {
+  jam_crunch_options o;
+  jam_crunch_options_init(&o, sizeof o);
+  o.strain = strain, o.keep_steps = keep, o.duality_gap = gap;
+  if (max_lps) o.max_lps = (int32_t)max_lps;
+  return jam_crunch(sys, &o, NULL);
+}
+
+typedef jam_status (*getter)(const jam_system *, double *, size_t, size_t *);
+typedef jam_status (*getter32)(const jam_system *, int32_t *, size_t, size_t *);
+
+static void same_array(getter get, const jam_system *a, const jam_system *b) {
+  size_t m = 0, k = 0;
+  double *x, *y;
+  assert_int_equal(get(a, NULL, 0, &m), JAM_OK);
+  assert_int_equal(get(b, NULL, 0, &k), JAM_OK);
+  assert_int_equal(m, k);
+  x = malloc((m + 1) * sizeof *x), y = malloc((m + 1) * sizeof *y);
+  assert_int_equal(get(a, x, m, &m), JAM_OK);
+  assert_int_equal(get(b, y, m, &m), JAM_OK);
+  assert_memory_equal(x, y, m * sizeof *x);
+  free(x), free(y);
+}
+static void same_array32(getter32 get, const jam_system *a, const jam_system *b) {
+  size_t m = 0, k = 0;
+  int32_t *x, *y;
+  assert_int_equal(get(a, NULL, 0, &m), JAM_OK);
+  assert_int_equal(get(b, NULL, 0, &k), JAM_OK);
+  assert_int_equal(m, k);
+  x = malloc((m + 1) * sizeof *x), y = malloc((m + 1) * sizeof *y);
+  assert_int_equal(get(a, x, m, &m), JAM_OK);
+  assert_int_equal(get(b, y, m, &m), JAM_OK);
+  assert_memory_equal(x, y, m * sizeof *x);
+  free(x), free(y);
+}
+static jam_status gains(const jam_system *s, double *out, size_t len, size_t *needed) {
+  return jam_crunch_history(s, JAM_HISTORY_GAIN, out, len, needed);
+}
+static jam_status energies(const jam_system *s, double *out, size_t len, size_t *needed) {
+  return jam_decompress_history(s, 0, out, len, needed);
+}
+
+static long size_of(const char *name) {
+  FILE *f = fopen(name, "rb");
+  long size;
+  assert_non_null(f);
+  fseek(f, 0, SEEK_END);
+  size = ftell(f);
+  fclose(f);
+  return size;
+}
+
+static void same_results(const jam_system *a, const jam_system *b, int crunched) {
+  jam_crunch_report r, s;
+  jam_comparison c;
+  memset(&r, 0, sizeof r), memset(&s, 0, sizeof s), memset(&c, 0, sizeof c);
+  r.struct_size = s.struct_size = sizeof r, c.struct_size = sizeof c;
+  assert_int_equal(jam_crunch_report_get(a, &r), JAM_OK);
+  assert_int_equal(jam_crunch_report_get(b, &s), JAM_OK);
+  assert_memory_equal(&r, &s, sizeof r);
+  same_array32(jam_contacts, a, b), same_array32(jam_coordination, a, b);
+  same_array(jam_contact_vectors, a, b), same_array(jam_contact_gaps, a, b), same_array(jam_forces, a, b);
+  if (crunched) same_array(gains, a, b);
+  assert_int_equal(jam_compare(a, b, &c, NULL, 0, NULL), JAM_OK);
+  assert_int_equal(c.common_contacts, c.contacts_a);
+  assert_int_equal(c.common_contacts, c.contacts_b);
+  /* Files, where the network and the steps of the crunch show too. */
+  assert_int_equal(jam_write_page(a, "results_a.html", "", 0, "", NULL, 0), JAM_OK);
+  assert_int_equal(jam_write_page(b, "results_b.html", "", 0, "", NULL, 0), JAM_OK);
+  assert_int_equal(size_of("results_a.html"), size_of("results_b.html"));
+  assert_int_equal(jam_write_contacts(b, "results_a.csv", JAM_CONTACTS_AUTO), JAM_OK);
+  remove("results_a.html"), remove("results_b.html"), remove("results_a.csv");
+}
+
+/* A copy and a checkpoint of sys have its results. */
+static void kept(jam_system *sys, int crunched) {
+  jam_system *copy = NULL, *again = NULL;
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  if (jam_checkpoint_read(path, &again) != JAM_OK) fail_msg("%s", jam_last_error());
+  same_results(sys, copy, crunched);
+  same_results(sys, again, crunched);
+  jam_destroy(again);
+  jam_destroy(copy);
+  remove(path);
+}
+
+static void a_crunch_is_kept(void **state) {
+  int32_t dim, strain;
+  (void)state;
+  for (dim = 2; dim <= 4; ++dim)
+    for (strain = JAM_STRAIN_NONE; strain <= JAM_STRAIN_FREE; strain += JAM_STRAIN_FREE) {
+      jam_system *sys = start(dim, 40, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE), *other;
+      crunch(sys, strain, 0, 0.0, 8);
+      kept(sys, 1);
+      jam_destroy(sys);
+      for (int64_t lps = 1; lps < 6; ++lps) { /* one that was stopped */
+        other = start(dim, 40, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE);
+        crunch(other, strain, lps, 0.0, 3);
+        kept(other, 1);
+        jam_destroy(other);
+      }
+      other = start(dim, 60, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE);
+      crunch(other, JAM_STRAIN_NONE, 0, 1e-3, 0);
+      kept(other, 1);
+      jam_destroy(other);
+    }
+}
+
+static void networks_of_other_calls_are_kept(void **state) {
+  jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW), *again = NULL;
+  jam_decompress_options o;
+  jam_geometry_options g;
+  (void)state;
+  assert_true(jam_relax(sys, NULL, NULL) >= 0);
+  kept(sys, 0); /* with stiffnesses */
+  jam_decompress_options_init(&o, sizeof o);
+  o.crunch = 0;
+  assert_true(jam_decompress(sys, &o, NULL) >= 0);
+  kept(sys, 0);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  same_array(energies, sys, again);
+  jam_destroy(again);
+  jam_destroy(sys);
+  sys = start(3, 50, 0.3, JAM_OVERLAP_REFUSE); /* a fluid: contacts of a wide tolerance carry no force */
+  jam_geometry_options_init(&g, sizeof g);
+  g.tolerance = 0.2;
+  assert_int_equal(jam_contacts_from_geometry(sys, &g, NULL), JAM_NOT_JAMMED);
+  kept(sys, 0);
+  crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0);
+  assert_true(jam_contacts_from_geometry(sys, NULL, NULL) >= 0);
+  kept(sys, 1); /* the history is that of the crunch still */
+  jam_destroy(sys);
+}
+
+static int32_t stop(const jam_progress *p, void *user) { return p->steps > 2 || p->collisions > 10 || user; }
+
+static int knows(const jam_system *sys) {
+  size_t m;
+  jam_crunch_report r;
+  r.struct_size = sizeof r;
+  return (jam_contacts(sys, NULL, 0, &m) == JAM_OK) + (jam_crunch_report_get(sys, &r) == JAM_OK) +
+         (gains(sys, NULL, 0, &m) == JAM_OK) + (energies(sys, NULL, 0, &m) == JAM_OK);
+}
+
+static const double shear[4] = {0.0, 1e-3, 0.0, 0.0};
+
+static void each_move(int move, jam_system *sys) {
+  const double *view;
+  size_t len;
+  jam_run_options run;
+  jam_monte_carlo_options mc;
+  jam_run_options_init(&run, sizeof run);
+  run.collisions_per_particle = 1e6;
+  jam_monte_carlo_options_init(&mc, sizeof mc);
+  mc.sweeps = 1000000, mc.step = 1e-3;
+  assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
+  switch (move) {
+    case 0:
+      assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
+      break;
+    case 1:
+      assert_int_equal(jam_positions_view(sys, &view, &len), JAM_OK);
+      assert_int_equal(jam_set_positions(sys, view, len), JAM_OK);
+      break;
+    case 2:
+      assert_true(jam_strain(sys, shear, 4) == JAM_E_OVERLAP); /* refused: nothing moved */
+      assert_int_equal(knows(sys), 3);
+      assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
+      assert_int_equal(jam_strain(sys, shear, 4), JAM_OK);
+      break;
+    case 3:
+      assert_int_equal(jam_run(sys, &run, NULL), JAM_CANCELLED);
+      break;
+    case 4:
+      assert_true(jam_compress(sys, NULL, NULL) > 0);
+      break;
+    default:
+      assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_CANCELLED);
+  }
+}
+
+static void every_move_clears_all(void **state) {
+  int move;
+  size_t len;
+  const double *v;
+  jam_system *jammed = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
+  (void)state;
+  crunch(jammed, JAM_STRAIN_NONE, 0, 0.0, 0);
+  assert_int_equal(jam_positions_view(jammed, &v, &len), JAM_OK);
+  assert_int_equal(jam_set_velocities(jammed, v, len), JAM_OK); /* any will do */
+  assert_int_equal(knows(jammed), 3); /* velocities move nothing */
+  for (move = 0; move < 6; ++move) {
+    jam_system *sys = NULL;
+    assert_int_equal(jam_copy(jammed, &sys), JAM_OK);
+    each_move(move, sys);
+    assert_int_equal(knows(sys), 0);
+    jam_destroy(sys);
+  }
+  jam_destroy(jammed);
+}
+
+/* The history of a decompression goes with the packing that it led to. */
+static void soft_history_is_cleared(void **state) {
+  jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW);
+  (void)state;
+  assert_true(jam_decompress(sys, NULL, NULL) >= 0);
+  assert_true(knows(sys) >= 3);
+  assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
+  assert_int_equal(knows(sys), 0);
+  jam_destroy(sys);
+}
+
+static int32_t look(const jam_progress *p, void *user) {
+  jam_system *sys = *(jam_system **)user;
+  if (p->snapshot > 0) assert_int_equal(knows(sys), 0); /* the view shows spheres that have moved */
+  return 0;
+}
+
+static void snapshots_have_no_old_results(void **state) {
+  jam_system *sys = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
+  jam_observe_options o;
+  jam_run_options run;
+  (void)state;
+  crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0);
+  jam_observe_options_init(&o, sizeof o);
+  o.snapshot_every = 1.0;
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  assert_int_equal(jam_set_progress(sys, look, &sys), JAM_OK);
+  jam_run_options_init(&run, sizeof run);
+  run.collisions_per_particle = 10.0;
+  assert_int_equal(jam_run(sys, &run, NULL), JAM_OK);
+  jam_destroy(sys);
+}
+
+static jam_status series(const jam_system *s, double *out, size_t len, size_t *needed) {
+  return jam_observed_series(s, out, len, needed);
+}
+
+/* A copy has what was observed, and observes on. */
+static void observed_data_are_copied(void **state) {
+  jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *copy = NULL;
+  jam_observe_options o;
+  (void)state;
+  jam_observe_options_init(&o, sizeof o);
+  o.collisions = 1, o.gap_bins = 10, o.r_bins = 10;
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  assert_int_equal(jam_run(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  same_array(series, sys, copy);
+  assert_int_equal(jam_run(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_run(copy, NULL, NULL), JAM_OK);
+  same_array(series, sys, copy);
+  jam_destroy(copy);
+  jam_destroy(sys);
+}
+
+/* Monte Carlo from a checkpoint draws the numbers that the handle itself would draw. */
+static void streams_go_on_after_a_checkpoint(void **state) {
+  jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *again = NULL;
+  jam_monte_carlo_options mc;
+  const double *x, *y;
+  size_t len;
+  (void)state;
+  jam_monte_carlo_options_init(&mc, sizeof mc);
+  mc.sweeps = 20, mc.step = 0.1;
+  assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
+  assert_int_equal(jam_monte_carlo(again, &mc, NULL), JAM_OK);
+  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_positions_view(again, &y, &len), JAM_OK);
+  assert_memory_equal(x, y, len * sizeof *x);
+  jam_destroy(again);
+  jam_destroy(sys);
+  remove(path);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_crunch_is_kept),
+      cmocka_unit_test(networks_of_other_calls_are_kept),
+      cmocka_unit_test(every_move_clears_all),
+      cmocka_unit_test(soft_history_is_cleared),
+      cmocka_unit_test(snapshots_have_no_old_results),
+      cmocka_unit_test(observed_data_are_copied),
+      cmocka_unit_test(streams_go_on_after_a_checkpoint),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1117,6 +1117,14 @@ module jam
       type(c_ptr) :: status
     end function jam_version
 
+    ! Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" where the build knew
+    ! none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1
+    function jam_commit() &
+        bind(c, name="jam_commit") result(status)
+      import
+      type(c_ptr) :: status
+    end function jam_commit
+
     ! JAM_ABI of the library that is loaded. Threads: any. @since 0.1
     function jam_abi_version() &
         bind(c, name="jam_abi_version") result(status)

@@ -306,6 +306,8 @@ that they touch, N' their number. @since 0.1"
 }
 %feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network. @since 0.1"
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
+%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" where the build knew
+none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
 %feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"

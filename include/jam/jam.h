@@ -153,6 +153,9 @@ typedef enum jam_stop_reason {
 
 /* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_version(void);
+/* Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" where the build knew
+ * none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1 */
+JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
 JAM_API int32_t jam_abi_version(void);
 /* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1

@@ -93,6 +93,7 @@ const char *jam_stop_string(int32_t reason) {
 
 const char *jam_last_error(void) { return jam::last_error; }
 const char *jam_version(void) { return JAM_VERSION_STRING; }
+const char *jam_commit(void) { return JAM_COMMIT_STRING; }
 const char *jam_blas_kernel(void) { return jam::blas_kernel(); }
 int32_t jam_abi_version(void) { return JAM_ABI; }
 

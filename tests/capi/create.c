@@ -212,6 +212,7 @@ static void null_handles_are_refused(void **state) {
   assert_string_equal(jam_status_string(12345), "unknown status");
   assert_string_equal(jam_stop_string(JAM_STOP_CONVERGED), "converged");
   assert_int_equal(jam_abi_version(), JAM_ABI);
+  assert_true(jam_commit()[0] == 0 || strspn(jam_commit(), "0123456789abcdef") == 12);
 }
 
 /* Random starts in every dimension have no overlap, checked pair by pair with nearest images. */

@@ -194,7 +194,8 @@ int write_report(const options *o, const outcome *result, const char *path) {
   fprintf(f, "  \"md_stop_reason\": \"%s\",\n", jam_stop_string(result->md_stop));
   put_number(f, "seconds_md", result->seconds_md);
   put_number(f, "seconds_crunch", crunched ? r->seconds : 0.0);
-  fprintf(f, "  \"version\": \"%s\",\n  \"blas_kernel\": \"%s\"\n}\n", jam_version(), jam_blas_kernel());
+  fprintf(f, "  \"version\": \"%s\",\n  \"commit\": \"%s\",\n", jam_version(), jam_commit());
+  fprintf(f, "  \"blas_kernel\": \"%s\"\n}\n", jam_blas_kernel());
   return close_output(&out);
 }
 

@@ -826,6 +826,14 @@ function jam_version()
 end
 
 """
+Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" where the build knew
+none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1
+"""
+function jam_commit()
+    return ccall((:jam_commit, libjam), Cstring, ())
+end
+
+"""
 JAM_ABI of the library that is loaded. Threads: any. @since 0.1
 """
 function jam_abi_version()

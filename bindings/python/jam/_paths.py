@@ -1,16 +1,119 @@
-"""Where files are written that appear whole or not at all."""
+"""Where files are written that appear whole or not at all: one way for every file that Python writes.
+
+A file is written under a name that nobody else has, in the folder of the target or in one of the caller's, and renamed
+at the end. Its writer holds a lock on it. What can be locked has lost its writer and may be removed: locks end with
+their process, whatever its number, its container or its machine.
+"""
 from __future__ import annotations
 
+import contextlib
 import errno
+import fcntl
+import hashlib
 import os
+import re
+import stat
+import uuid
+from typing import IO, Any, Iterator
+
+_PART = re.compile(r"\.jam-[0-9a-f]{16}-[0-9a-f]{32}\.part")
 
 
 def replaceable(path: str | os.PathLike[str]) -> str:
     """The regular file that a rename onto path may replace. Links are followed, so that they stay.
 
-    Devices, pipes and folders are refused: a rename would put a file in their place.
+    Devices, pipes and folders are refused: a rename would put a file in their place. So are files that may not be
+    written: a rename would pass over their protection.
     """
     real = os.path.realpath(os.fspath(path))
-    if os.path.exists(real) and not os.path.isfile(real):
-        raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
+    if os.path.exists(real):
+        if not os.path.isfile(real):
+            raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
+        if not os.access(real, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), os.fspath(path))
     return real
+
+
+def _begin(target: str) -> str:
+    """How names of unfinished files of a target begin: of one length, however long its own name is."""
+    return ".jam-" + hashlib.sha256(os.fsencode(os.path.basename(target))).hexdigest()[:16] + "-"
+
+
+def _locked(folder: str, begin: str) -> tuple[int, str]:
+    """A new file under a lock: its descriptor and its name."""
+    while True:
+        name = os.path.join(folder, f"{begin}{uuid.uuid4().hex}.part")
+        descriptor = os.open(name, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            taken = False
+        except OSError as error:  # a file system without locks refuses them otherwise
+            taken = error.errno == errno.EWOULDBLOCK
+        # before the lock somebody may have taken it for abandoned
+        if not taken and os.fstat(descriptor).st_nlink > 0:
+            return descriptor, name
+        os.close(descriptor)
+
+
+def remove_abandoned(folder: str | os.PathLike[str], begin: str = "") -> None:
+    """Removes the unfinished files of a folder whose writer is gone. What fails here is no error."""
+    for name in os.listdir(folder):
+        if not _PART.fullmatch(name) or not name.startswith(begin):
+            continue
+        with contextlib.suppress(OSError):
+            descriptor = os.open(os.path.join(folder, name), os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                os.unlink(os.path.join(folder, name))
+            finally:
+                os.close(descriptor)
+
+
+@contextlib.contextmanager
+def replacing(
+    path: str | os.PathLike[str], mode: str = "wb", parts: str | os.PathLike[str] | None = None
+) -> Iterator[IO[Any]]:
+    """A file that takes the place of path when the block ends without an exception: flushed to the disk, then renamed.
+
+    Parameters
+    ----------
+    mode : {'wb', 'w+b', 'w'}
+        Bytes, bytes that are read again, or ASCII text.
+    parts : path, optional
+        Folder of the unfinished file, on the same file system; default that of path, where those that killed writers
+        of path left are removed first.
+    """
+    target = replaceable(path)
+    folder, begin = os.fspath(parts or os.path.dirname(target)), _begin(target)
+    if parts is None:
+        with contextlib.suppress(OSError):
+            remove_abandoned(folder, begin)
+    descriptor, beside = _locked(folder, begin)
+    try:
+        opened: Any = open(beside, mode, encoding=None if "b" in mode else "ascii", opener=lambda *_: descriptor)
+        with opened as file:
+            if os.path.exists(target):  # the new file keeps the old one's permissions
+                os.fchmod(descriptor, stat.S_IMODE(os.stat(target).st_mode))
+            yield file
+            file.flush()
+            os.fsync(descriptor)
+            os.replace(beside, target)  # the lock holds until the file has its name
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(beside)
+        raise
+    with contextlib.suppress(OSError):  # makes the rename outlive a crash; the file is whole either way
+        place = os.open(os.path.dirname(target), os.O_RDONLY)
+        try:
+            os.fsync(place)
+        finally:
+            os.close(place)
+
+
+def check_writable(folder: str | os.PathLike[str]) -> None:
+    """Makes an empty file in a folder and removes it, to fail early where that cannot be."""
+    descriptor, name = _locked(os.fspath(folder), _begin("probe"))
+    try:
+        os.unlink(name)
+    finally:
+        os.close(descriptor)

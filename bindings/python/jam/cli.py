@@ -12,6 +12,7 @@ from typing import Any, Callable
 from . import files, raw
 from ._generated import LogLevel, Phase, StopReason
 from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS
+from ._paths import replacing
 from ._progress import every_ten_seconds
 from ._start import start, take_diameters
 from .errors import JamError
@@ -269,7 +270,7 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
         if o.report == "-":
             sys.stdout.write(text)
         else:
-            with files._replacing(o.report) as file:
+            with replacing(o.report, "w") as file:
                 file.write(text)
     if o.plot:
         from . import plot

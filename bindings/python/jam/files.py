@@ -5,36 +5,15 @@ System.write and System.write_contacts write most of them by the ending of the n
 from __future__ import annotations
 
 import os
-import tempfile
-from contextlib import contextmanager
-from typing import Any, Iterator
 
 import numpy as np
 
-from ._paths import replaceable
+from ._paths import replacing
 from ._types import Array
 from .errors import StateError, UnsupportedError
 from .other_files import read_ase, read_gsd, write_gsd  # noqa: F401
 from .results import Modes
 from .system import System
-
-
-@contextmanager
-def _replacing(path: str | os.PathLike[str]) -> Iterator[Any]:
-    """A text file that takes the place of path when all went well."""
-    path = replaceable(path)
-    folder, name = os.path.split(path)
-    descriptor, beside = tempfile.mkstemp(prefix=name + ".", dir=folder or ".", text=True)
-    try:
-        with os.fdopen(descriptor, "w", encoding="ascii") as file:
-            yield file
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(beside, 0o666 & ~mask)
-        os.replace(beside, path)
-    except BaseException:
-        os.unlink(beside)
-        raise
 
 
 def half_bonds(system: System) -> tuple[Array, Array]:
@@ -82,7 +61,7 @@ def write_csv(system: System, path: str | os.PathLike[str]) -> None:
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     if _kinds(system) is not None:
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
-    with _replacing(path) as file:
+    with replacing(path, "w") as file:
         np.savetxt(file, np.hstack(columns), fmt="%.17g", delimiter=",", header=",".join(names), comments="")
 
 
@@ -97,7 +76,7 @@ def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
     rows = np.column_stack(
         [np.arange(len(values)), values, modes.frequencies[: len(values)], modes.participation[: len(values)]]
     )
-    with _replacing(path) as file:
+    with replacing(path, "w") as file:
         np.savetxt(
             file, rows, fmt=["%d"] + ["%.17g"] * 3, delimiter=",", header="mode,lambda,omega,participation", comments=""
         )
@@ -107,7 +86,7 @@ def write_gaps_csv(system: System, path: str | os.PathLike[str], h_max: float = 
     """One line a gap below h_max that is no contact, ascending: i, j, gap, and 1 when both spheres are stable."""
     gaps, rattlers = system.gaps(h_max, False), system.rattlers
     stable = ~rattlers[gaps.pair].any(1)
-    with _replacing(path) as file:
+    with replacing(path, "w") as file:
         np.savetxt(
             file,
             np.column_stack([gaps.pair, gaps.gap, stable]),
@@ -128,7 +107,7 @@ def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
     except UnsupportedError:  # no Voronoi cells but in d = 3
         phi = [""] * system.n
     names = np.where(z == 0, "rattler", np.where(z == d + 1, "buckler", "stable"))
-    with _replacing(path) as file:
+    with replacing(path, "w") as file:
         file.write(",".join(["sphere,z,class"] + [f"c{k + 1}" for k in range(d)] + ["s,fs,q6,phi"]) + "\n")
         for i in range(system.n):
             numbers = ",".join(f"{x:.17g}" for x in (*plain.c[i], plain.s[i], weighted.s[i], q6[i]))

@@ -5,7 +5,6 @@ import hashlib
 import json
 import os
 from dataclasses import dataclass, field, fields, replace
-from pathlib import Path
 from typing import Any, Sequence
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from ._types import Array
 from . import _calls, raw
 from ._generated import IsoconfColumn, StatusCode
-from ._paths import replaceable
+from ._paths import replacing
 
 _SUMS = ("displacement", "square", "distance2", "distance4")
 
@@ -137,10 +136,8 @@ class Runs:
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
         arrays.update({"series_" + k: v for k, v in self.series.items()})
         arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
-        path = Path(replaceable(path))
-        new = path.with_suffix(".new.npz")
-        np.savez(new, **arrays)
-        os.replace(new, path)
+        with replacing(path, "w+b") as file:
+            np.savez(file, **arrays)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "Runs":

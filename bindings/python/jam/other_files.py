@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._paths import replaceable
+from ._paths import replacing
 
 
 from ._types import Array
@@ -43,16 +43,8 @@ def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
         "jam/diameter": np.array(system.diameters),
         "jam/cell": np.array(cell),
     }
-    target = replaceable(path)
-    beside = f"{target}.part-{os.getpid()}"
-    try:
-        with gsd.hoomd.open(beside, "wb") as file:
-            file.append(frame)
-        os.replace(beside, target)
-    except BaseException:
-        if os.path.exists(beside):
-            os.unlink(beside)
-        raise
+    with replacing(path) as part, gsd.hoomd.open(part.name, "wb") as file:
+        file.append(frame)
 
 
 def _centred(x: Array, cell: Array) -> Array:

@@ -46,7 +46,7 @@ def listing(folder, entries):
     e.run([1], progress=False, workers=1)
     first = next(iter(e))
     with store.open_file(first.path) as file:
-        row = row_of(file["jam"], e.name(1))
+        row = row_of(file, e.name(1))
     rows = []
     for seed in range(2, entries + 1):
         name = e.name(seed)
@@ -64,7 +64,7 @@ def listing(folder, entries):
     cold = []
     for name, *_ in rows[:300]:
         begin = time.process_time()
-        e.files._row_from_file(name, str(e.files.packing(name)))
+        e.files.row_from_file(name, str(e.files.packing(name)))
         cold.append(time.process_time() - begin)
     return {**warm, "seconds_an_entry_without_index": statistics.median(cold)}
 

@@ -5,7 +5,7 @@ import pickle
 import random
 import resource
 import signal
-import socket
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -13,12 +13,14 @@ import threading
 import time
 import unittest
 import unittest.mock
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 import jam
+from jam import _paths
 from jam.ensemble import Ensemble, LocalPool, ProtocolError, StoreError, WorkerDied
 
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
@@ -228,8 +230,109 @@ class Campaigns(unittest.TestCase):
         a.run([1, 2], progress=False, workers=1)
         b.run([1], progress=False, workers=1)
         self.assertEqual((len(a), len(b)), (2, 1))
-        with self.assertRaisesRegex(ProtocolError, "2 protocols"):
+        with self.assertRaisesRegex(ProtocolError, f"2 protocols .*{a.id}"):
             Ensemble(self.folder)
+        for one in (a, b):
+            for name in (one.id, one.id[:8]):
+                again = Ensemble(self.folder, name)
+                self.assertEqual((again.id, again.protocol), (one.id, one.protocol))
+        with self.assertRaisesRegex(ProtocolError, "0 of them begin with 'xyz'"):
+            Ensemble(self.folder, "xyz")
+        self.assertEqual(jam.ensemble.protocols(self.folder), {a.id: a.protocol, b.id: b.protocol})
+        table = jam.ensemble.table(self.folder, pandas=True)
+        self.assertEqual(sorted(zip(table.protocol, table.seed)), sorted([(a.id, 1), (a.id, 2), (b.id, 1)]))
+
+    def test_a_damaged_file_is_named_and_left_out(self):
+        e = Ensemble(self.folder, SMALL)
+        e.run([1, 2, 3], progress=False, workers=1)
+        victim = e.files.packing(e.name(2))
+        good = victim.read_bytes()
+        flipped = bytearray(good)
+        flipped[good.index(jam.load(victim).forces.tobytes())] ^= 1
+        for damage in (good[:5000], bytes(flipped), b"", good + b"x"):
+            victim.write_bytes(damage)
+            with self.assertWarnsRegex(jam.ensemble.DamagedWarning, str(victim)):
+                self.assertEqual(list(e.table()["seed"]), [1, 3])
+            self.assertEqual(list(e.damaged()), [victim])
+            status = e.run([1, 2, 3], progress=False, workers=1)  # goes on, and says so
+            self.assertEqual((status.asked, status.done, status.missing, len(status.damaged)), (3, 2, 0, 1))
+            self.assertIn(str(victim), str(status))
+            self.assertEqual(victim.read_bytes(), damage)
+            with self.assertWarns(jam.ensemble.DamagedWarning):
+                self.assertEqual(len(list(e.each("forces"))), 2)
+            with self.assertWarns(jam.ensemble.DamagedWarning):
+                shards = e.export(self.folder / "out")
+            with h5py.File(shards[0], "r") as shard:
+                self.assertEqual(set(shard), {e.name(1), e.name(3), "seal"})
+        self.assertEqual(e.status([1]).damaged, ())
+        status = e.run([1, 2, 3], progress=False, workers=1, remake_damaged=True)
+        self.assertEqual((status.done, status.damaged), (3, ()))
+        same_bits(jam.load(victim), jam.ensemble.make(e.protocol, 2)[0])
+
+    def test_damage_after_the_table_was_made_is_found_when_it_is_read(self):
+        e = Ensemble(self.folder, SMALL)
+        e.run([1, 2], progress=False, workers=1)
+        victim = e.files.packing(e.name(2))
+        stat = victim.stat()
+        data = bytearray(victim.read_bytes())
+        data[len(data) // 2] ^= 1
+        victim.write_bytes(data)
+        os.utime(victim, ns=(stat.st_atime_ns, stat.st_mtime_ns))  # as a disk loses a bit
+        with self.assertWarnsRegex(jam.ensemble.DamagedWarning, str(victim)):
+            self.assertEqual(len(list(e.each("forces"))), 1)
+
+    def test_damaged_rows_records_and_protocols(self):
+        e = Ensemble(self.folder, SMALL)
+        e.run([1, 2], progress=False, workers=1)
+        rows = e.table()
+        base = sqlite3.connect(self.folder / "index.sqlite")
+        with base:
+            for name, row in base.execute("SELECT name, row FROM rows").fetchall():
+                changed = bytearray(row)
+                changed[130] ^= 64
+                base.execute("UPDATE rows SET row = ? WHERE name = ?", (bytes(changed), name))
+        base.close()
+        np.testing.assert_array_equal(e.table(), rows)
+        e.files.failure(e.name(5)).write_text('{"seed": 5')
+        self.assertEqual(e.status([1, 5]).failed, 1)
+        record = e.failures()[0]
+        self.assertEqual((record["seed"], record["status"]), (-1, "damaged_record"))
+        self.assertIn(str(e.files.failure(e.name(5))), record["text"])
+        kept = self.folder / "protocols" / f"{e.id}.json"
+        for text in (kept.read_text().replace('"n": 24', '"n": 25'), "{", "[]"):
+            kept.write_text(text)
+            with self.assertRaisesRegex(StoreError, kept.name):
+                Ensemble(self.folder)
+
+    def test_two_builds_in_a_folder_are_told_apart(self):
+        e = Ensemble(self.folder, SMALL)
+        e.run([1], ThreadPoolExecutor(1), progress=False)
+        self.assertNotIn("builds", str(e.status()))
+        other = dict(jam.store.provenance(), commit="0123456789ab", library="f" * 16)
+        with unittest.mock.patch("jam.store.provenance", lambda: other):
+            status = e.run([1, 2], ThreadPoolExecutor(1), progress=False)
+        self.assertIn("made by 2 builds", str(status))
+        self.assertIn("commit 0123456789ab library ffffffffffffffff", str(status))
+        self.assertEqual(e.table()["commit"][1], b"0123456789ab")
+        self.assertEqual(e.table()["commit"][0].decode(), jam.raw.jam_commit())
+
+    def test_a_file_under_way_stays_whoever_asks(self):
+        """A writer of another container may have a process number that lives nowhere here, and the same host name."""
+        e = Ensemble(self.folder, SMALL)
+        e.files.prepare()
+        other = f"import jam; jam.ensemble.Ensemble({str(self.folder)!r}, {SMALL!r}).files.prepare()"
+        with _paths.replacing(self.folder / "packings/00/x.h5", parts=e.files.parts) as file:
+            file.write(b"under way")
+            subprocess.run([sys.executable, "-c", other], check=True)
+            self.assertEqual(len(list(e.files.parts.iterdir())), 1)
+            hidden = subprocess.run(  # the same host name, process numbers of its own
+                ["unshare", "--user", "--map-root-user", "--pid", "--fork", sys.executable, "-c", other],
+                capture_output=True,
+            )
+            if hidden.returncode:
+                print("no container could be made:", hidden.stderr.decode()[-200:], file=sys.stderr)
+        self.assertEqual((self.folder / "packings/00/x.h5").read_bytes(), b"under way")
+        self.assertEqual(list(e.files.parts.iterdir()), [])
 
     def test_shards(self):
         e = Ensemble(self.folder, SMALL)
@@ -323,12 +426,10 @@ class Campaigns(unittest.TestCase):
 
     def test_a_campaign_that_fails_leaves_no_unfinished_file(self):
         e = Ensemble(self.folder, SMALL)
-        gone = subprocess.Popen(["true"])
-        gone.wait()
 
         class KilledWhileItWrote(LocalPool):
             def submit(self, *_):
-                (e.files.parts / f".name.h5.{socket.gethostname()}.{gone.pid}.0.part").touch()
+                (e.files.parts / f".jam-{'0' * 16}-{'1' * 32}.part").touch()
                 raise StoreError("the disk is full")
 
         with unittest.mock.patch("jam.ensemble.LocalPool", KilledWhileItWrote):

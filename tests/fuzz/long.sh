@@ -11,6 +11,9 @@ if [ -x "$root/build/tests/fuzz/soak" ]; then
   "$root/build/tests/fuzz/soak" "$seconds" "$(date +%s)" || status=1
   PYTHONPATH=$root/build/python /usr/bin/python3 -B "$root/tests/fuzz/converters.py" "$seconds" "$(date +%s)" ||
     status=1
+  # 8000 of each kind, whatever the time
+  PYTHONPATH=$root/build/python OPENBLAS_NUM_THREADS=1 /usr/bin/python3 -B "$root/tests/fuzz/packings.py" 8000 ||
+    status=1
 else
   echo "no build/tests/fuzz/soak: make the release build first (sh tests/run.sh release)" >&2
   status=1

@@ -5,9 +5,11 @@
     e.run(range(1, 101))                 # killed? run it again: what is there is not made twice
     e.table()["packing_fraction"]        # reports
     for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read when asked for
+    jam.ensemble.table("folder")         # all protocols of a folder
 
 Data flow: protocol x seed -> make_packing in a worker -> a file -> the folder, which all later calls read.
 The worker writes the file itself; only a row of the table goes back. Bits do not depend on the executor.
+A file that is damaged is named by a DamagedWarning and by status(), and left out of all that is read.
 """
 from __future__ import annotations
 
@@ -15,9 +17,10 @@ import json
 import os
 import random
 import time
+import warnings
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
 
@@ -25,11 +28,12 @@ import numpy as np
 
 from ._types import Array
 from . import store
-from .ensemble_folder import FIELDS, Folder, Found
+from ._paths import remove_abandoned
+from .ensemble_folder import FIELDS, Folder, Found, builds_of
 from .ensemble_pool import LocalPool, WorkerDied
 from .ensemble_protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
 
-from .store import StoreError
+from .sealed import StoreError, open_file
 from .system import System
 
 WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work
@@ -37,6 +41,7 @@ ATTEMPTS = 3  # workers that may be lost over one packing before it is recorded 
 INDEX_SECONDS = 10.0  # rows are added to the index so often
 
 __all__ = [
+    "DamagedWarning",
     "Ensemble",
     "Entry",
     "LocalPool",
@@ -48,11 +53,19 @@ __all__ = [
     "complete",
     "make",
     "minimal",
+    "protocols",
+    "table",
     "to_json",
 ]
 
 
-def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1) -> tuple[Any, ...]:
+class DamagedWarning(UserWarning):
+    """Files of an ensemble that cannot be read are left out; the text names them."""
+
+
+def make_packing(
+    folder: str, protocol: str, seed: int, attempt: int = 1, remake_damaged: bool = False
+) -> tuple[Any, ...]:
     """Makes one packing and its file: the call that an executor runs.
 
     Parameters
@@ -61,17 +74,25 @@ def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1) -> tup
         Folder of the ensemble; the complete protocol as JSON.
     attempt : int
         How often this seed was tried, so that a scheduler takes it for a new call.
+    remake_damaged : bool
+        Makes a packing again whose file cannot be read.
 
     Returns
     -------
     tuple
-        ("done", name, size, changed, row) or ("failed", name, text).
+        ("done", name, size, changed, row), ("failed", name, text) or ("damaged", name, text).
     """
     files, chosen = Folder(folder), json.loads(protocol)
     protocol_id = identity(chosen)
     name = packing_name(protocol_id, seed)
     path = files.packing(name)
-    if not path.exists():  # somebody else may have made it since
+    row = b""
+    try:
+        row = files.row_from_file(name, path)  # somebody else may have made it since
+    except StoreError as error:
+        if path.exists() and not remake_damaged:
+            return "damaged", name, str(error.strerror)
+    if not row:
         start, cpu = time.monotonic(), time.process_time()
         try:
             system, results = make(chosen, seed)
@@ -82,9 +103,10 @@ def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1) -> tup
         times = {"seconds_made": time.monotonic() - start, "seconds_processor": time.process_time() - cpu}
         data = store.image(system, analysis=results, protocol=protocol, protocol_id=protocol_id, times=times)
         store.write_file(path, data, files.parts)
+        row = files.row_from_file(name, path)
     files.failure(name).unlink(missing_ok=True)
     stat = path.stat()
-    return "done", name, stat.st_size, stat.st_mtime_ns, files._row_from_file(name, str(path))
+    return "done", name, stat.st_size, stat.st_mtime_ns, row
 
 
 @dataclass(frozen=True)
@@ -95,17 +117,26 @@ class Status:
     done: int
     jammed: int
     failed: int
+    #: What is wrong with each file that cannot be read; a text names its file. Without seeds: of any protocol.
+    damaged: tuple[str, ...] = ()
+    #: Builds of libjam that made the packings: more than one may differ in the last bits. The table has columns of it.
+    builds: tuple[str, ...] = field(default=())
 
     @property
     def missing(self) -> int:
-        """Neither made nor failed."""
-        return self.asked - self.done - self.failed
+        """Neither made, failed nor damaged."""
+        return max(0, self.asked - self.done - self.failed - len(self.damaged))
 
     def __str__(self) -> str:
-        return (
+        text = (
             f"{self.done} of {self.asked} packings are there, {self.jammed} jammed; {self.failed} failed, "
             f"{self.missing} to be made"
         )
+        if self.damaged:
+            text += f"; {len(self.damaged)} damaged and left out: " + "; ".join(self.damaged[:3])
+        if len(self.builds) > 1:
+            text += f"; made by {len(self.builds)} builds: " + ", ".join(self.builds)
+        return text
 
 
 class Entry:
@@ -126,17 +157,19 @@ class Entry:
         "history": "history",
     }
 
-    def __init__(self, row: Any, path: Path) -> None:
+    def __init__(self, row: Any, path: Path, unverified: bool = False) -> None:
         #: The row of the table
         self.row = row
         #: The file
         self.path = path
+        self._unverified = unverified
 
     seed = property(lambda self: int(self.row["seed"]))
 
     def read(self, *names: str) -> tuple[Any, ...]:
         """Several of the attributes with one opening of the file."""
-        with store.open_file(self.path) as file:
+        with open_file(self.path, self._unverified) as file:
+            store._jam(file, self.path)
             return tuple(self._get(file, name) for name in names)
 
     def _get(self, file: Any, name: str) -> Any:
@@ -161,7 +194,7 @@ class Entry:
 
     def system(self) -> System:
         """The packing itself."""
-        return store.load(self.path)
+        return store.load(self.path, unverified=self._unverified)
 
     def __repr__(self) -> str:
         return f"Entry(seed={self.seed}, n={self.row['n']}, jammed={self.row['jammed']}, {self.path.name})"
@@ -174,17 +207,30 @@ class Ensemble:
     ----------
     folder : path
         Made by run() where it is missing. Other protocols may live in it, and other campaigns may run in it.
-    protocol : mapping, optional
-        See jam.ensemble_protocol; ``dict(n=128, dim=3)`` is enough. None: the only one of the folder.
+    protocol : mapping or str, optional
+        See jam.ensemble_protocol; ``dict(n=128, dim=3)`` is enough. A str is the name of one of the folder, or its
+        beginning; None: the only one of the folder.
+    unverified : bool
+        Also reads files without a seal, or with one that does not fit: of an older version, or changed by another
+        program. Only for files of your own.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], protocol: Mapping[str, Any] | None = None) -> None:
-        self.files = Folder(folder)
-        if protocol is None:
-            known = self.files.protocols()
+    def __init__(
+        self,
+        folder: str | os.PathLike[str],
+        protocol: Mapping[str, Any] | str | None = None,
+        unverified: bool = False,
+    ) -> None:
+        self.files = Folder(folder, unverified)
+        if protocol is None or isinstance(protocol, str):
+            names = self.files.protocol_names()
+            known = [k for k in names if k.startswith(protocol or "")]
             if len(known) != 1:
-                raise ProtocolError(f"{folder} holds {len(known)} protocols ({', '.join(known) or 'none'}): give one")
-            protocol = next(iter(known.values()))  # as it was written: later options have their defaults in it
+                asked = "" if protocol is None else f", {len(known)} of them begin with {protocol!r}"
+                raise ProtocolError(
+                    f"{folder} holds {len(names)} protocols ({', '.join(names) or 'none'}){asked}: give one, or its name"
+                )
+            protocol = self.files.protocol(known[0])  # as it was written: later options have their defaults in it
         else:
             protocol = complete(protocol)
         #: The protocol with every default spelled out
@@ -204,6 +250,7 @@ class Ensemble:
         progress: bool = True,
         retry: bool = False,
         workers: int | None = None,
+        remake_damaged: bool = False,
     ) -> Status:
         """Makes the packings of these seeds that are not there yet.
 
@@ -218,6 +265,8 @@ class Ensemble:
             A bar by tqdm on a terminal.
         retry : bool
             Also those that failed before.
+        remake_damaged : bool
+            Also those whose file cannot be read: it is replaced. Without it such a file stays, and status() names it.
 
         Returns
         -------
@@ -234,17 +283,20 @@ class Ensemble:
         self.files.keep_protocol(self.id, to_json(self.protocol))
         done, failed = self.files.scan()
         names = {s: self.name(s) for s in seeds}
-        todo = [s for s in seeds if names[s] not in done and (retry or names[s] not in failed)]
+        left_out = self.files.rows({k: done[k] for k in names.values() if k in done})[1] if remake_damaged else {}
+        todo = [
+            s for s in seeds if (names[s] not in done and (retry or names[s] not in failed)) or names[s] in left_out
+        ]
         random.shuffle(todo)  # two campaigns with the same seeds then share the work
         own = executor is None
         pool = LocalPool(workers) if executor is None else executor
         try:
-            _Run(self, pool, _bar(progress, len(seeds), len(seeds) - len(todo))).work(todo)
+            _Run(self, pool, _bar(progress, len(seeds), len(seeds) - len(todo)), remake_damaged).work(todo)
         except BaseException:
             if own:
                 pool.shutdown(cancel_futures=True)  # packings under way are dropped, their workers killed
                 with suppress(OSError):  # the error that ended the campaign is the one to tell
-                    self.files.remove_stale_parts()  # a worker may have been killed while it wrote
+                    remove_abandoned(self.files.parts)  # a worker may have been killed while it wrote
             raise
         if own:
             pool.shutdown()
@@ -254,19 +306,27 @@ class Ensemble:
     def status(self, seeds: Iterable[int] | None = None) -> Status:
         """What is there of the seeds; None: of all that were made or failed."""
         done, failed = self.files.scan()
-        rows = self._rows(done)
+        rows, left_out = self.files.rows(done)
+        rows = rows[rows["protocol"] == self.id.encode()]
         if seeds is None:
             lost = sum(f["protocol"] == self.id for f in self.files.failures(failed))
-            return Status(len(rows) + lost, len(rows), int((rows["jammed"] != 0).sum()), lost)
-        names = [self.name(s) for s in dict.fromkeys(seeds)]
-        there = np.isin(rows["name"], np.array(names, "S32"))
-        jammed = int((rows["jammed"][there] != 0).sum())
-        return Status(len(names), int(there.sum()), jammed, sum(n in failed for n in names))
+            asked = len(rows) + lost + len(left_out)
+        else:
+            names = [self.name(s) for s in dict.fromkeys(seeds)]
+            rows = rows[np.isin(rows["name"], np.array(names, "S32"))]
+            left_out = {k: v for k, v in left_out.items() if k in set(names)}
+            asked, lost = len(names), sum(n in failed for n in names)
+        jammed = int((rows["jammed"] != 0).sum())
+        return Status(asked, len(rows), jammed, lost, tuple(left_out.values()), builds_of(rows))
 
-    def _rows(self, done: dict[str, Found] | None = None) -> Array:
-        rows = self.files.rows(done)
+    def _rows(self) -> Array:
+        rows = _readable(self.files)
         found: Array = rows[rows["protocol"] == self.id.encode()]
         return found
+
+    def damaged(self) -> dict[Path, str]:
+        """Files of the folder that cannot be read, of any protocol, and what is wrong with each."""
+        return {self.files.packing(name): text for name, text in self.files.rows()[1].items()}
 
     def table(self, pandas: bool = False) -> Any:
         """Reports of all packings of this protocol, a row each, by seed.
@@ -274,20 +334,18 @@ class Ensemble:
         Returns
         -------
         numpy structured array, or pandas.DataFrame
-            Fields: seed, name, protocol, version, n, dim, the fields of CrunchReport (enums as numbers),
-            crystal_score, seconds_made, written.
+            Fields: seed, name, protocol, version, commit and library (the build), n, dim, the fields of CrunchReport
+            (enums as numbers), crystal_score, seconds_made, written. Files that cannot be read have no row.
         """
-        rows = self._rows()
-        if not pandas:
-            return rows
-        import pandas as pd
-
-        return pd.DataFrame({k: rows[k].astype(str) if rows[k].dtype.kind == "S" else rows[k] for k in FIELDS})
+        return _as_table(self._rows(), pandas)
 
     def failures(self) -> list[dict[str, Any]]:
-        """Records of the seeds that failed: seed, status, text, machine, time."""
+        """Records of the seeds that failed: seed, status, text, machine, time.
+
+        Records that cannot be read, of any protocol, come first: seed -1, status "damaged_record".
+        """
         found: list[dict[str, Any]] = sorted(
-            (f for f in self.files.failures() if f["protocol"] == self.id), key=lambda f: int(f["seed"])
+            (f for f in self.files.failures() if f["protocol"] in (self.id, "")), key=lambda f: int(f["seed"])
         )
         return found
 
@@ -297,7 +355,7 @@ class Ensemble:
     def __iter__(self) -> Iterator[Entry]:
         """Entries by seed."""
         for row in self._rows():
-            yield Entry(row, self.files.packing(row["name"].decode()))
+            yield Entry(row, self.files.packing(row["name"].decode()), self.files.unverified)
 
     def each(self, *names: str, jammed: bool = True, max_crystal_score: float = np.inf) -> Iterator[Any]:
         """Results of one packing after the other: an array for one name, a tuple for several.
@@ -314,7 +372,11 @@ class Ensemble:
         for entry in self:
             if (jammed and not entry.row["jammed"]) or entry.row["crystal_score"] > max_crystal_score:
                 continue
-            found = entry.read(*names)
+            try:
+                found = entry.read(*names)
+            except StoreError as error:
+                _warn([str(error.strerror)])
+                continue
             yield found[0] if len(names) == 1 else found
 
     def export(self, folder: str | os.PathLike[str], per_shard: int = 1000) -> list[Path]:
@@ -325,37 +387,56 @@ class Ensemble:
         list of Path
             The shards, in the order of seeds.
         """
-        import h5py
-
         target = Path(folder)
         target.mkdir(parents=True, exist_ok=True)
-        entries, made = list(self), []
-        for k in range(0, len(entries), per_shard):
+        rows, made = self._rows(), []
+        for k in range(0, len(rows), per_shard):
+            names = [name.decode() for name in rows["name"][k : k + per_shard]]
             path = target / f"{self.id}-{k // per_shard:05d}.h5"
-            part = target / f".{path.name}.{os.getpid()}.part"
-            try:
-                with h5py.File(part, "w") as shard:
-                    shard.attrs["protocol"] = to_json(self.protocol)
-                    for entry in entries[k : k + per_shard]:
-                        with store.open_file(entry.path) as file:
-                            group = shard.create_group(entry.row["name"].decode())
-                            for key in file:
-                                file.copy(key, group)
-                with open(part, "rb") as file:
-                    os.fsync(file.fileno())
-                os.replace(part, path)
-            except OSError as error:
-                part.unlink(missing_ok=True)
-                raise StoreError(error.errno or 5, f"{path} cannot be written: {error}") from error
+            left_out = store.write_shard(path, to_json(self.protocol), {n: self.files.packing(n) for n in names})
+            _warn(left_out)
             made.append(path)
         return made
+
+
+def _warn(left_out: Iterable[str]) -> None:
+    texts = list(left_out)
+    if texts:
+        more = f"; and {len(texts) - 5} more" if len(texts) > 5 else ""
+        warnings.warn(f"{len(texts)} files are left out: " + "; ".join(texts[:5]) + more, DamagedWarning, stacklevel=3)
+
+
+def _readable(files: Folder) -> Array:
+    """Rows of the files that can be read; a warning names the others."""
+    rows, left_out = files.rows()
+    _warn(left_out.values())
+    return rows
+
+
+def _as_table(rows: Array, pandas: bool) -> Any:
+    if not pandas:
+        return rows
+    import pandas as pd
+
+    return pd.DataFrame({k: rows[k].astype(str) if rows[k].dtype.kind == "S" else rows[k] for k in FIELDS})
+
+
+def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
+    """The protocols of a folder by name; Ensemble(folder, name) opens one."""
+    files = Folder(folder)
+    return {name: files.protocol(name) for name in files.protocol_names()}
+
+
+def table(folder: str | os.PathLike[str], pandas: bool = False, unverified: bool = False) -> Any:
+    """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it."""
+    return _as_table(_readable(Folder(folder, unverified)), pandas)
 
 
 class _Run:
     """One campaign: hands calls to the executor and takes their answers."""
 
-    def __init__(self, ensemble: Ensemble, pool: Executor, bar: Any) -> None:
-        self.pool, self.bar, self.files = pool, bar, ensemble.files
+    def __init__(self, ensemble: Ensemble, pool: Executor, bar: Any, remake_damaged: bool) -> None:
+        self.pool, self.bar, self.files, self.remake_damaged = pool, bar, ensemble.files, remake_damaged
         self.ensemble, self.protocol = ensemble, to_json(ensemble.protocol)
         self.pending: dict[Future[Any], tuple[int, int]] = {}
         self.rows: list[tuple[str, int, int, bytes]] = []
@@ -383,7 +464,8 @@ class _Run:
 
     def _submit(self, seed: int, attempt: int) -> None:
         folder = os.fspath(self.files.path.resolve())
-        self.pending[self.pool.submit(make_packing, folder, self.protocol, seed, attempt)] = (seed, attempt)
+        call = self.pool.submit(make_packing, folder, self.protocol, seed, attempt, self.remake_damaged)
+        self.pending[call] = (seed, attempt)
 
     def _take(self, future: Future[Any], seed: int, attempt: int) -> tuple[int, int] | None:
         """Takes an answer; returns what must be tried again."""

@@ -3,7 +3,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
+import re
 import sys
+import warnings
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
 from typing import Any
@@ -54,7 +57,9 @@ def parser() -> argparse.ArgumentParser:
         v = verbs.add_parser(verb, help=text)
         v.add_argument("folder", metavar="DIR")
         v.add_argument(
-            "--protocol", metavar="FILE.json", help="the protocol; default that of DIR, if it holds one only"
+            "--protocol",
+            metavar="FILE.json|NAME",
+            help="the protocol, or the name of one of DIR; default that of DIR, if it holds one only",
         )
         v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
         v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
@@ -68,6 +73,7 @@ def parser() -> argparse.ArgumentParser:
             v.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
             v.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
             v.add_argument("--retry", action="store_true", help="also the seeds that failed before")
+            v.add_argument("--remake-damaged", action="store_true", help="also the seeds whose file cannot be read")
             v.add_argument("--quiet", action="store_true")
         if verb == "status":
             v.add_argument("--json", action="store_true")
@@ -78,10 +84,12 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _ensemble(o: argparse.Namespace) -> Ensemble:
-    chosen: dict[str, Any] | None = {k: v for k, v in (("n", o.n), ("dim", o.dim)) if v is not None} or None
+    chosen: Any = {k: v for k, v in (("n", o.n), ("dim", o.dim)) if v is not None} or None
     if o.protocol:
         if chosen:
             raise ProtocolError("--protocol and --n or --dim are two protocols")
+        if re.fullmatch("[0-9a-f]{4,12}", o.protocol) and not os.path.exists(o.protocol):
+            return Ensemble(o.folder, o.protocol)
         with open(o.protocol, encoding="utf-8") as file:
             chosen = json.load(file)
     return Ensemble(o.folder, chosen)
@@ -101,7 +109,14 @@ def _run(o: argparse.Namespace) -> Status:
 
             client = stack.enter_context(Client(o.scheduler, set_as_default=False))
             executor = client.get_executor()
-        status = ensemble.run(seeds, executor, progress=not o.quiet, retry=o.retry, workers=o.workers)
+        status = ensemble.run(
+            seeds,
+            executor,
+            progress=not o.quiet,
+            retry=o.retry,
+            workers=o.workers,
+            remake_damaged=o.remake_damaged,
+        )
     return status
 
 
@@ -130,8 +145,8 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"jam: {error}", file=sys.stderr)
         return REFUSED
     if o.verb == "status" and o.json:
-        names = ("asked", "done", "jammed", "failed", "missing")
+        names = ("asked", "done", "jammed", "failed", "missing", "damaged", "builds")
         print(json.dumps({k: getattr(status, k) for k in names}))
     elif o.verb == "status" or not o.quiet:
         print(status)
-    return PARTIAL if status.failed or status.missing else DONE
+    return PARTIAL if status.failed or status.missing or status.damaged else DONE

@@ -6,14 +6,14 @@
     parts/                       unfinished files
     index.sqlite                 rows of packings by name, size and time of change; made again from the files at any time
 
-The existence of a file is the only truth: a row of the index counts only for a file of the same size and time.
+The existence of a file is the only truth: a row of the index counts only for a file of the same size and time, and
+with the checksum that was written with it. A file that is damaged is named and left out; nobody removes it unasked.
 """
 from __future__ import annotations
 
 import hashlib
 import json
 import os
-import socket
 import sqlite3
 import time
 from pathlib import Path
@@ -24,16 +24,17 @@ import numpy as np
 from ._types import Array
 from . import store
 from ._generated import REPORTS
+from ._paths import check_writable, remove_abandoned
+from .ensemble_protocol import identity
+from .sealed import StoreError, open_file, refusing
 
-STALE_SECONDS = (
-    86400.0  # an unfinished file of another machine is removed after a day; of this one when its writer is gone
-)
 _REPORT = store._dtype(REPORTS["jam_crunch_report"])
 _REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()
 #: A row of a table: what tells packings apart, the report of the crunch, and the crystal score (nan: not asked for).
 ROW = np.dtype(
     [
-        *[("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24"), ("n", "i4"), ("dim", "i4")],
+        *[("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24")],
+        *[("commit", "S12"), ("library", "S16"), ("n", "i4"), ("dim", "i4")],
         *[(k, _REPORT[k]) for k in _REPORT_FIELDS],
         *[("crystal_score", "f8"), ("seconds_made", "f8"), ("written", "f8")],
     ]
@@ -49,16 +50,21 @@ class Found(NamedTuple):
     changed: int
 
 
-def row_of(jam: Any, name: str) -> Array:
-    """The row of a packing from its group `jam`."""
-    made = np.zeros((), ROW)
+_CHECK = 16  # bytes of the checksum behind a row in the index
+
+
+def row_of(file: Any, name: str) -> Array:
+    """The row of a packing from its open file."""
+    made, jam = np.zeros((), ROW), file["jam"]
+    attributes = jam.attrs
     for key in ("seed", "protocol", "version", "written"):
-        made[key] = jam.attrs[key]
-    made["seconds_made"] = jam.attrs.get("seconds_made", np.nan)
-    made["name"], made["n"] = name, jam["diameters"].shape[0]
-    made["dim"] = jam.parent["particles/spheres/box"].attrs["dimension"]
+        made[key] = attributes[key]
+    for key, absent in (("commit", ""), ("library", ""), ("seconds_made", np.nan)):  # older files have no builds
+        made[key] = attributes.get(key, absent)
+    made["name"], made["n"] = name, len(jam["diameters"])
+    made["dim"] = file["particles/spheres/position/value"].shape[2]
     if "report" in jam:
-        report = jam["report"][()]
+        report = jam["report"]
         for key in set(_REPORT_FIELDS) & set(report.dtype.names):
             made[key] = report[key]
     score = jam.get("analysis/crystal_score")
@@ -66,11 +72,20 @@ def row_of(jam: Any, name: str) -> Array:
     return made
 
 
-class Folder:
-    """Files of one folder."""
+def builds_of(rows: Array) -> tuple[str, ...]:
+    """The builds of libjam that made the packings of a table: version, commit, digest of the library."""
+    found = np.unique(rows[["version", "commit", "library"]])
+    return tuple(
+        " ".join(f"{word} {part.decode()}".strip() for word, part in zip(("", "commit", "library"), row) if part)
+        for row in found
+    )
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(path)
+
+class Folder:
+    """Files of one folder. unverified: also those without a seal, or with one that does not fit."""
+
+    def __init__(self, path: str | os.PathLike[str], unverified: bool = False) -> None:
+        self.path, self.unverified = Path(path), unverified
         self.packings, self.parts = self.path / "packings", self.path / "parts"
 
     # ---- names
@@ -85,26 +100,28 @@ class Folder:
         try:
             for part in [self.path / "protocols", self.parts] + [self.packings / f"{k:02x}" for k in range(256)]:
                 part.mkdir(parents=True, exist_ok=True)
-            probe = self.parts / f".probe.{socket.gethostname()}.{os.getpid()}.part"
-            probe.write_bytes(b"")
-            probe.unlink()
+            check_writable(self.parts)
         except OSError as error:
-            raise store.StoreError(
-                error.errno, f"{self.path}: this folder cannot be written: {error.strerror}"
-            ) from error
-        self.remove_stale_parts()
-
-    def remove_stale_parts(self) -> None:
-        """Removes unfinished files whose writer is gone."""
-        for file in self.parts.iterdir():
-            if _is_stale(file):
-                file.unlink(missing_ok=True)
+            raise StoreError(error.errno, f"{self.path}: this folder cannot be written: {error.strerror}") from error
+        remove_abandoned(self.parts)
 
     # ---- protocols
-    def protocols(self) -> dict[str, dict[str, Any]]:
-        """Protocols by name."""
-        found = sorted((self.path / "protocols").glob("*.json"))
-        return {p.stem: json.loads(p.read_text(encoding="utf-8")) for p in found}
+    def protocol_names(self) -> list[str]:
+        """Names of the protocols, in order."""
+        return sorted(p.stem for p in (self.path / "protocols").glob("*.json"))
+
+    def protocol(self, name: str) -> dict[str, Any]:
+        """The protocol of a name, as it was written: later options have their defaults in it."""
+        path = self.path / "protocols" / (name + ".json")
+        with refusing(path):
+            found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+            if identity(found) != name:
+                raise StoreError(
+                    22,
+                    f"{path} does not hold the protocol of its name: it was changed, or this version has other "
+                    "defaults. Give the protocol itself",
+                )
+        return found
 
     def keep_protocol(self, name: str, text: str) -> None:
         path = self.path / "protocols" / (name + ".json")
@@ -129,35 +146,39 @@ class Folder:
                         (done if kind == "h5" else failed)[name] = Found(entry.path, stat.st_size, stat.st_mtime_ns)
         return done, {k: v for k, v in failed.items() if k not in done}
 
-    def rows(self, done: dict[str, Found] | None = None) -> Array:
-        """Rows of all packings that are there, by seed: from the index where it fits, else from the files."""
+    def rows(self, done: dict[str, Found] | None = None) -> tuple[Array, dict[str, str]]:
+        """Rows of all packings that are there, by seed: from the index where it fits, else from the files.
+
+        Files that cannot be read have no row: the second answer has a text for the name of each.
+        """
         done = self.scan()[0] if done is None else done
-        blobs, unknown, fresh = [], [], []
+        blobs, fresh = [], []
+        left_out: dict[str, str] = {}
         known = self._index_read()
         for name, found in done.items():
             size, changed, blob = known.get(name, (0, 0, b""))
-            if size == found.size and changed == found.changed:
-                blobs.append(blob)
-            else:
-                unknown.append((name, found))
-        for name, found in unknown:
-            blob = self._row_from_file(name, found.path)
-            if blob:
-                blobs.append(blob)
-                fresh.append((name, found.size, found.changed, blob))
-        self.index_add(fresh)
+            if (size, changed) != found[1:] or not isinstance(blob, bytes):
+                blob = b""
+            if blob[ROW.itemsize :] != _checksum(name, found.size, found.changed, blob[: ROW.itemsize]):
+                try:
+                    row = self.row_from_file(name, found.path)
+                except StoreError as error:
+                    if os.path.exists(found.path):  # else removed by somebody since the scan
+                        left_out[name] = str(error.strerror)
+                    continue
+                blob = row + _checksum(name, found.size, found.changed, row)
+                fresh.append((name, found.size, found.changed, row))
+            blobs.append(blob[: ROW.itemsize])
+        if not self.unverified:
+            self.index_add(fresh)
         rows = np.frombuffer(b"".join(blobs), ROW)
-        return rows[np.argsort(rows["seed"], kind="stable")]
+        return rows[np.argsort(rows["seed"], kind="stable")], left_out
 
-    @staticmethod
-    def _row_from_file(name: str, path: str) -> bytes:
-        try:
-            with store.open_file(path) as file:
-                return row_of(store._jam(file, path), name).tobytes()
-        except store.StoreError:
-            if os.path.exists(path):
-                raise
-            return b""  # removed by somebody since the scan
+    def row_from_file(self, name: str, path: str | os.PathLike[str]) -> bytes:
+        """The row of a packing from its file."""
+        with open_file(path, self.unverified) as file, refusing(path):
+            store._jam(file, path)
+            return row_of(file, name).tobytes()
 
     # ---- index
     def _index(self) -> sqlite3.Connection:
@@ -184,14 +205,15 @@ class Folder:
             return {}  # busy or damaged: the files say all
 
     def index_add(self, rows: list[tuple[str, int, int, bytes]]) -> None:
-        """Adds rows to the index. Nothing is lost where that cannot be: the files are read instead."""
+        """Adds name, size, time of change and row. Nothing is lost where that cannot be: the files are read instead."""
         if not rows:
             return
         try:
             base = self._index()
             try:
                 with base:
-                    base.executemany("INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?)", rows)
+                    checked = [(k, size, at, row + _checksum(k, size, at, row)) for k, size, at, row in rows]
+                    base.executemany("INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?)", checked)
             finally:
                 base.close()
         except sqlite3.DatabaseError as error:
@@ -200,10 +222,18 @@ class Folder:
 
     # ---- failures
     def failures(self, failed: dict[str, Found] | None = None) -> Iterator[dict[str, Any]]:
-        """Records of failures: seed, protocol, status, text, version, machine, time."""
+        """Records of failures: seed, protocol, status, text, version, commit, machine, time.
+
+        One that cannot be read has the status "damaged_record", the seed -1 and no protocol.
+        """
         for found in (self.scan()[1] if failed is None else failed).values():
-            with open(found.path, encoding="utf-8") as file:
-                yield json.load(file)
+            try:
+                with refusing(found.path), open(found.path, encoding="utf-8") as file:
+                    record = json.load(file)
+                    record = {**record, "seed": int(record["seed"]), "protocol": str(record["protocol"])}
+            except StoreError as error:
+                record = {"seed": -1, "protocol": "", "status": "damaged_record", "text": error.strerror, "time": 0.0}
+            yield record
 
     def write_failure(self, name: str, protocol_id: str, seed: int, status: str, text: str) -> None:
         record = {"seed": seed, "protocol": protocol_id, "status": status, "text": text, "time": time.time()}
@@ -213,24 +243,9 @@ class Folder:
 
 def hash_of_row() -> int:
     """A number that changes with ROW: an index of another layout is made again."""
-    return int.from_bytes(hashlib.sha256(str(ROW.descr).encode()).digest()[:3], "big") + 1
+    return int.from_bytes(hashlib.sha256(f"{ROW.descr} {_CHECK}".encode()).digest()[:3], "big") + 1
 
 
-def _is_stale(file: Path) -> bool:
-    """Whether the writer of an unfinished file is gone: its name ends in machine.process.random.part."""
-    try:
-        *_, process, _, part = file.name.split(".")
-        age = time.time() - file.stat().st_mtime
-    except (ValueError, OSError):
-        return False
-    if part != "part":
-        return False
-    if f".{socket.gethostname()}." not in file.name:
-        return age > STALE_SECONDS
-    try:
-        os.kill(int(process), 0)
-    except ProcessLookupError:
-        return True
-    except (ValueError, PermissionError):
-        pass
-    return False
+def _checksum(name: str, size: int, changed: int, row: bytes) -> bytes:
+    """Behind a row in the index: a changed row, or one of another file, is read from its file again."""
+    return hashlib.sha256(f"{name} {size} {changed} ".encode() + row).digest()[:_CHECK]

@@ -11,12 +11,16 @@
     jam/protocol, jam/calls      JSON: the protocol; the calls made with every option and what ended them
     jam/analysis                 results of the protocol's analysis by name
 
+The file is sealed (see sealed.py): what is read was written by save() to the last bit, and libhdf5 does not parse it.
+Attributes beside the arrays say what they mean (see _explain.py).
+
 A file is made in memory, written beside under a name nobody else has, flushed to the disk, and renamed. Readers hence
 see all of a file or none of it, and a writer that is killed leaves only a file of the folder `parts`.
 """
 from __future__ import annotations
 
 import functools
+import hashlib
 import io
 import json
 import os
@@ -24,31 +28,24 @@ import platform
 import re
 import socket
 import time
-import uuid
 from dataclasses import fields, is_dataclass
 from enum import IntEnum
 from pathlib import Path
 from typing import Any, Mapping
 
+import h5py
 import numpy as np
 
 from ._types import Array
-from . import _generated, raw
-from ._paths import replaceable
+from . import _generated, errors, raw
+from ._explain import explain, report_text, report_type
+from ._paths import replacing
 from .results import Contacts
+from .sealed import Group, Shard, StoreError, damaged, open_file, refusing, seal
 from .system import System, _restore
-
-try:
-    import h5py
-except ImportError as error:  # pragma: no cover
-    raise ImportError("packings are stored by h5py: install python3-h5py") from error
 
 SCHEMA = 1
 _CONTACTS = ("pairs", "vectors", "gaps", "forces")
-
-
-class StoreError(OSError):
-    """A file of packings that cannot be written or read; the text names the file, the cause and what to do."""
 
 
 # ---- compound values
@@ -89,12 +86,14 @@ def _library() -> str | None:
 
 @functools.lru_cache(maxsize=None)
 def provenance() -> dict[str, str]:
-    """Version, compiler, BLAS kernel, machine and Python of this process."""
-    compiler, cpu = "unknown", platform.machine()
+    """Version, commit, compiler, BLAS kernel, machine and Python of this process, and a digest of the library itself."""
+    compiler, cpu, digest = "unknown", platform.machine(), ""
     path = _library()
     if path:
-        found = re.search(rb"(GCC: \([^)]*\) [\d.]+|clang version [\d.]+)", Path(path).read_bytes())
+        data = Path(path).read_bytes()
+        found = re.search(rb"(GCC: \([^)]*\) [\d.]+|clang version [\d.]+)", data)
         compiler = found.group(1).decode() if found else compiler
+        digest = hashlib.sha256(data).hexdigest()[:16]
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as info:
             cpu = next((line.partition(":")[2].strip() for line in info if line.startswith("model name")), cpu)
@@ -102,6 +101,8 @@ def provenance() -> dict[str, str]:
         pass
     return {
         "version": raw.jam_version(),
+        "commit": raw.jam_commit(),
+        "library": digest,
         "blas_kernel": raw.jam_blas_kernel(),
         "abi": str(raw.jam_abi_version()),
         "compiler": compiler,
@@ -113,6 +114,12 @@ def provenance() -> dict[str, str]:
 
 
 # ---- writing
+def _text(value: str) -> Any:
+    """Text of fixed length, which lies in one place of a file."""
+    data = value.encode()
+    return np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))
+
+
 def _put(group: Any, name: str, value: Any) -> None:
     """Any result of a call: a number, text, an array, a report, a named tuple of them."""
     if hasattr(value, "_asdict"):
@@ -120,9 +127,12 @@ def _put(group: Any, name: str, value: Any) -> None:
         for key, part in value._asdict().items():
             _put(inner, key, part)
     elif is_dataclass(value):
-        group.create_dataset(name, data=pack(value))
+        cls: Any = type(value)
+        node = group.create_dataset(name, data=pack(value).astype(report_type(cls)))
+        node.attrs.update(report_text(cls))
     elif value is not None:
-        group.create_dataset(name, data=value)
+        node = group.create_dataset(name, data=_text(value) if isinstance(value, str) else value)
+        explain(node, node.name.lstrip("/"))
 
 
 def _h5md(file: Any, system: System) -> None:
@@ -135,12 +145,12 @@ def _h5md(file: Any, system: System) -> None:
     box = spheres.create_group("box")
     box.attrs["dimension"] = np.int32(system.dim)
     box.attrs["boundary"] = ["periodic"] * system.dim
-    position = spheres.create_group("position")
-    position.create_dataset("value", data=system.positions[None])
+    _put(spheres, "position/value", system.positions[None])
+    position = spheres["position"]
     position.create_dataset("step", data=np.zeros(1, np.int64))
     position.create_dataset("time", data=np.zeros(1))
-    edges = box.create_group("edges")
-    edges.create_dataset("value", data=system.cell[None])
+    _put(box, "edges/value", system.cell[None])
+    edges = box["edges"]
     edges["step"], edges["time"] = position["step"], position["time"]
 
 
@@ -165,63 +175,41 @@ def image(
     times : mapping, optional
         Seconds by name, beside the moment of writing.
     """
-    memory = io.BytesIO()
-    with h5py.File(memory, "w") as file:  # the oldest layout: every HDF5 reads it
+
+    def fill(file: Any) -> list[str]:
         _h5md(file, system)
         group = file.create_group("jam")
         group.attrs.update({"schema": SCHEMA, "seed": system.seed, "protocol": protocol_id, **provenance()})
         group.attrs["written"] = time.time()
         group.attrs.update(times or {})
         state, carried, calls = system.__reduce__()[1][:3]
-        group.create_dataset("state", data=np.frombuffer(state, np.uint8))
-        group.create_dataset("diameters", data=system.diameters)
+        _put(group, "state", np.frombuffer(state, np.uint8))
+        _put(group, "diameters", system.diameters)
         if carried:
             report, contacts, history = carried
             _put(group, "report", report)
             _put(group, "history", history)
             if contacts is not None:
-                group.create_dataset("coordination", data=system.coordination)
+                _put(group, "coordination", system.coordination)
                 for name in _CONTACTS:
-                    group.create_dataset("contacts/" + name, data=getattr(contacts, name))
-        group.create_dataset("calls", data=json.dumps(calls))
-        if protocol:
-            group.create_dataset("protocol", data=protocol)
+                    _put(group, "contacts/" + name, getattr(contacts, name))
+        _put(group, "calls", json.dumps(calls))
+        _put(group, "protocol", protocol)
         results = group.create_group("analysis")
         for name, value in (analysis or {}).items():
             _put(results, name, value)
+        return []
+
+    memory = io.BytesIO()
+    seal(memory, fill)
     return memory.getvalue()
 
 
 def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLike[str] | None = None) -> None:
-    """Writes a file so that it is there as a whole or not at all: beside, flushed to the disk, renamed.
-
-    Parameters
-    ----------
-    parts : path, optional
-        Folder of the unfinished file, on the same file system; default that of the file.
-    """
+    """Writes a file so that it is there as a whole or not at all; see _paths.replacing."""
     try:
-        path = Path(replaceable(path))
-    except OSError as error:
-        raise StoreError(error.errno, f"{path} cannot be written: {error.strerror}") from error
-    name = f".{path.name}.{socket.gethostname()}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part"
-    beside = Path(parts or path.parent) / name
-    try:
-        descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
-        try:
-            with os.fdopen(descriptor, "wb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(beside, path)
-        except BaseException:
-            os.unlink(beside)
-            raise
-        folder = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
+        with replacing(path, parts=parts) as file:
+            file.write(data)
     except OSError as error:
         raise StoreError(
             error.errno,
@@ -235,64 +223,158 @@ def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:
     write_file(path, image(system, **more))
 
 
-# ---- reading
-def open_file(path: str | os.PathLike[str]) -> Any:
-    """The h5py.File of a packing or of a shard, read-only."""
+def write_shard(path: str | os.PathLike[str], protocol: str, packings: Mapping[str, Path]) -> list[str]:
+    """Writes one file of many packings, a group each, from their files by name.
+
+    Returns what is wrong with each file that cannot be read: it is left out.
+    """
+    left_out: list[str] = []
+
+    def fill(shard: Any) -> list[str]:
+        shard.attrs["protocol"], made = protocol, []
+        for name, source in packings.items():
+            try:
+                with open_file(source) as file:  # checked as a whole
+                    _jam(file, source)
+                    _copy(file, shard.create_group(name))
+                    made.append(name)
+            except StoreError as error:
+                left_out.append(str(error.strerror))
+        return made
+
     try:
-        return h5py.File(path, "r", locking=False)
-    except FileNotFoundError:
-        raise StoreError(2, f"{path}: there is no such file") from None
+        with replacing(path, "w+b") as memory:
+            seal(memory, fill)
+    except StoreError:
+        raise
     except OSError as error:
-        raise StoreError(5, f"{path} is no file of packings: {error}") from error
+        raise StoreError(error.errno or 5, f"{path} cannot be written: {error}") from error
+    return left_out
 
 
-def _jam(group: Any, path: Any) -> Any:
-    found = group.get("jam")
-    if found is None or "schema" not in found.attrs:
-        names = [k for k, v in group.items() if isinstance(v, h5py.Group) and "jam" in v]
-        if names:
-            raise StoreError(22, f"{path} is a shard of {len(names)} packings: name one, e.g. name={names[0]!r}")
+def _copy(source: Any, target: Any, at: str = "") -> None:
+    """A group of a file into another file."""
+    target.attrs.update(source.attrs)
+    for name, node in source.items():
+        if isinstance(node, Group):
+            _copy(node, target.create_group(name), f"{at}{name}/")
+        elif at + name == "jam/report":
+            _put(target, name, unpack(node, _report_class()))
+        else:
+            explain(target.create_dataset(name, data=node), at + name)
+
+
+# ---- reading
+def _jam(file: Group | Shard, path: Any) -> Group:
+    """The group `jam` of a file of one packing."""
+    if isinstance(file, Shard):
+        raise StoreError(22, f"{path} is a shard of {len(file)} packings: name one, e.g. name={next(iter(file))!r}")
+    if "jam" not in file or "schema" not in file["jam"].attrs:
         raise StoreError(22, f"{path} holds no packing of jam (no group `jam`)")
+    found: Group = file["jam"]
     if int(found.attrs["schema"]) > SCHEMA:
         raise StoreError(22, f"{path}: schema {found.attrs['schema']} is newer than this jam, which knows {SCHEMA}")
     return found
 
 
-def results_of(jam: Any) -> tuple[Any, ...] | None:
+def _checked(name: str, value: Array, kind: str, *shape: int) -> Array:
+    """An array of a type and a shape, -1 for any length."""
+    fits = value.ndim == len(shape) and all(a in (-1, b) for a, b in zip(shape, value.shape))
+    if not fits or not np.can_cast(value.dtype, kind, "safe"):
+        raise ValueError(f"{name} is {value.dtype} of shape {value.shape}, not {kind} of {shape}")
+    return value
+
+
+def _record(name: str, value: Array, dimensions: int) -> Array:
+    """A record of numbers, or a row of them."""
+    names = value.dtype.names or ()
+    if value.ndim != dimensions or not names or any(value.dtype[k].kind not in "iufb" for k in names):
+        raise ValueError(f"{name} is {value.dtype} of shape {value.shape}, not a record of numbers")
+    return value
+
+
+def contacts_of(jam: Group, n: int, dim: int) -> Contacts | None:
+    """The contacts in a group `jam`, whose shapes and indices fit n spheres, or None."""
+    if "contacts" not in jam:
+        return None
+    pairs, vectors, gaps, forces = (jam["contacts/" + k] for k in _CONTACTS)
+    count = len(_checked("contacts/pairs", pairs, "i4", -1, 2))
+    if count and not (0 <= pairs.min() and pairs.max() < n):
+        raise ValueError(f"contacts/pairs name spheres {pairs.min()} to {pairs.max()} of {n}")
+    _checked("contacts/vectors", vectors, "f8", count, dim)
+    _checked("contacts/gaps", gaps, "f8", count)
+    _checked("contacts/forces", forces, "f8", count)
+    return Contacts(pairs, vectors, gaps, forces)
+
+
+def results_of(jam: Group, n: int, dim: int) -> tuple[Any, ...] | None:
     """Report, contacts and history of a group `jam`, or None."""
-    report = unpack(jam["report"][()], _report_class()) if "report" in jam else None
-    contacts = Contacts(*(jam["contacts/" + k][()] for k in _CONTACTS)) if "contacts" in jam else None
+    report = unpack(_record("report", jam["report"], 0)[()], _report_class()) if "report" in jam else None
+    contacts = contacts_of(jam, n, dim)
     if report is None and contacts is None:
         return None
-    return report, contacts, jam["history"][()] if "history" in jam else None
+    return report, contacts, _record("history", jam["history"], 1) if "history" in jam else None
 
 
 def _report_class() -> type:
     return _generated.REPORTS["jam_crunch_report"]
 
 
-def load(path: str | os.PathLike[str], name: str | None = None) -> System:
+def load(
+    path: str | os.PathLike[str],
+    name: str | None = None,
+    *,
+    unverified: bool = False,
+    memory_limit: float | None = None,
+) -> System:
     """A packing from a file of save(), of an ensemble, or, by its name, from a shard of Ensemble.export.
 
     Reports, contacts, forces, coordination and history are those that were stored. Calls that need the network in
     memory (Hessian, modes, floppy modes) ask for contacts_from_geometry() first.
+
+    Parameters
+    ----------
+    name : str, optional
+        Of the packing in a shard.
+    unverified : bool
+        Reads a file that an older version wrote, or another program changed. Only for files of your own.
+    memory_limit : float, optional
+        Bytes of the largest file that is read; default a quarter of the machine's memory.
+
+    Raises
+    ------
+    StoreError
+        The file is not there, is damaged, was changed since it was written, or holds no packing. The text names it.
     """
-    with open_file(path) as file:
+    with open_file(path, unverified, memory_limit) as file, refusing(path):
         if name is not None and name not in file:
             raise StoreError(22, f"{path} holds no packing {name!r}")
-        jam = _jam(file if name is None else file[name], path)
-        calls = json.loads(jam["calls"][()])
-        return _restore(jam["state"][()].tobytes(), results_of(jam), calls, [])
+        packing: Any = file if name is None else file[name]
+        jam, places = _jam(packing, path), packing["particles/spheres/position/value"]
+        n = len(_checked("diameters", jam["diameters"], "f8", -1))
+        dim = _checked("position/value", places, "f8", 1, n, -1).shape[2]
+        calls = json.loads(bytes(jam["calls"][()]))
+        if not (isinstance(calls, list) and all(isinstance(c, dict) for c in calls)):
+            raise ValueError("jam/calls is no list of calls")
+        try:
+            made = _restore(jam["state"][()].tobytes(), results_of(jam, n, dim), calls, [])
+        except errors.JamError as error:
+            if isinstance(error, MemoryError):
+                raise
+            raise damaged(path, f"jam/state: {error}") from error
+        if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, jam["diameters"])):
+            raise damaged(path, "positions or diameters are not those of jam/state")
+        return made
 
 
 def _read(node: Any) -> Any:
-    if isinstance(node, h5py.Group):
+    if isinstance(node, Group):
         return {k: _read(v) for k, v in node.items()}
     value = node[()]
     return value.decode() if isinstance(value, bytes) else value
 
 
-def analysis_of(jam: Any) -> dict[str, Any]:
+def analysis_of(jam: Group) -> dict[str, Any]:
     """Results of the analysis in a group `jam`: named tuples come back as dicts."""
     found: dict[str, Any] = _read(jam["analysis"]) if "analysis" in jam else {}
     return found

@@ -1,0 +1,88 @@
+"""What the arrays of a file mean, written beside them as attributes, so that plain h5py explains itself."""
+from __future__ import annotations
+
+import functools
+import inspect
+import re
+from dataclasses import fields
+from enum import IntEnum
+from typing import Any
+
+import h5py
+import numpy as np
+
+from . import _generated
+from ._generated import HistoryColumn, StepPhase
+
+#: Unit and meaning of each array by its name. Lengths have the unit of the box.
+_MEANING = {
+    "particles/spheres/position/value": ("length", "centres (1, n, d), in the cell whose vectors are box/edges"),
+    "particles/spheres/box/edges/value": ("length", "cell vectors (1, d, d), one a row"),
+    "jam/state": ("", "bytes of a checkpoint of libjam, which System.from_checkpoint reads: all that dynamics need"),
+    "jam/diameters": ("length", "diameter of each sphere (n,)"),
+    "jam/contacts/pairs": ("", "spheres i < j of each contact, from 0; i = j: a sphere and its own image"),
+    "jam/contacts/vectors": ("1", "unit vector from the centre of j to that of i, of the image that touches"),
+    "jam/contacts/gaps": ("1", "h = r / sigma_ij - 1: 0 touches, > 0 open, < 0 overlaps"),
+    "jam/contacts/forces": ("1", "force of each contact, mean 1; > 0 pushes the spheres apart"),
+    "jam/coordination": ("1", "contacts of each sphere (n,); 0: a rattler"),
+    "jam/report": ("", "report of the crunch: jam_crunch_report of jam.h"),
+    "jam/history": ("", "steps of the crunch in order, one a row"),
+    "jam/calls": ("", "JSON: the calls that moved the spheres, each with all options and what ended it"),
+    "jam/protocol": ("", "JSON: the protocol of the ensemble, every default spelled out"),
+}
+
+
+def _members(cls: type) -> list[tuple[IntEnum, str]]:
+    """Members of an enum with the meaning that stands beside each in the source."""
+    try:
+        found = dict(re.findall(r"^    (\w+) = -?\d+  # (.*)$", inspect.getsource(cls), flags=re.M))
+    except OSError:  # installed without sources
+        found = {}
+    members: Any = cls
+    return [(m, found.get(m.name, "")) for m in members]
+
+
+def _words(cls: type) -> str:
+    return "; ".join(f"{int(m)} {m.name.lower()}" + (f": {text}" if text else "") for m, text in _members(cls))
+
+
+def _enum(kind: str) -> Any:
+    found = getattr(_generated, kind, None)
+    return found if isinstance(found, type) and issubclass(found, IntEnum) else None
+
+
+@functools.lru_cache(maxsize=None)
+def report_type(cls: type) -> np.dtype[Any]:
+    """The type of a report in a file: enums are enums of HDF5 there, with their names."""
+    kinds: dict[str, Any] = {"int": "i8", "bool": "i8", "float": "f8"}
+    made = []
+    for f in fields(cls):
+        enum = _enum(str(f.type))
+        named = enum and h5py.enum_dtype({m.name: int(m) for m in enum}, basetype="i4")
+        made.append((f.name, named or kinds.get(str(f.type), "i4")))
+    return np.dtype(made)
+
+
+@functools.lru_cache(maxsize=None)
+def report_text(cls: type) -> dict[str, str]:
+    """Attributes of a report: its fields, and the numbers of each enum."""
+    text = inspect.cleandoc(cls.__doc__ or "")
+    enums = {str(f.type): _enum(str(f.type)) for f in fields(cls)}
+    return {"fields": text, **{kind: _words(enum) for kind, enum in enums.items() if enum}}
+
+
+@functools.lru_cache(maxsize=None)
+def _history_text() -> dict[str, str]:
+    columns = "; ".join(f"{m.name.lower()}: {text}" for m, text in _members(HistoryColumn))
+    return {"fields": columns, "phase": _words(StepPhase)}
+
+
+def explain(node: Any, path: str) -> None:
+    """Attributes of an array, where its name is known."""
+    unit, meaning = _MEANING.get(path, ("", ""))
+    if unit:
+        node.attrs["unit"] = unit
+    if meaning:
+        node.attrs["description"] = meaning
+    if path == "jam/history":
+        node.attrs.update(_history_text())

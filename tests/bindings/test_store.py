@@ -1,0 +1,353 @@
+"""Files of packings: damage is found and named, crafted files reach nothing, plain h5py finds its way, part files."""
+import hashlib
+import io
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+import jam
+from jam import _paths, sealed
+from jam.store import StoreError
+
+
+def crafted(data, change):
+    """A file whose index an attacker changed, with all checksums made to fit."""
+    data = bytearray(data)
+    at, size = map(int, re.search(rb"index (\d{20}) (\d{20})", data).groups())
+    index = json.loads(bytes(data[at : at + size]))
+    made = change(index)
+    index = index if made is None else made
+    text = index if isinstance(index, bytes) else json.dumps(index).encode()
+    data += text  # behind the HDF5, where its length does not matter
+    place = [len(data) - len(text), len(text), hashlib.sha256(text).hexdigest()]
+    data[:512] = sealed._head(len(data), place, hashlib.sha256(data[512:]).hexdigest())
+    return bytes(data)
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        cls.disks = jam.System.random(n=32, dim=2, seed=1, diameters=[1.0] * 16 + [1.4] * 16)
+        cls.disks.crunch()
+        cls.path = cls.folder / "good.h5"
+        cls.disks.save(cls.path)
+        cls.good = cls.path.read_bytes()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def written(self, data, name="changed.h5"):
+        path = self.folder / name
+        path.write_bytes(data)
+        return path
+
+
+class Damage(Case):
+    def test_the_seal_is_what_the_file_says_of_itself(self):
+        head = self.good[:512].decode()
+        self.assertIn(f"length {len(self.good):020d}", head)
+        command = f"tail -c +513 {self.path} | sha256sum"
+        found = subprocess.run(command, shell=True, capture_output=True, text=True, check=True).stdout.split()[0]
+        self.assertIn(f"\nsha256 {found}\n", head)
+
+    def test_every_flipped_bit_is_found_and_the_array_is_named(self):
+        """All ways and 8000 flips: tests/fuzz/packings.py."""
+        with h5py.File(self.path, "r") as file:
+            place = file["jam/contacts/forces"].id.get_offset()
+        for at in (place, place + 100, 3, 40, 200, 511, 512, 600, len(self.good) - 1):
+            data = bytearray(self.good)
+            data[at] ^= 4
+            with self.assertRaisesRegex(StoreError, "changed.h5") as caught:
+                jam.load(self.written(data))
+            if place <= at <= place + 100:
+                self.assertIn("jam/contacts/forces", str(caught.exception))
+
+    def test_cut_and_longer_files(self):
+        for data in (b"", self.good[:10], self.good[:511], self.good[:512], self.good[:-1], self.good + b"x"):
+            with self.assertRaisesRegex(StoreError, "changed.h5"):
+                jam.load(self.written(data))
+
+    def test_what_another_program_changed_needs_a_word(self):
+        path = self.written(self.good)
+        with h5py.File(path, "r+") as file:
+            file["jam/contacts/forces"][0] = 7.0
+        with self.assertRaisesRegex(StoreError, "jam/contacts/forces.*unverified=True"):
+            jam.load(path)
+        back = jam.load(path, unverified=True)
+        self.assertEqual(back.forces[0], 7.0)
+        back.save(path)
+        self.assertEqual(jam.load(path).forces[0], 7.0)
+        with h5py.File(path, "r+") as file:
+            file["particles/spheres/position/value"][0, 0, 0] += 0.01
+        with self.assertRaisesRegex(StoreError, "positions .* not those of jam/state"):
+            jam.load(path, unverified=True)
+        with h5py.File(path, "w") as file:  # no seal, as older versions wrote
+            with h5py.File(io.BytesIO(self.good), "r") as source:
+                for name in ("h5md", "particles", "jam"):
+                    source.copy(name, file)
+        with self.assertRaisesRegex(StoreError, "without the seal.*unverified=True"):
+            jam.load(path)
+        old = jam.load(path, unverified=True)
+        self.assertEqual(old.report, self.disks.report)
+        np.testing.assert_array_equal(old.forces, self.disks.forces)
+
+    def test_files_that_are_none(self):
+        os.mkfifo(self.folder / "pipe")
+        for name, text in (("pipe", "no regular file"), (".", "no regular file"), ("none", "No such file")):
+            with self.assertRaisesRegex(StoreError, text):
+                jam.load(self.folder / name)
+        with self.assertRaisesRegex(StoreError, "no file of packings"):
+            jam.load(self.written(b"2\n2\n0.1\n"))
+
+
+class Crafted(Case):
+    """Checksums fit, as anybody can compute them."""
+
+    def refused(self, change, text="changed.h5"):
+        limit = resource.getrlimit(resource.RLIMIT_AS)
+        path = self.written(crafted(self.good, change))
+        signal.alarm(60)
+        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, limit[1]))
+        try:
+            with self.assertRaisesRegex(StoreError, text):
+                jam.load(path)
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, limit)
+            signal.alarm(0)
+
+    def put(self, name, entry):
+        """Another entry of the index, with the checksum of the bytes it names."""
+
+        def change(index):
+            at, shape, kind = entry(*index["data"][name][:3])
+            digest = ""
+            if isinstance(kind, str):
+                size = int(np.prod(shape, dtype=object)) * int(kind[2:] or 0)
+                digest = hashlib.sha256(self.good[at : at + size]).hexdigest()
+            index["data"][name] = [at, shape, kind, digest]
+
+        return change
+
+    def test_nothing_changed_is_read(self):
+        path = self.written(crafted(self.good, lambda index: None))
+        np.testing.assert_array_equal(jam.load(path).forces, self.disks.forces)
+
+    def test_places_and_sizes_beyond_the_file(self):
+        name = "jam/contacts/forces"
+        for entry in (
+            lambda at, shape, kind: (at, [4 << 30], kind),
+            lambda at, shape, kind: (len(self.good), shape, kind),
+            lambda at, shape, kind: (-8, shape, kind),
+            lambda at, shape, kind: (at, [-1], kind),
+            lambda at, shape, kind: (at, [0, 10**18], kind),
+            lambda at, shape, kind: (at, [], "|S999999999"),
+        ):
+            self.refused(self.put(name, entry))
+
+    def test_types_that_are_no_numbers(self):
+        for kind in ("|O8", "O", "|V8", "<M8", "<f3", "|S0", [["a", "|O8"]], [], {"a": 1}, 7, None):
+            self.refused(self.put("jam/contacts/forces", lambda at, shape, _, kind=kind: (at, shape, kind)))
+
+    def test_arrays_that_do_not_fit_the_packing(self):
+        n, contacts = self.disks.n, len(self.disks.forces)
+        for name, entry in (
+            ("jam/contacts/pairs", lambda at, shape, kind: (self.good.index(self.disks.forces.tobytes()), shape, kind)),
+            ("jam/contacts/pairs", lambda at, shape, kind: (at, [2 * contacts], kind)),
+            ("jam/contacts/forces", lambda at, shape, kind: (at, [contacts - 1], kind)),
+            ("jam/contacts/vectors", lambda at, shape, kind: (at, [2 * contacts, 1], kind)),
+            ("jam/diameters", lambda at, shape, kind: (at, [n - 1], kind)),
+            ("jam/report", lambda at, shape, kind: (at, [10], "<f8")),
+            ("jam/history", lambda at, shape, kind: (at, [10], "<f8")),
+            ("jam/calls", lambda at, shape, kind: (at, [], "|S3")),
+            ("jam/state", lambda at, shape, kind: (at, [100], kind)),
+        ):
+            self.refused(self.put(name, entry))
+
+    def test_an_index_that_is_none(self):
+        for text in (
+            b"",
+            b"[" * 100000,
+            b"9" * 1000000,
+            b"\xff\xfe",
+            b"null",
+            b"[]",
+            b'{"data": 1, "attributes": 2}',
+            b'{"packings": 3}',
+            b'{"data": {}, "attributes": {}}',
+            b" " * (5 << 20),
+        ):
+            self.refused(lambda index, text=text: text)
+        for part in ("data", "attributes"):
+            self.refused(lambda index, part=part: index.pop(part) and None)
+        self.refused(lambda index: index["attributes"]["jam"].update(schema="x"))
+        self.refused(lambda index: index["attributes"]["jam"].update(schema=99), "newer")
+        self.refused(lambda index: index["data"].pop("jam/state") and None)
+
+    def test_links_external_data_and_pipes_in_hdf5_are_not_followed(self):
+        os.mkfifo(self.folder / "fifo") if not (self.folder / "fifo").exists() else None
+
+        def external(file, name):
+            del file["jam/contacts/forces"]
+            file["jam/contacts"].create_dataset("forces", shape=(100,), dtype="u1", external=[(name, 0, 100)])
+
+        def link(file):
+            del file["jam/contacts"]
+            file["jam/contacts"] = h5py.ExternalLink(str(self.path), "jam/contacts")
+
+        def soft(file):
+            del file["jam/contacts/forces"]
+            file["jam/contacts/forces"] = h5py.SoftLink("/jam/contacts/gaps")
+
+        def huge(file):
+            del file["jam/state"]
+            file["jam"].create_dataset("state", shape=(4 << 30,), dtype="u1", chunks=(1 << 20,), compression="gzip")
+
+        def loop(file):
+            file["jam/analysis/again"] = file["jam"]
+
+        def virtual(file):
+            layout = h5py.VirtualLayout(shape=(63,), dtype="f8")
+            layout[:] = h5py.VirtualSource(str(self.path), "jam/contacts/forces", shape=(63,))
+            del file["jam/contacts/forces"]
+            file["jam/contacts"].create_virtual_dataset("forces", layout)
+
+        for change, text in (
+            (lambda file: external(file, "/etc/passwd"), "another file"),
+            (lambda file: external(file, str(self.folder / "fifo")), "another file"),
+            (link, "link"),
+            (soft, "link"),
+            (huge, "compressed|more bytes"),
+            (loop, "deep|more bytes"),
+            (virtual, "chunked or virtual"),
+        ):
+            path = self.written(self.good)
+            with h5py.File(path, "r+") as file:
+                change(file)
+            signal.alarm(60)
+            with self.assertRaisesRegex(StoreError, "damaged"):
+                jam.load(path)
+            with self.assertRaisesRegex(StoreError, text):  # not even on the user's word
+                jam.load(path, unverified=True)
+            data = path.read_bytes()  # the old index under a new seal: only its places are read
+            place = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})", data)
+            index = [int(place[1]), int(place[2]), place[3].decode()]
+            head = sealed._head(len(data), index, hashlib.sha256(data[512:]).hexdigest())
+            try:
+                loaded = jam.load(self.written(head + data[512:]))
+                np.testing.assert_array_equal(loaded.forces, self.disks.forces)
+            except StoreError:
+                pass
+            signal.alarm(0)
+
+    def test_a_file_longer_than_the_limit_is_refused_unread(self):
+        path = self.folder / "sparse.h5"
+        with open(path, "wb") as file:
+            file.write(self.good[:512])
+            file.truncate(1 << 42)
+        with self.assertRaisesRegex(StoreError, "memory_limit="):
+            jam.load(path)
+        with self.assertRaisesRegex(StoreError, "memory_limit="):
+            jam.load(self.path, memory_limit=1000)
+        path.unlink()
+
+
+class PlainHdf5(Case):
+    def test_h5py_explains_itself(self):
+        with h5py.File(self.path, "r") as file:
+            report = file["jam/report"]
+            names = h5py.check_enum_dtype(report.dtype["stop_reason"])
+            self.assertEqual(names["CONVERGED"], int(report["stop_reason"]))
+            self.assertIn("8 converged: crunch: both tolerances met", report.attrs["StopReason"])
+            self.assertIn("packing_fraction: phi_J when jammed", report.attrs["fields"])
+            for name in ("state", "diameters", "coordination", "history", "calls"):
+                self.assertTrue(file["jam"][name].attrs["description"], name)
+            for name, unit in (("pairs", None), ("vectors", "1"), ("gaps", "1"), ("forces", "1")):
+                self.assertEqual(file["jam/contacts"][name].attrs.get("unit"), unit)
+            self.assertIn("from the centre of j to that of i", file["jam/contacts/vectors"].attrs["description"])
+            self.assertIn("2 lp: an LP", file["jam/history"].attrs["phase"])
+            x, pairs = file["particles/spheres/position/value"][0], file["jam/contacts/pairs"][()]
+            apart = x[pairs[:, 0]] - x[pairs[:, 1]]
+            apart -= np.rint(apart)
+            along = (apart * file["jam/contacts/vectors"][()]).sum(1)
+            np.testing.assert_allclose(along, np.linalg.norm(apart, axis=1))  # the sign is what the text says
+
+    def test_commit_and_library_are_recorded(self):
+        with h5py.File(self.path, "r") as file:
+            attributes = dict(file["jam"].attrs)
+        self.assertEqual(attributes["commit"], jam.raw.jam_commit())
+        self.assertRegex(attributes["commit"], "^([0-9a-f]{12})?$")
+        self.assertRegex(attributes["library"], "^[0-9a-f]{16}$")
+
+
+class Parts(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = Path(self.temporary.name)
+        self.addCleanup(self.temporary.cleanup)
+
+    def test_threads_write_one_name(self):
+        path, disks, errors = self.folder / "a.h5", jam.System.random(n=16, dim=2, seed=1), []
+
+        def write():
+            try:
+                mine = disks.copy()
+                for _ in range(10):
+                    mine.save(path)
+                    jam.load(path)
+            except Exception as error:
+                errors.append(error)
+
+        threads = [threading.Thread(target=write) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(errors, [])
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["a.h5"])
+
+    def test_what_a_killed_writer_left_goes_and_nothing_else(self):
+        target = self.folder / ("x" * 255)  # the longest name there is
+        users = [self.folder / name for name in ("x.part-20240101", ".jam-notes.part", "y.part")]
+        for file in users:
+            file.write_text("mine")
+        code = f"import os; from jam import _paths\nwith _paths.replacing({str(target)!r}) as f: os.kill(os.getpid(), 9)"
+        subprocess.run([sys.executable, "-c", code])
+        left = set(self.folder.iterdir()) - set(users)
+        self.assertEqual(len(left), 1)
+        with _paths.replacing(target) as file:  # two writers at once: neither takes the other's file
+            with _paths.replacing(target) as other:
+                other.write(b"other")
+            file.write(b"last")
+        self.assertEqual(target.read_bytes(), b"last")
+        self.assertEqual(set(self.folder.iterdir()), {target, *users})
+
+    def test_an_error_leaves_the_old_file_and_its_permissions_stay(self):
+        target = self.folder / "a"
+        target.write_text("old")
+        target.chmod(0o640)
+        with self.assertRaises(ZeroDivisionError), _paths.replacing(target) as file:
+            file.write(b"new")
+            1 // 0
+        self.assertEqual(target.read_text(), "old")
+        with _paths.replacing(target, "w") as file:
+            file.write("new")
+        self.assertEqual((target.read_text(), target.stat().st_mode & 0o777), ("new", 0o640))
+        self.assertEqual(list(self.folder.iterdir()), [target])
+
+
+if __name__ == "__main__":
+    unittest.main()

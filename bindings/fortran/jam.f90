@@ -284,7 +284,7 @@ module jam
   type, bind(c) :: jam_create_options
     ! sizeof(jam_create_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 2..8, default 3. A file's own dimension wins.
+    ! 2..8, default 3; with a file 3, or its own
     integer(c_int32_t) :: dim = 0
     ! number of spheres, 1..2^31-1; default 0: taken from the arrays
     integer(c_int64_t) :: n = 0
@@ -304,12 +304,16 @@ module jam
     integer(c_int32_t) :: masses = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
-    ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
+    ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same
     real(c_double) :: non_additivity = 0
     ! seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT
     real(c_double) :: wall_time = 0
     ! as jam_set_memory_limit; default 0: half the machine's memory
     real(c_double) :: memory_limit = 0
+    ! of a file with several packings, from 0, or from the end where negative; default -1, the last
+    integer(c_int64_t) :: frame = 0
+    ! least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused
+    real(c_double) :: shrink_min = 0
   end type jam_create_options
 
   ! What the system is now. @since 0.1
@@ -1375,7 +1379,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_create_watched
 
-    ! Sets (or with NULL removes) the log callback and its level. Threads: alone.
+    ! Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
     function jam_set_log(sys, callback, level, user) &
         bind(c, name="jam_set_log") result(status)
@@ -1408,11 +1412,13 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_memory_limit
 
-    ! Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
-    ! that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
-    ! refused. XYZ ids are not kept.
-    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
-    ! and those of jam_create. Threads: any. @since 0.1
+    ! Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
+    ! which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
+    ! where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
+    ! the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
+    ! are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+    ! JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
+    ! @since 0.1
     function jam_read(path, o, out) &
         bind(c, name="jam_read") result(status)
       import
@@ -1421,6 +1427,16 @@ module jam
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function jam_read
+
+    ! What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
+    ! sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
+    ! Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1
+    function jam_notes(sys) &
+        bind(c, name="jam_notes") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr) :: status
+    end function jam_notes
 
     ! Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
     ! under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of

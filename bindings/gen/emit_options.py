@@ -59,7 +59,11 @@ def emit_c(_api):
         low, high = (o.low, o.high) if o.kind == "integer" else (0, 0)
         words = '"' + " ".join(o.words) + '"' if o.words else "NULL"
         flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout)) if on]) or "0"
-        table.append(f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {words}, {flags}}},')
+        without, needs = ('"' + " ".join("--" + name for name in names) + '"' for names in (o.without, o.needs))
+        table.append(
+            f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {words}, {flags},\n'
+            f"     {without}, {needs}}},"
+        )
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
     said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"') + '",' for line in help_text())
@@ -88,6 +92,7 @@ typedef struct option_row {{
   int64_t low, high;
   const char *words;
   int flags;
+  const char *without, *needs; /* names of options, with which and without which it has no effect */
 }} option_row;
 
 static const option_row table[] = {{
@@ -121,6 +126,8 @@ def emit_python(_api):
                 repr((o.low, o.high)),
                 repr(o.words),
                 repr(o.after_crunch),
+                repr(o.without),
+                repr(o.needs),
             ]
             said = textwrap.wrap(o.help, 96)
             said = ["        " + repr(line + (" " if k + 1 < len(said) else "")) for k, line in enumerate(said)]
@@ -132,7 +139,7 @@ def emit_python(_api):
         + f"EXAMPLE = {EXAMPLE!r}\nNOTES = (\n"
         + "\n".join("    " + repr(line + " ") for note in NOTES for line in textwrap.wrap(note, 96))
         + "\n)\n"
-        + "# name, kind, metavar, default, (low, high), words, needs the crunch, help\nOPTIONS = (\n"
+        + "# name, kind, metavar, default, (low, high), words, needs the crunch, no effect beside, no effect without, help\nOPTIONS = (\n"
         + "\n".join(out)
         + "\n)\n"
     )

@@ -117,7 +117,7 @@ def emit(api):
         "CALLS = {",
     ]
     for f in api.functions:
-        on_system = bool(f.args) and f.args[0].role == "handle"
+        on_system = bool(f.args) and f.args[0].role == "handle" and f.result.base == "jam_status"
         if on_system or is_free(f, inits):
             taken = f.args[1:] if on_system else f.args
             args = ", ".join(

@@ -33,6 +33,8 @@ class Option:
     where: str = BOTH
     after_crunch: bool = False
     stdout: bool = False  # "-" is standard output
+    without: tuple = ()  # beside one of these it would have no effect: refused
+    needs: tuple = ()  # without any of these it would have no effect: refused
 
     @property
     def field(self):
@@ -43,18 +45,30 @@ INT32_MAX, INT64_MAX = 2**31 - 1, 2**63 - 1
 
 TABLE = {
     "Start": (
-        Option("n", "integer", "N", "spheres (1024)", None, 1, INT32_MAX),
-        Option("dim", "integer", "D", "dimension, 2..8 (3)", 3, 2, 8),
+        Option("n", "integer", "N", "spheres (1024)", None, 1, INT32_MAX, without=("input",)),
+        Option("dim", "integer", "D", "dimension, 2..8 (3)", 3, 2, 8, without=("input",)),
         Option(
-            "phi0", "positive", "F", "packing fraction of the random start (0.2; halved for each dimension above 3)"
+            "phi0",
+            "positive",
+            "F",
+            "packing fraction of the random start (0.2; halved for each dimension above 3)",
+            without=("input", "plant"),
         ),
-        Option("diameters-ratio", "positive", "R", "half of the spheres are R times as large (1)", 1.0),
+        Option(
+            "diameters-ratio",
+            "positive",
+            "R",
+            "half of the spheres are R times as large (1)",
+            1.0,
+            without=("input", "diameters"),
+        ),
         Option(
             "diameters",
             "diameters",
             "WHAT",
             "bidisperse:R as above; lognormal:S with S the standard deviation over the mean; or a file of diameters, of which "
             "the ratios count",
+            without=("input",),
         ),
         Option(
             "non-additivity",
@@ -62,22 +76,47 @@ TABLE = {
             "D",
             "spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)",
             0.0,
+            needs=("diameters", "diameters-ratio", "input", "resume"),
         ),
         Option(
             "model", "choice", "", "distance: Euclidean (default) or Mari-Kurchan", "euclid", words=("euclid", "mk")
         ),
         Option("zeta", "not_negative", "Z", "strength of the Mari-Kurchan shifts (infinite)"),
-        Option("plant", "positive", "F", "Mari-Kurchan start, planted in equilibrium at packing fraction F"),
+        Option("plant", "positive", "F", "Mari-Kurchan start, planted in equilibrium at packing fraction F", without=("input",)),
         Option("seed", "integer", "S", "of all random numbers (1)", 1, -INT64_MAX, INT64_MAX),
         Option(
             "input",
             "input",
             "FILE",
-            "start from a file: plain text, extended XYZ or LAMMPS data, compressed or not; molecular dynamics is then off "
-            "unless --growth or --nve is given",
+            "start from a file: plain text, extended XYZ, data or a dump of LAMMPS, or a table x y z radius. It may be "
+            "compressed. Molecular dynamics is then off unless --growth or --nve is given",
         ),
-        Option("box", "positive", "L", "side of the box for a plain file that names none (1)", 1.0),
-        Option("shrink", "switch", "", "shrink overlapping spheres of the file to contact"),
+        Option(
+            "frame",
+            "integer",
+            "K",
+            "which packing of an --input that holds several: 0 is the first, -1 the last (-1)",
+            -1,
+            -INT32_MAX,
+            INT32_MAX,
+            needs=("input", "resume"),
+        ),
+        Option("box", "positive", "L", "side of the box, of a random start or of a file that names none (1)", 1.0),
+        Option(
+            "shrink",
+            "switch",
+            "",
+            "multiply all diameters of the file by the factor that brings the worst pair to contact; the summary tells it",
+            needs=("input", "resume"),
+        ),
+        Option(
+            "shrink-min",
+            "not_negative",
+            "F",
+            "refuse --shrink by a factor below F, at most 1: near duplicates and wrong units (1e-3)",
+            1e-3,
+            needs=("shrink",),
+        ),
     ),
     "Molecular dynamics": (
         Option("nve", "not_negative", "C", "first C collisions per particle without growth (0)", 0.0),
@@ -98,7 +137,7 @@ TABLE = {
             "FILE",
             "state of the dynamics or of the crunch, every minute and where they stop early",
         ),
-        Option("checkpoint-every", "positive", "SECONDS", "between checkpoints (60)", 60.0),
+        Option("checkpoint-every", "positive", "SECONDS", "between checkpoints (60)", 60.0, needs=("checkpoint",)),
         Option(
             "resume",
             "input",
@@ -115,6 +154,7 @@ TABLE = {
             "the quench: barrier path (default), or the published sequence of linear programs alone",
             "barrier",
             words=("barrier", "sequential-lp"),
+            without=("no-crunch",),
         ),
         Option(
             "strain",
@@ -124,6 +164,7 @@ TABLE = {
             "(none)",
             "none",
             words=("none", "edges", "tilts", "free"),
+            without=("no-crunch",),
         ),
         Option(
             "lp",
@@ -132,6 +173,7 @@ TABLE = {
             "linear programs by interior point (default) or Clp's simplex",
             "ipm",
             words=("ipm", "clp"),
+            without=("no-crunch",),
         ),
         Option(
             "duality-gap",
@@ -140,8 +182,18 @@ TABLE = {
             "end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts from an LP there: for packings too large "
             "for the jamming point (0: the jamming point)",
             0.0,
+            without=("no-crunch",),
         ),
-        Option("threads", "integer", "T", "1 or 2 (1; the same bits each time on 1)", 1, 1, 2),
+        Option(
+            "threads",
+            "integer",
+            "T",
+            "1 or 2 (1; the same bits each time on 1)",
+            1,
+            1,
+            2,
+            without=("no-crunch",),
+        ),
         Option("no-crunch", "switch", "", "stop after molecular dynamics"),
     ),
     "Output": (
@@ -166,6 +218,8 @@ TABLE = {
             0,
             0,
             1000,
+            without=("no-crunch",),
+            needs=("page",),
         ),
         Option(
             "contacts",
@@ -191,6 +245,7 @@ TABLE = {
             None,
             0,
             INT32_MAX,
+            needs=("spectrum",),
         ),
         Option("gaps", "output", "FILE.csv", "gaps h < 1 of pairs that are no contacts, sorted", after_crunch=True),
         Option(

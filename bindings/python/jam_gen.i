@@ -361,7 +361,7 @@ Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_create_watched "jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
 A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
 Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1"
-%feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. Threads: alone.
+%feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_cancel "Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
 stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1"
@@ -369,11 +369,16 @@ stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: J
 that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
 memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
 0.1"
-%feature("docstring") jam_read "Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
-that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
-refused. XYZ ids are not kept.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
-and those of jam_create. Threads: any. @since 0.1"
+%feature("docstring") jam_read "Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
+which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
+where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
+the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
+are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
+@since 0.1"
+%feature("docstring") jam_notes "What was changed or assumed when sys was made: a sentence a line, \"\" when nothing. Shrunk diameters, wrapped or
+sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
+Valid as long as the handle; \"\" for NULL and for checkpoints. Threads: const. @since 0.1"
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
 under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
 JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use

@@ -177,7 +177,7 @@ typedef struct jam_system jam_system;
 /* What to do with overlaps in given positions. @since 0.1 */
 typedef enum jam_overlap_policy {
   JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
-  JAM_OVERLAP_SHRINK = 1, /* scale all diameters until the worst pair just touches */
+  JAM_OVERLAP_SHRINK = 1, /* scale all diameters until the worst pair just touches; jam_notes tells the factor */
   JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also in later calls; starts without positions are uniform points.
                            * Calls for hard spheres refuse a system that overlaps */
 } jam_overlap_policy;
@@ -197,7 +197,7 @@ typedef enum jam_masses {
 /* Options of jam_create and jam_read. @since 0.1 */
 typedef struct jam_create_options {
   uint32_t struct_size;    /* sizeof(jam_create_options) */
-  int32_t dim;             /* 2..8, default 3. A file's own dimension wins. */
+  int32_t dim;             /* 2..8, default 3; with a file 3, or its own */
   int64_t n;               /* number of spheres, 1..2^31-1; default 0: taken from the arrays */
   int64_t seed;            /* of every random stream, default 1; recorded */
   double box;              /* side of the cube, > 0, default 1 */
@@ -209,9 +209,12 @@ typedef struct jam_create_options {
   int32_t masses;   /* jam_masses, default EQUAL */
   int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
-                          * default 0. A file's own value wins. */
+                          * default 0. With a file that has one: 0, or the same */
   double wall_time; /* seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT */
   double memory_limit; /* as jam_set_memory_limit; default 0: half the machine's memory */
+  int64_t frame;     /* of a file with several packings, from 0, or from the end where negative; default -1, the last */
+  double shrink_min; /* least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near
+                      * duplicates and wrong units are refused */
 } jam_create_options;
 
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
@@ -356,7 +359,7 @@ typedef enum jam_log_level {
 
 /* Log callback: one line without newline, valid during the call. @since 0.1 */
 typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
-/* Sets (or with NULL removes) the log callback and its level. Threads: alone.
+/* Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
 /* Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
@@ -384,12 +387,18 @@ typedef enum jam_format {
                           * kind (0 rattler, 1 buckler, 2 other). Written only */
 } jam_format;
 
-/* Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
- * that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
- * refused. XYZ ids are not kept.
- * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
- * and those of jam_create. Threads: any. @since 0.1 */
+/* Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
+ * which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
+ * where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
+ * the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
+ * are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+ * JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
+ * @since 0.1 */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
+/* What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
+ * sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
+ * Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1 */
+JAM_API const char *jam_notes(const jam_system *sys);
 /* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
  * under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
  * JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use

@@ -127,11 +127,12 @@ class System {
     o.box = box;
     return System(o, positions, diameters);
   }
-  static System read(const std::string &path) {
+  static System read(const std::string &path, const jam_create_options &o = create_options()) {
     System made;
-    made.adopt([&](jam_system **out) { return jam_read(path.c_str(), nullptr, out); });
+    made.adopt([&](jam_system **out) { return jam_read(path.c_str(), &o, out); });
     return made;
   }
+  std::string notes() const { return jam_notes(get()); }
   // From a file of checkpoint(): dynamics go on to the same bits.
   static System from_checkpoint(const std::string &path) {
     System made;

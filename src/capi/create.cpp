@@ -1,6 +1,9 @@
 // Header section "the system": create, copy, destroy, info, views, setters; progress, log, cancel.
 #include <algorithm>
+#include <cstring>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "capi/guard.hpp"
@@ -48,6 +51,18 @@ jam_status view(const jam_system *sys, const std::vector<double> Packing::*membe
     return JAM_OK;
   });
 }
+
+// A line each, at the level of what it says.
+void log_notes(const jam_system &sys) {
+  std::string_view text = sys.notes.text();
+  while (!text.empty()) {
+    const std::string line(text.substr(0, text.find('\n')));
+    const bool warns = line.rfind(Notes::warning, 0) == 0;
+    const char *const said = line.c_str() + (warns ? std::strlen(Notes::warning) : 0);
+    sys.monitor.log(warns ? JAM_LOG_WARNING : JAM_LOG_INFO, "%s", said);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+}
 }  // namespace
 
 extern "C" {
@@ -68,8 +83,9 @@ jam_status jam_create_watched(const jam_create_options *o, const double *positio
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
-    return make_system(full, callback, user, out,
-                       [&] { return make_packing(full, positions, positions_len, diameters, diameters_len); });
+    return make_system(full, callback, user, out, [&](Notes *notes) {
+      return make_packing(full, positions, positions_len, diameters, diameters_len, nullptr, notes);
+    });
   });
 }
 
@@ -82,8 +98,9 @@ jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, s
     take_options(o, full);
     check_dim(full.dim);
     check_matrix_len("cell", cell_len, full.dim);
-    return make_system(full, nullptr, nullptr, out,
-                       [&] { return make_packing(full, positions, positions_len, diameters, diameters_len, cell); });
+    return make_system(full, nullptr, nullptr, out, [&](Notes *notes) {
+      return make_packing(full, positions, positions_len, diameters, diameters_len, cell, notes);
+    });
   });
 }
 
@@ -189,6 +206,7 @@ jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void
     sys->monitor.log_fn = callback;
     sys->monitor.log_level = level;
     sys->monitor.log_user = user;
+    log_notes(*sys);
     return JAM_OK;
   });
 }

@@ -1,4 +1,7 @@
-// Header section "files": jam_read, jam_write, jam_write_contacts.
+// Header section "files": jam_read, jam_notes, jam_write, jam_write_contacts.
+#include <cstring>
+#include <string>
+
 #include "capi/analysis.hpp"
 #include "capi/guard.hpp"
 #include "capi/make_system.hpp"
@@ -6,6 +9,42 @@
 #include "io/files.hpp"
 
 using namespace jam;
+
+namespace {
+
+// An option that the file answers must be the default or say the same: it is not dropped in silence.
+template <class T>
+void settle(const char *path, const char *name, T &option, T standard, T of_file) {
+  if (option != standard && option != of_file)
+    fail(JAM_E_ARGUMENT, "%s: the option %s is %.17g, but the file has %.17g: leave the option out", path, name,
+         static_cast<double>(option), static_cast<double>(of_file));
+  option = of_file;
+}
+
+void settle_options(const char *path, const FileContent &file, jam_create_options &o) {
+  const jam_create_options standard = default_create_options();
+  settle<int32_t>(path, "dim", o.dim, standard.dim, file.dim);
+  settle<int64_t>(path, "n", o.n, 0, static_cast<int64_t>(file.position.size() / static_cast<size_t>(file.dim)));
+  if (file.box > 0.0) settle(path, "box", o.box, standard.box, file.box);
+  if (!file.cell.empty() && o.box != standard.box)
+    fail(JAM_E_ARGUMENT, "%s: the option box is %.17g, but the file has a cell of its own: leave the option out", path,
+         o.box);
+  if (file.has_non_additivity)
+    settle(path, "non_additivity", o.non_additivity, standard.non_additivity, file.non_additivity);
+  if (std::memcmp(&o.packing_fraction, &standard.packing_fraction, sizeof o.packing_fraction) != 0)
+    fail(JAM_E_ARGUMENT, "packing_fraction is %g: that of a file is what it is; jam_scale_diameters changes it",
+         o.packing_fraction);
+}
+
+// What was assumed may be why the packing is refused: the error repeats it.
+[[noreturn]] void refuse(const char *path, const Error &e, const Notes &notes) {
+  const size_t at = notes.text().find(Notes::warning);
+  if (at == std::string::npos) fail(e.code(), "%s: %s", path, e.what());
+  const std::string line = notes.text().substr(at, notes.text().find('\n', at) - at);
+  fail(e.code(), "%s: %s; %s", path, e.what(), line.c_str());
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -15,17 +54,21 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_system **
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
-    FileContent file = read_file(path);
-    full.dim = file.dim;
-    full.n = static_cast<int64_t>(file.position.size() / static_cast<size_t>(file.dim));
-    if (file.box > 0.0) full.box = file.box;
-    if (file.has_non_additivity) full.non_additivity = file.non_additivity;
-    return make_system(full, nullptr, nullptr, out, [&] {
-      return make_packing(full, file.position.data(), file.position.size(), file.diameter.data(), file.diameter.size(),
-                          file.cell.empty() ? nullptr : file.cell.data());
+    FileContent file = read_file(path, {full.dim, full.box, full.frame});
+    settle_options(path, file, full);
+    return make_system(full, nullptr, nullptr, out, [&](Notes *notes) {
+      *notes = file.notes;
+      try {
+        return make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
+                            file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), notes);
+      } catch (const Error &e) {
+        refuse(path, e, file.notes);
+      }
     });
   });
 }
+
+const char *jam_notes(const jam_system *sys) { return sys ? sys->notes.text().c_str() : ""; }
 
 jam_status jam_write(const jam_system *sys, const char *path, int32_t format) {
   return guard_const(sys, [&]() -> jam_status {

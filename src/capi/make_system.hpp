@@ -1,4 +1,4 @@
-// A new handle whose packing make() gives, within the limits of the options.
+// A new handle whose packing make(notes) gives, within the limits of the options.
 #pragma once
 #include <memory>
 
@@ -18,7 +18,7 @@ jam_status make_system(const jam_create_options &o, jam_progress_fn callback, vo
   monitor.progress_user = user;
   const LeavingScope scope(sys->memory_limit, &monitor);
   try {
-    sys->packing = make();
+    sys->packing = make(&sys->notes);
   } catch (const Cancelled &) {
     *out = nullptr;
     return monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;

@@ -8,6 +8,7 @@
 #include "capi/results.hpp"
 #include "core/call_scope.hpp"
 #include "core/monitor.hpp"
+#include "core/notes.hpp"
 #include "core/packing.hpp"
 #include "dynamics/dynamics.hpp"
 #include "dynamics/isoconfigurational.hpp"
@@ -47,6 +48,7 @@ struct SystemState : Results {
   double memory_limit = default_memory_limit();  // bytes that one call may take
   double packing_fraction = 0.0, diameter_mean = 0.0;  // of the diameters in `packing`: note_diameters()
   bool monodisperse = true;
+  Notes notes;  // on how it was made
 
   Results &results() { return *this; }
 };

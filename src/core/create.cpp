@@ -26,6 +26,8 @@ void check_options(const jam_create_options &o) {
     fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
   if (o.masses != JAM_MASSES_EQUAL && o.masses != JAM_MASSES_VOLUME)
     fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
+  if (!(o.shrink_min >= 0.0 && o.shrink_min <= 1.0))
+    fail(JAM_E_ARGUMENT, "shrink_min is %g, supported are 0..1", o.shrink_min);
   if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
   if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
   if (o.model == JAM_MODEL_MK && !is_mk_zeta(o.mk_zeta))
@@ -167,6 +169,8 @@ jam_create_options default_create_options() {
   o.packing_fraction = 0.2;
   o.overlap = JAM_OVERLAP_REFUSE;
   o.model = JAM_MODEL_EUCLID;
+  o.frame = -1;
+  o.shrink_min = 1e-3;
   o.mk_zeta = o.wall_time = std::numeric_limits<double>::infinity();
   return o;
 }
@@ -280,6 +284,9 @@ void plant(Packing &p) {
   }
 }
 
+// Spheres so near are two lines for one sphere, or the two faces of a box.
+static bool same_centre(const ClosestPair &pair) { return pair.gap <= -1.0 + 1e-12; }
+
 void refuse_overlaps(const Packing &p, double tolerance) {
   const ClosestPair worst = closest_pair(p);
   if (worst.gap >= -tolerance) return;
@@ -288,7 +295,8 @@ void refuse_overlaps(const Packing &p, double tolerance) {
          "spheres %d and %d overlap by %.3g of their contact distance: this call is for hard spheres; jam_decompress "
          "leads to jamming, jam_scale_diameters(sys, %.17g) to contact",
          worst.i, worst.j, -worst.gap, (1.0 + worst.gap) * (1.0 - 1e-15));
-  fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance", worst.i, worst.j, -worst.gap);
+  fail(JAM_E_OVERLAP, "spheres %d and %d overlap by %.3g of their contact distance%s", worst.i, worst.j, -worst.gap,
+       same_centre(worst) ? ": they have the same centre" : "");
 }
 
 void settle_overlaps(Packing &p, int32_t policy) {
@@ -298,21 +306,44 @@ void settle_overlaps(Packing &p, int32_t policy) {
       refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
     return;
   }
-  if (const double factor = fitting_factor(p); factor < 1.0) {
-    if (policy == JAM_OVERLAP_REFUSE) refuse_unfitting(p);
-    for (double &s : p.diameter) s *= factor;
-  }
-  if (policy == JAM_OVERLAP_REFUSE) return refuse_overlaps(p, overlap_tolerance);
-  const ClosestPair worst = closest_pair(p);
-  if (worst.gap >= -overlap_tolerance) return;
-  if (worst.gap <= -1.0 + 1e-12)
-    fail(JAM_E_OVERLAP, "spheres %d and %d have the same centre: no shrinking helps", worst.i, worst.j);
-  for (double &s : p.diameter) s *= 1.0 + worst.gap;
+  if (fitting_factor(p) < 1.0) refuse_unfitting(p);
+  refuse_overlaps(p, overlap_tolerance);
+}
+
+void shrink_to_contact(Packing &p, double least, Notes *notes) {
   check_diameters(p.diameter, p.cell.side());
+  const double before = packing_fraction(p), fit = fitting_factor(p);
+  double factor = fit;
+  for (double &s : p.diameter) s *= fit;
+  const ClosestPair worst = closest_pair(p);
+  if (same_centre(worst))
+    fail(JAM_E_OVERLAP,
+         "spheres %d and %d have the same centre: no shrinking helps; leave one of them out, as where a file lists the "
+         "spheres on both faces of the box",
+         worst.i, worst.j);
+  const bool overlap = worst.gap < -overlap_tolerance;
+  if (overlap) {
+    factor *= 1.0 + worst.gap;
+    for (double &s : p.diameter) s *= 1.0 + worst.gap;
+  }
+  if (factor == 1.0) return;
+  char cause[100] = "they did not fit the cell";
+  if (overlap)
+    std::snprintf(cause, sizeof cause, "spheres %d and %d overlapped by %.3g of their contact distance", worst.i,
+                  worst.j, 1.0 - (1.0 + worst.gap) * fit);
+  if (factor < least)
+    fail(JAM_E_OVERLAP,
+         "%s: to shrink means to multiply all diameters by %.3g, less than shrink_min %g; leave one of two duplicates "
+         "out, or mend the unit of the diameters",
+         cause, factor, least);
+  check_diameters(p.diameter, p.cell.side());
+  if (notes)
+    notes->warn("all diameters were multiplied by %.17g: %s; packing fraction %.12g, before %.12g", factor, cause,
+                packing_fraction(p), before);
 }
 
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
-                     const double *diameters, size_t diameters_len, const double *cell) {
+                     const double *diameters, size_t diameters_len, const double *cell, Notes *notes) {
   check_options(o);
   if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
   if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
@@ -333,7 +364,10 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     p.position.resize(n * o.dim);
     p.position.assign(positions, positions + positions_len);
     cell ? enter_cell(p, reduce_cell(p.dim, cell)) : wrap_positions(p);
-    settle_overlaps(p, o.overlap);
+    if (o.overlap == JAM_OVERLAP_SHRINK)
+      shrink_to_contact(p, o.shrink_min, notes);
+    else
+      settle_overlaps(p, o.overlap);
   } else {
     if (cell) p.cell = reduce_cell(p.dim, cell).cell;
     if (!(o.packing_fraction > 0.0) || !std::isfinite(o.packing_fraction))

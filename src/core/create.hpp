@@ -1,5 +1,6 @@
 // Makes a packing from checked arrays or by random sequential addition.
 #pragma once
+#include "core/notes.hpp"
 #include "core/packing.hpp"
 
 namespace jam {
@@ -9,11 +10,15 @@ constexpr double overlap_tolerance = 1e-12;
 
 jam_create_options default_create_options();
 // Checks everything jam_create documents; positions_len == 0 means a random sequential start.
-// cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box.
+// cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box. notes: NULL, or where changes are told.
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
-                     const double *diameters, size_t diameters_len, const double *cell = nullptr);
-// Throws JAM_E_OVERLAP naming the worst pair, or shrinks all diameters to contact, as `policy` says.
+                     const double *diameters, size_t diameters_len, const double *cell = nullptr,
+                     Notes *notes = nullptr);
+// Throws JAM_E_OVERLAP naming the worst pair, or allows overlaps, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
+// JAM_OVERLAP_SHRINK: multiplies all diameters by the factor that brings the worst pair to contact, and tells it.
+// JAM_E_OVERLAP where the factor is below `least`, or no factor helps.
+void shrink_to_contact(Packing &p, double least, Notes *notes);
 // Throws JAM_E_OVERLAP naming the worst pair, and how to mend it, where one overlaps by more than the tolerance.
 void refuse_overlaps(const Packing &p, double tolerance);
 // Independent uniform points (JAM_OVERLAP_ALLOW).

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/notes.hpp"
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
@@ -18,10 +19,19 @@ struct FileContent {
   bool has_non_additivity = false;
   std::vector<double> position;  // (n, dim) as written, not wrapped
   std::vector<double> diameter;  // n, or 1 for all
+  Notes notes;                   // what of the file was dropped, wrapped, sorted or assumed
+  bool has_box() const { return box > 0.0 || !cell.empty(); }
 };
 
-// Tells the format by its content. Memory grows with the data read, never with the count in the header.
-FileContent read_file(const char *path);
+// What a reader must know besides the file.
+struct ReadOptions {
+  int dim = 3;         // of files that do not say it
+  double box = 1.0;    // of files that do not say it; 1 is what such a file means, other values the caller gave
+  int64_t frame = -1;  // which of several packings, from 0, or from the end where it is negative
+};
+
+// Tells the format by its content (recognise.hpp). Memory grows with the data read, never with the count in the header.
+FileContent read_file(const char *path, const ReadOptions &options = {});
 
 // format: a jam_format. coordination (n) becomes the contacts column of XYZ; NULL leaves that column out.
 void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format);

@@ -1,5 +1,9 @@
-// Checks that the readers of all formats share. Errors name the file and the line.
+// What the readers of all formats share. Errors name the file and the line.
 #pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "io/files.hpp"
@@ -44,7 +48,90 @@ inline double take_box(const LineReader &in, std::string_view word) {
           static_cast<long long>(n));
 }
 
-// read_lammps.cpp: data of atom_style sphere, behind its first line, which says nothing.
-FileContent read_lammps(LineReader &in);
+// What stands before a `#`.
+inline std::string_view before_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+
+// The next line that says something besides a comment, split; false at the end of the file.
+bool next_text(LineReader &in, std::string_view &line, std::vector<std::string_view> &words);
+
+// Nothing may follow the n spheres that a header announced.
+void check_end(LineReader &in, int64_t n);
+
+// The rows of spheres. The last one may lack its newline: its last word then has as many characters behind its point as
+// the longest one of that column, or a blank behind it, so that no digit is lost.
+class Rows {
+ public:
+  Rows(LineReader &in, bool comments) : in_(in), comments_(comments) {}
+  // The columns of the next row; false at the end of the file.
+  bool next(std::vector<std::string_view> &words);
+
+ private:
+  void check_last(const std::vector<std::string_view> &words, bool blank_behind);
+  LineReader &in_;
+  bool comments_;
+  size_t longest_ = 0;
+  bool first_ = true;
+};
+
+// Which columns hold what. Sizes are called radius or diameter, in small or large letters.
+class SizeColumn {
+ public:
+  // Whether a column of this name holds sizes; JAM_E_FORMAT where two do.
+  bool take(const LineReader &in, std::string_view name, size_t column);
+  bool found() const { return found_; }
+  double diameter(const LineReader &in, const std::vector<std::string_view> &words) const;
+
+ private:
+  bool found_ = false, radius_ = false;
+  size_t column_ = 0;
+};
+
+// Says which columns were not read, once for a file.
+void say_unread(FileContent &content, const std::vector<std::string> &names);
+
+// The d rows of cell vectors, of any form: a cube along the axes becomes content.box, other cells are checked.
+void take_cell(const LineReader &in, std::vector<double> rows, FileContent &content);
+
+// Whether all spheres lie in the plane z = 0 and the box reaches to both sides of it, as LAMMPS has d = 2; then their
+// third coordinates go, and the file's dimension is 2. positions: (n, 3).
+void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content);
+
+// The frame that was asked for. read_one(content, k) reads frame k, false where the file ends before it.
+template <class ReadOne>
+FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one);
+
+FileContent read_plain(LineReader &in, const ReadOptions &options);
+FileContent read_table(LineReader &in, const ReadOptions &options);
+FileContent read_xyz(LineReader &in, const ReadOptions &options);
+FileContent read_lammps(LineReader &in, const ReadOptions &options);
+FileContent read_dump(LineReader &in, const ReadOptions &options);
+
+template <class ReadOne>
+FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
+  std::vector<FileContent> kept;  // the last frames, as many as a negative number reaches back
+  int64_t count = 0;
+  const size_t most = frame < 0 ? static_cast<size_t>(-(frame + 1)) + 1 : 1;
+  for (;; ++count) {
+    FileContent content;
+    try {
+      if (!read_one(content, count)) break;
+    } catch (const Error &e) {
+      if (count == 0) throw;
+      jam::fail(e.code(), "%s; frame=%lld is the last whole one", e.what(), static_cast<long long>(count - 1));
+    }
+    if (kept.size() == most) kept.erase(kept.begin());
+    kept.push_back(std::move(content));
+    if (count == frame) return std::move(kept.back());
+  }
+  if (frame >= 0 || kept.size() < most)
+    jam::fail(JAM_E_ARGUMENT, "%s: frame is %lld, the file holds %lld (0 to %lld, or -1 for the last)",
+              in.path().c_str(), static_cast<long long>(frame), static_cast<long long>(count),
+              static_cast<long long>(count - 1));
+  FileContent &chosen = kept.front();
+  if (count > 1 && frame == -1)
+    chosen.notes.say("the last of %lld frames was read; frame=0 to %lld take others", static_cast<long long>(count),
+                     static_cast<long long>(count - 1));
+  return std::move(chosen);
+}
 
 }  // namespace jam

@@ -2,12 +2,14 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -25,6 +27,8 @@ LineReader::LineReader(const char *path) : path_(path), buffer_(buffer_size) {
   file_.reset(::gzopen(path, "rb"));  // reads what is not compressed as it is
   if (!file_ && errno == 0) throw std::bad_alloc();
   if (!file_) jam::fail(JAM_E_IO, "cannot open %s: %s", path, std::generic_category().message(errno).c_str());
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (refill() && head().substr(0, mark.size()) == mark) begin_ += mark.size();
 }
 
 void LineReader::fail(jam_status code, const char *format, ...) const {
@@ -52,30 +56,45 @@ bool LineReader::refill() {
   return end_ > 0;
 }
 
-bool LineReader::next(std::string_view &line) {
+void LineReader::fail_cut_short() const {
+  fail(JAM_E_FORMAT,
+       "the file ends inside a line: it is cut short, or its last newline is missing; add it if the line is whole");
+}
+
+bool LineReader::next(std::string_view &line, bool looks) {
   line_.clear();
   ++number_;
   for (;;) {
     if (begin_ == end_ && !refill()) {
       if (line_.empty()) return false;
-      fail(JAM_E_FORMAT, "the file ends inside a line: it is cut short, or its last newline is missing");
+      cut_short_ = ::gzdirect(file_.get()) != 0;  // gzip's checksum says that nothing is missing
+      if (cut_short_ && !looks) fail_cut_short();
+      break;
     }
     const char *start = buffer_.data() + begin_;
+    if (std::exchange(after_return_, false) && *start == '\n') {
+      ++begin_;
+      continue;
+    }
     const char *stop = static_cast<const char *>(std::memchr(start, '\n', end_ - begin_));
-    const size_t length = stop ? static_cast<size_t>(stop - start) : end_ - begin_;
+    size_t length = stop ? static_cast<size_t>(stop - start) : end_ - begin_;
+    if (const void *const mark = std::memchr(start, '\r', length)) {
+      stop = static_cast<const char *>(mark);
+      length = static_cast<size_t>(stop - start);
+      after_return_ = true;
+    }
     if (line_.size() + length > longest_line)
       fail(JAM_E_FORMAT, "longer than %zu characters, no packing file", longest_line);
     line_.append(start, length);
     begin_ += length + (stop ? 1 : 0);
     if (stop) break;
   }
-  if (!line_.empty() && line_.back() == '\r') line_.pop_back();
   line = line_;
   return true;
 }
 
-bool LineReader::next_filled(std::string_view &line) {
-  while (next(line))
+bool LineReader::next_filled(std::string_view &line, bool looks) {
+  while (next(line, looks))
     for (char c : line)
       if (!is_blank(c)) return true;
   return false;
@@ -92,6 +111,37 @@ void split(std::string_view line, std::vector<std::string_view> &words) {
   }
 }
 
+void split_columns(const LineReader &in, std::string_view line, std::vector<std::string_view> &words) {
+  split(line, words);
+  if (line.find(',') == std::string_view::npos) return;
+  std::vector<std::string_view> part;
+  std::vector<std::string_view> columns;
+  for (size_t k = 0; k <= line.size();) {
+    const size_t stop = std::min(line.find(',', k), line.size());
+    split(line.substr(k, stop - k), part);
+    if (part.size() != 1)
+      in.fail(JAM_E_FORMAT, "'%s' has a comma: write decimal points, and part columns by blanks or by commas alone",
+              shown(*std::find_if(words.begin(), words.end(), [](std::string_view w) {
+                return w.find(',') != std::string_view::npos;
+              })).c_str());
+    columns.push_back(part[0]);
+    k = stop + 1;
+  }
+  words = columns;
+}
+
+bool is_count(std::string_view word) {
+  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+std::string lower(std::string_view word) {
+  std::string out(word);
+  for (char &c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
 std::string shown(std::string_view word) {
   std::string out;
   for (char c : word.substr(0, 40)) out += (c >= ' ' && c <= '~') ? c : '?';
@@ -99,16 +149,33 @@ std::string shown(std::string_view word) {
   return out;
 }
 
-double parse_number(const LineReader &in, std::string_view word) {
-  std::string_view digits = word;
-  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
-    digits.remove_prefix(1);  // from_chars knows no plus sign
+namespace {
+std::errc convert(std::string_view word, double &x) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars knows no plus sign
+  char digits[64];
+  const size_t mark = word.find_first_of("dD");  // 1.5D-01, as Fortran writes it
+  const bool fortran = mark != std::string_view::npos && mark > 0 && word.size() < sizeof digits;
+  if (fortran) {
+    std::copy(word.begin(), word.end(), digits);
+    digits[mark] = 'e';
+    word = {digits, word.size()};
+  }
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), x);
+  return end == word.data() + word.size() ? code : std::errc::invalid_argument;
+}
+}  // namespace
+
+bool is_number(std::string_view word) {
   double x = 0.0;
-  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+  return convert(word, x) != std::errc::invalid_argument;
+}
+
+double parse_number(const LineReader &in, std::string_view word) {
+  double x = 0.0;
+  const std::errc code = convert(word, x);
   if (code == std::errc::result_out_of_range)
     in.fail(JAM_E_FORMAT, "'%s' is outside the range of a double", shown(word).c_str());
-  if (code != std::errc() || end != digits.data() + digits.size())
-    in.fail(JAM_E_FORMAT, "'%s' is not a number", shown(word).c_str());
+  if (code != std::errc()) in.fail(JAM_E_FORMAT, "'%s' is not a number", shown(word).c_str());
   if (!std::isfinite(x)) in.fail(JAM_E_NONFINITE, "'%s' is not finite", shown(word).c_str());
   return x;
 }

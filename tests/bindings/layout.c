@@ -9,7 +9,7 @@
 #define CHECK(type, member, at, size) \
   typedef char check_##type##_##member[offsetof(type, member) == (at) && sizeof(((type *)0)->member) == (size) ? 1 : -1]
 
-CHECK_SIZE(jam_create_options, 88);
+CHECK_SIZE(jam_create_options, 104);
 CHECK(jam_create_options, struct_size, 0, 4);
 CHECK(jam_create_options, dim, 4, 4);
 CHECK(jam_create_options, n, 8, 8);
@@ -24,6 +24,8 @@ CHECK(jam_create_options, reserved, 60, 4);
 CHECK(jam_create_options, non_additivity, 64, 8);
 CHECK(jam_create_options, wall_time, 72, 8);
 CHECK(jam_create_options, memory_limit, 80, 8);
+CHECK(jam_create_options, frame, 88, 8);
+CHECK(jam_create_options, shrink_min, 96, 8);
 CHECK_SIZE(jam_info, 80);
 CHECK(jam_info, struct_size, 0, 4);
 CHECK(jam_info, dim, 4, 4);
@@ -398,6 +400,8 @@ int main(void) {
   SHOW(jam_create_options, non_additivity);
   SHOW(jam_create_options, wall_time);
   SHOW(jam_create_options, memory_limit);
+  SHOW(jam_create_options, frame);
+  SHOW(jam_create_options, shrink_min);
   printf("jam_info sizeof %zu\n", sizeof(jam_info));
   SHOW(jam_info, struct_size);
   SHOW(jam_info, dim);

@@ -84,6 +84,39 @@ class Options(unittest.TestCase):
         self.assertRegex(said.stderr, r"^growth 1e-05  p [\d.]+  phi 0\.\d+ .* 10\.\d s\n")
         self.assertNotIn("\r", said.stderr)
 
+    def test_options_without_effect(self):
+        """Both programs take the rules from the one table; jam_pack.py tries them all."""
+        for arguments, text in (
+            (["--input", "a", "--n", "77"], "--n has no effect beside --input"),
+            (["--non-additivity", "0.1"], "--non-additivity has no effect without --diameters"),
+            (["--no-crunch", "--threads", "1"], "--threads has no effect beside --no-crunch"),
+            (["--input", "a", "--pressure", "1e5"], "--pressure has no effect: no stage of growth runs up to it"),
+            (["--growth", "1e-2:500", "--pressure", "1e5"], "--pressure has no effect"),
+            (["--model", "euclid", "--plant", "0.1"], "--model euclid contradicts --plant"),
+            (["--no-md", "--no-crunch", "--checkpoint", "a"], "--checkpoint has no effect"),
+            (["--output", ""], "must be the name of a file"),
+            (["--output", "./a", "--report", "a"], "--output and --report must be different files|--report and --output"),
+        ):
+            for program in ([PACK], [sys.executable, "-m", "jam"]):
+                said = subprocess.run([*program, *arguments], capture_output=True, text=True, timeout=120)
+                self.assertEqual(said.returncode, 2, (program, arguments))
+                self.assertRegex(said.stderr, text)
+
+    def test_notes_of_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "a.xyz")
+            file.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1:mass:R:1\n.1 .2 1.3 .1 7\n' * 2)
+            notes = jam.System.read(file).notes.splitlines()
+            self.assertEqual(len(notes), 3)
+            self.assertIn("the last of 2 frames was read; frame=0 to 1 take others", notes)
+            for program in ([PACK], [sys.executable, "-m", "jam"]):
+                report = subprocess.run(
+                    [*program, "--input", file, "--no-crunch", "--report", "-"], capture_output=True, check=True
+                ).stdout
+                self.assertEqual(json.loads(report)["notes"], notes)
+                first = [*program, "--input", file, "--frame", "0", "--no-crunch", "--report", "-"]
+                self.assertEqual(len(json.loads(subprocess.run(first, capture_output=True).stdout)["notes"]), 2)
+
     def test_bad_values_are_named(self):
         for arguments, text in (
             (["--method", "fire"], "must be one of: barrier sequential-lp"),

@@ -133,6 +133,9 @@ static void spheres_wider_than_the_box_are_refused_or_shrunk(void **state) {
   (void)state;
   refused(&o, x, 3, &s, 1, JAM_E_OVERLAP, "sphere 0 of diameter 1e+09 overlaps its own image");
   o.overlap = JAM_OVERLAP_SHRINK;
+  refused(&o, x, 3, &s, 1, JAM_E_OVERLAP,
+          "they did not fit the cell: to shrink means to multiply all diameters by 1e-09");
+  o.shrink_min = 0.0;
   assert_int_equal(jam_create(&o, x, 3, &s, 1, &sys), JAM_OK);
   jam_diameters_view(sys, &view, &len);
   assert_true(view[0] == 1.0);

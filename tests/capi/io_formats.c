@@ -43,39 +43,6 @@ static void lammps_data_keeps_the_bits(void **state) {
   }
 }
 
-/* As write_data of LAMMPS leaves it: a box that does not start at 0, atoms in any order, image counts, velocities. */
-static void lammps_writes_it_otherwise(void **state) {
-  static const char text[] =
-      "LAMMPS data file via write_data\n\n3 atoms\n2 atom types\n\n-1 3 xlo xhi\n1 5 ylo yhi\n0 4 zlo zhi\n\n"
-      "Atoms # sphere\n\n3 1 0.5 1.9 2 4 3 0 0 0\n1 1 1 1.9 -0.5 1.5 0.5 0 0 1\n2 2 0.25 1.9 1 3 2 0 0 0\n\n"
-      "Velocities\n\n1 0 0 0 0 0 0\n2 0 0 0 0 0 0\n3 0 0 0 0 0 0\n";
-  const double want[3] = {0.5, 0.5, 0.5}, sizes[3] = {1.0, 0.25, 0.5}, *x, *s;
-  jam_system *sys = NULL;
-  size_t x_len, s_len;
-  (void)state;
-  put_bytes(in_scratch("any.name"), text, sizeof text - 1);
-  if (jam_read(in_scratch("any.name"), NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  jam_positions_view(sys, &x, &x_len);
-  jam_diameters_view(sys, &s, &s_len);
-  assert_int_equal(x_len, 9);
-  assert_memory_equal(x, want, sizeof want);
-  assert_memory_equal(s, sizes, sizeof sizes);
-  jam_destroy(sys);
-}
-
-static void lammps_data_that_cannot_be_read(void **state) {
-  (void)state;
-#define HEAD "LAMMPS\n\n2 atoms\n\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\n"
-  expect_refused(HEAD "Atoms # atomic\n\n1 1 0 0 0\n", JAM_E_UNSUPPORTED, "atom_style 'atomic' has no diameters");
-  expect_refused(HEAD "Atoms\n\n1 1 0.1 1 0.2 0.2 0.2\n", JAM_E_FORMAT, "ends after 1 of 2 spheres");
-  expect_refused(HEAD "Atoms\n\n1 1 0.1 1 0.2 0.2 0.2\n1 1 0.1 1 0.7 0.2 0.2\n", JAM_E_FORMAT, "atom 1 is there twice");
-  expect_refused(HEAD "Atoms\n\n1 1 0.1 0.2 0.2 0.2\n", JAM_E_FORMAT, "line 11: 6 columns");
-  expect_refused(HEAD, JAM_E_FORMAT, "ends before the section Atoms");
-  expect_refused("LAMMPS\n\nAtoms\n\n1 1 0.1 1 0 0 0\n", JAM_E_FORMAT, "no line '<N> atoms'");
-  expect_refused("LAMMPS\n\n1 atoms\n1 1 xlo xhi\n", JAM_E_FORMAT, "no extent along x");
-#undef HEAD
-}
-
 static void compressed_files_keep_the_bits(void **state) {
   jam_system *sys = some_packing(3, 500, 1.4, 7.3), *back = NULL;
   size_t plain, packed;
@@ -188,8 +155,6 @@ static void page_shows_the_steps_that_the_crunch_kept(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lammps_data_keeps_the_bits),
-      cmocka_unit_test(lammps_writes_it_otherwise),
-      cmocka_unit_test(lammps_data_that_cannot_be_read),
       cmocka_unit_test(compressed_files_keep_the_bits),
       cmocka_unit_test(what_a_format_cannot_hold_is_refused),
       cmocka_unit_test(page_holds_its_data_and_nothing_else),

@@ -120,9 +120,10 @@ static void foreign_layouts_are_read(void **state) {
   assert_true(coordinate(sys, 0) == 0.1);
   assert_true(coordinate(sys, 5) == 0.7);
   jam_destroy(sys);
-  sys = read_text("3\n1\n1e-1\n-0.25 1.5 0.3\n", NULL); /* outside the box: wrapped */
+  sys = read_text("3\n1\n1e-1 box 1\n-0.25 1.5 0.3\n", NULL); /* outside the box that is named: wrapped */
   assert_true(coordinate(sys, 0) == 0.75);
   assert_true(coordinate(sys, 1) == 0.5);
+  assert_string_equal(jam_notes(sys), "1 of 1 spheres lay outside the cell and were wrapped into it");
   jam_destroy(sys);
   sys = read_text(
       "2\nanimation=no pbc=\"T T T\" Properties=species:S:1:radius:R:1:pos:R:3:move:I:2 step Lattice=\"4 0 0 0 4 0 0 0 "
@@ -134,16 +135,18 @@ static void foreign_layouts_are_read(void **state) {
   assert_true(info.box == 4.0);
   assert_true(coordinate(sys, 3) == 3.0);
   jam_destroy(sys);
-  jam_create_options_init(&o, sizeof o); /* the options' box counts where the file gives none, the file's wins */
+  jam_create_options_init(&o, sizeof o); /* the options' box counts where the file gives none */
   o.box = 2.0;
   sys = read_text("2\n1\n0.1\n1.5 1.5\n", &o);
   jam_info_get(sys, &info);
   assert_true(info.box == 2.0);
   assert_int_equal(info.dim, 2);
   jam_destroy(sys);
+  put_bytes(in_scratch("in.dat"), "2\n1\n0.1 box 3\n1.5 1.5\n", 22);
+  assert_int_equal(jam_read(in_scratch("in.dat"), &o, &sys), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "the option box is 2, but the file has 3"));
+  o.box = 3.0;
   sys = read_text("2\n1\n0.1 box 3\n1.5 1.5\n", &o);
-  jam_info_get(sys, &info);
-  assert_true(info.box == 3.0);
   jam_destroy(sys);
 }
 

@@ -25,7 +25,7 @@ static void check_round_trip(const jam_system *sys, int32_t format) {
   jam_status written;
   snprintf(path, sizeof path, "%s/jam-fuzz-%ld", folder ? folder : "/tmp", (long)getpid());
   written = jam_write(sys, path, format);
-  if (format == JAM_FORMAT_PLAIN && written == JAM_E_UNSUPPORTED) return; /* a cell or Delta that it cannot hold */
+  if (format != JAM_FORMAT_XYZ && written == JAM_E_UNSUPPORTED) return; /* a cell, Delta or d that it cannot hold */
   demand(written == JAM_OK, "what was read can be written");
   demand(jam_read(path, NULL, &back) == JAM_OK, "what was written can be read");
   jam_positions_view(sys, &x, &x_len);
@@ -52,6 +52,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (status == JAM_OK) {
     check_round_trip(sys, JAM_FORMAT_PLAIN);
     check_round_trip(sys, JAM_FORMAT_XYZ);
+    check_round_trip(sys, JAM_FORMAT_LAMMPS);
   } else {
     demand(status < 0 && !sys, "no handle with an error");
     demand(jam_last_error()[0] != '\0', "an error has a text");

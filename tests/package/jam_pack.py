@@ -102,11 +102,88 @@ class JamPack(unittest.TestCase):
             (["--gaps", "a", "--structure", "a"], "--gaps and --structure must be different"),
             (["--modes", "-1"], "--modes is '-1'"),
             (["--input", "a", "--spectrum", "a"], "--spectrum would overwrite"),
-            (["--modes", "5"], "--spectrum writes, which is missing"),
+            (["--modes", "5"], "--modes has no effect without --spectrum"),
             (["--no-crunch", "--gaps", "a"], "--gaps needs the crunch"),
             (["--no-crunch", "--spectrum", "a"], "--spectrum needs"),
         ]:
             self.refuse(2, text, *args)
+
+    def test_options_without_effect(self):
+        for args, text in [
+            (["--input", "a", "--n", "77"], "--n has no effect beside --input"),
+            (["--input", "a", "--dim", "2"], "--dim has no effect beside --input"),
+            (["--input", "a", "--phi0", "0.3"], "--phi0 has no effect beside --input"),
+            (["--input", "a", "--plant", "0.3"], "--plant has no effect beside --input"),
+            (["--input", "a", "--diameters", "bidisperse:1.4"], "--diameters has no effect beside --input"),
+            (["--input", "a", "--diameters-ratio=1"], "--diameters-ratio has no effect beside --input"),
+            (["--input", "a", "--pressure", "1e5"], "--pressure has no effect"),
+            (["--growth", "1e-2:500", "--pressure", "1e5"], "--pressure has no effect"),
+            (["--no-md", "--pressure", "1e5"], "--pressure has no effect"),
+            (["--diameters", "lognormal:0.3", "--diameters-ratio", "2"], "no effect beside --diameters"),
+            (["--plant", "0.3", "--phi0", "0.3"], "--phi0 has no effect beside --plant"),
+            (["--model", "euclid", "--zeta", "1"], "--model euclid contradicts --zeta"),
+            (["--non-additivity", "0.1"], "--non-additivity has no effect without --diameters"),
+            (["--shrink"], "--shrink has no effect without --input"),
+            (["--frame", "0"], "--frame has no effect without --input"),
+            (["--input", "a", "--shrink-min", "0"], "--shrink-min has no effect without --shrink"),
+            (["--checkpoint-every", "9"], "--checkpoint-every has no effect without --checkpoint"),
+            (["--no-md", "--no-crunch", "--checkpoint", "a"], "--checkpoint has no effect"),
+            (["--page-steps", "9"], "--page-steps has no effect without --page"),
+            (["--no-crunch", "--threads", "2"], "--threads has no effect beside --no-crunch"),
+            (["--no-crunch", "--method", "barrier"], "--method has no effect beside --no-crunch"),
+            (["--no-crunch", "--strain", "free"], "--strain has no effect beside --no-crunch"),
+            (["--no-crunch", "--lp", "clp"], "--lp has no effect beside --no-crunch"),
+            (["--no-crunch", "--duality-gap", "1e-7"], "--duality-gap has no effect beside --no-crunch"),
+            (["--output", ""], "--output is '', it must be the name of a file"),
+            (["--report="], "--report is '', it must be the name of a file"),
+            (["--input", ""], "--input is ''"),
+            (["--diameters", ""], "--diameters is ''"),
+            (["--output", "./a.xyz", "--page", "a.xyz"], "--output and --page must be different files"),
+            (["--resume", "a", "--output", "./a"], "--output would overwrite the input"),
+            (["--diameters", "a", "--output", "./a"], "--output would overwrite the input"),
+        ]:
+            self.refuse(2, text, *args)
+        (self.dir / "a.xyz").symlink_to(self.dir / "b.xyz")
+        (self.dir / "b.xyz").touch()
+        self.refuse(2, "must be different", "--output", self.dir / "a.xyz", "--page", self.dir / "b.xyz")
+
+    def test_what_the_file_answers(self):
+        file = self.dir / "a.xyz"
+        file.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n' * 2)
+        self.refuse(2, "the option box is 5, but the file has 1", "--input", file, "--box", 5)
+        self.refuse(2, "frame is 2, the file holds 2", "--input", file, "--frame", 2)
+        self.assertEqual(self.report("--input", file, "--frame", 0, "--no-crunch")["notes"], [])
+        said = run("--input", file, "--no-crunch").stdout
+        self.assertIn("  start     the last of 2 frames was read; frame=0 to 1 take others\n", said)
+        run("--n", 8, "--dim", 2, "--no-md", "--no-crunch", "--output", self.dir / "state.xyz")
+        kept = self.dir / "state"
+        run("--n", 64, "--growth", "1e-2:1e5", "--wall-time", 0.02, "--checkpoint", kept)
+        for option, value in (("--n", 65), ("--dim", 2), ("--seed", 2)):
+            self.refuse(2, f"{option} is {value}", "--resume", kept, option, value)
+
+    def test_formats_that_cannot_hold_the_packing(self):
+        four = self.dir / "four.dat"
+        four.write_text("4\n1\n0.2\n0.1 0.2 0.3 0.4\n")
+        for output in ("a.data", "a.vtp"):
+            self.refuse(2, "this packing has d = 4", "--input", four, "--output", self.dir / output)
+            self.refuse(2, "this packing has d = 4", "--n", 8, "--dim", 4, "--output", self.dir / output)
+        self.refuse(2, "this packing has d = 4", "--input", four, "--contacts", self.dir / "a.dump")
+        tilted = self.dir / "t.xyz"
+        tilted.write_text('1\nLattice="1 0 0 .3 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n')
+        self.refuse(2, "plain", "--input", tilted, "--output", self.dir / "a.dat")
+
+    def test_shrinking_is_told(self):
+        near, log = self.dir / "near.dat", self.dir / "log"
+        near.write_text("2\n2\n0.4\n0.1 0.5\n0.4 0.5\n")
+        done = run("--input", near, "--shrink", "--no-crunch", "--log", log)
+        self.assertRegex(done.stderr, r"^jam-pack: warning: all diameters were multiplied by 0\.7[45]\d+: spheres 0 and 1 ")
+        self.assertIn("  start     warning: all diameters", done.stdout)
+        self.assertRegex(log.read_text(), r"^ +0\.\d+ warning all diameters were multiplied by 0\.7")
+        near.write_text("2\n2\n0.4\n0.1 0.5\n0.10000001 0.5\n")
+        self.refuse(3, "less than shrink_min 0.001", "--input", near, "--shrink", "--no-crunch")
+        done = run("--input", near, "--shrink", "--shrink-min", 0, "--no-crunch", "--quiet")
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        self.assertIn("warning: all diameters", done.stderr)
 
     def test_refused_requests(self):
         self.refuse(3, "ends near 0.384", "--n", 50, "--phi0", 0.9)
@@ -115,7 +192,7 @@ class JamPack(unittest.TestCase):
         bad.write_text("3\n4\n0.1\n0.1 0.2 0.3\n")
         self.refuse(3, "line 5: the file ends after 1 of 4 spheres", "--input", bad)
         bad.write_text("2\n2\n0.4\n0.1 0.5\n0.4 0.5\n")
-        self.refuse(3, "spheres 0 and 1 overlap", "--input", bad)
+        self.refuse(3, "spheres 0 and 1 overlap by 0.25 of their contact distance; --shrink multiplies", "--input", bad)
         done = run("--input", bad, "--shrink", "--no-crunch", "--report", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertAlmostEqual(json.loads(done.stdout)["diameter_mean"], 0.3, 12)

@@ -60,7 +60,7 @@ class StopReason(IntEnum):
 class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions. @since 0.1"""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
-    SHRINK = 1  # scale all diameters until the worst pair just touches
+    SHRINK = 1  # scale all diameters until the worst pair just touches; jam_notes tells the factor
     ALLOW = 2  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 
@@ -828,7 +828,7 @@ class Comparison(Report):
 # option structs: {C name: {member: (type, meaning)}}
 OPTIONS = {
     "jam_create_options": {
-        "dim": ("int", "2..8, default 3. A file's own dimension wins."),
+        "dim": ("int", '2..8, default 3; with a file 3, or its own'),
         "n": ("int", 'number of spheres, 1..2^31-1; default 0: taken from the arrays'),
         "seed": ("int", 'of every random stream, default 1; recorded'),
         "box": ("float", 'side of the cube, > 0, default 1'),
@@ -837,9 +837,11 @@ OPTIONS = {
         "model": ("Model", 'Model, default EUCLID'),
         "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'Masses, default EQUAL'),
-        "non_additivity": ("float", "Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins."),
+        "non_additivity": ("float", 'Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same'),
         "wall_time": ("float", "seconds for a random start or the search for overlaps, > 0, default infinity: then 'limit'"),
         "memory_limit": ("float", "as set_memory_limit(); default 0: half the machine's memory"),
+        "frame": ("int", 'of a file with several packings, from 0, or from the end where negative; default -1, the last'),
+        "shrink_min": ("float", "least factor that 'shrink' may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused"),
     },
     "jam_run_options": {
         "resume": ("bool", '1: go on with the run that stopped early; default 0'),
@@ -999,7 +1001,6 @@ TABLES = {
 # calls: {C name: (on a system, ((argument, role, C type), ...))}; an enum stands for the C type of its values
 CALLS = {
     "jam_copy": (True, (("out", "new_handle", "jam_system"),)),
-    "jam_destroy": (True, ()),
     "jam_info_get": (True, (("info", "struct_out", "jam_info"),)),
     "jam_positions_view": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
     "jam_diameters_view": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),

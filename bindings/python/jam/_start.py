@@ -75,7 +75,15 @@ def start(o: argparse.Namespace) -> System:
         "non_additivity": o.non_additivity,
     }
     if o.input:
-        return System.read(o.input, seed=o.seed, box=o.box, overlap="shrink" if o.shrink else "refuse", **model)
+        return System.read(
+            o.input,
+            seed=o.seed,
+            box=o.box,
+            frame=o.frame,
+            overlap="shrink" if o.shrink else "refuse",
+            shrink_min=o.shrink_min,
+            **model,
+        )
     sizes = _diameters(o, 1024 if o.n is None else o.n)
     n = 1024 if o.n is None and sizes is None else o.n if sizes is None else len(sizes)
     phi0 = o.plant or o.phi0 or 0.2 * 0.5 ** max(0, o.dim - 3)

@@ -43,6 +43,13 @@ class State(Base):
         return self._constants().seed
 
     @property
+    def notes(self) -> str:
+        """What was changed or assumed when the system was made, a sentence a line: shrunk diameters, wrapped or sorted spheres,
+        columns and frames not read. '' when nothing."""
+        found: str = raw.jam_notes(self.handle)
+        return found
+
+    @property
     def packing_fraction(self) -> float:
         """Volume of the spheres over that of the cell."""
         return self.info.packing_fraction

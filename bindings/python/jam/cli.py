@@ -70,15 +70,21 @@ _KINDS: dict[str, Callable[[str], Any]] = {
 }
 
 
-def parser() -> argparse.ArgumentParser:
-    """By the table of options, which jam-pack's parser is made from too."""
+def _file(text: str) -> str:
+    if not text:
+        raise argparse.ArgumentTypeError("'' must be the name of a file")
+    return text
+
+
+def parser(named_only: bool = False) -> argparse.ArgumentParser:
+    """By the table of options, which jam-pack's parser is made from too. named_only: without defaults."""
     p = argparse.ArgumentParser(
         prog="python3 -m jam",
         description=ABOUT,
         epilog=f"Example: python3 -m jam {EXAMPLE}. {NOTES}",
         allow_abbrev=False,
     )
-    for name, kind, metavar, default, (low, high), words, _, text in OPTIONS:
+    for name, kind, metavar, default, (low, high), words, *_, text in OPTIONS:
         more: dict[str, Any] = {"help": text.replace("%", "%%"), "default": default}
         if kind == "switch":
             more.update(action="store_true", default=False)
@@ -86,12 +92,41 @@ def parser() -> argparse.ArgumentParser:
             more["choices"] = words
         else:
             more["metavar"] = metavar
-            more["type"] = _integer(low, high) if kind == "integer" else _KINDS.get(kind, str)
+            more["type"] = _integer(low, high) if kind == "integer" else _KINDS.get(kind, _file)
         if kind == "stage":
             more["action"] = "append"
+        if named_only:
+            more["default"] = argparse.SUPPRESS
         p.add_argument("--" + name, **more)
     p.add_argument("--version", action="version", version=f"jam {raw.jam_version()}")
     return p
+
+
+def _effects(p: argparse.ArgumentParser, o: argparse.Namespace, arguments: list[str] | None) -> None:
+    """Nothing is ignored in silence: an option that can have no effect beside the others is refused."""
+    named = {name.replace("_", "-") for name in vars(parser(True).parse_args(arguments))}
+    for name, _, _, _, _, _, _, without, needs, _ in OPTIONS:
+        if name not in named:
+            continue
+        for other in without:
+            if other in named:
+                p.error(f"--{name} has no effect beside --{other}")
+        if needs and not named & set(needs):
+            p.error(f"--{name} has no effect without --{needs[0]}")
+    if o.model == "euclid" and "model" in named and (o.zeta is not None or o.plant is not None):
+        p.error(f"--model euclid contradicts {'--plant' if o.zeta is None else '--zeta'}")
+    still = o.no_md or (o.input and not o.growth)
+    if o.checkpoint and o.no_crunch and still and not (o.resume or o.nve or o.growth):
+        p.error("--checkpoint has no effect: neither dynamics nor a crunch run")
+    if "pressure" in named and (still or (o.growth and all(pressure for _, pressure in o.growth))):
+        p.error("--pressure has no effect: no stage of growth runs up to it")
+
+
+def _same(a: str | None, b: str | None) -> bool:
+    """One file under two names, but for pipes and devices, which take what comes."""
+    if a is None or b is None or (os.path.exists(a) and not os.path.isfile(a)):
+        return False
+    return os.path.realpath(a) == os.path.realpath(b)
 
 
 class _Log:
@@ -209,6 +244,7 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
         "protocol": out["protocol"],
         "method": r.method.name.lower() if r else None,
         "lp_solver": r.lp_solver.name.lower() if r else None,
+        "notes": system.notes.splitlines(),
         "packing_fraction": i.packing_fraction,
         "diameter_mean": i.diameter_mean,
         "pressure": out["pressure"],
@@ -279,19 +315,26 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
             o.plot, dpi=150
         )
     if not o.quiet and o.report != "-":
+        for line in system.notes.splitlines():
+            print(f"start: {line}")
         print(out["crunch"] if crunched else system.info)
 
 
 def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     """The files that will be written: each its own, none over the input, none without the crunch that it shows."""
-    outputs = {name: after_crunch for name, kind, *_, after_crunch, _ in OPTIONS if kind == "output"} | {"vtk": False}
+    outputs = {name: after for name, kind, _, _, _, _, after, *_ in OPTIONS if kind == "output"} | {"vtk": False}
     chosen = {k: getattr(o, k) for k in outputs}
     chosen = {k: path for k, path in chosen.items() if path and path != "-"}
     for key, path in chosen.items():
         for other in chosen:
-            if other != key and chosen[other] == path:
+            if other != key and _same(chosen[other], path):
                 p.error(f"--{key} and --{other} must be different files")
-        if key != "output" and path == o.input:
+        sizes = o.diameters[1] if o.diameters and o.diameters[0] == "file" else None
+        if (
+            (key != "output" and _same(o.input, path))
+            or (key != "checkpoint" and _same(o.resume, path))
+            or _same(sizes, path)
+        ):
             p.error(f"--{key} would overwrite the input")
         if o.no_crunch and outputs[key]:
             p.error(f"--{key} needs the crunch that --no-crunch leaves out")
@@ -305,8 +348,6 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
         p.error("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it")
     if o.resume and o.input:
         p.error("--resume and --input are two starts")
-    if o.modes is not None and not o.spectrum:
-        p.error("--modes says how many modes --spectrum writes, which is missing")
     return list(chosen.values())
 
 
@@ -316,6 +357,7 @@ def main(arguments: list[str] | None = None) -> int:
     if o.no_md and (o.growth or o.nve):
         p.error("--no-md contradicts --growth and --nve")
     outputs = _outputs(p, o)
+    _effects(p, o, arguments)
     for path in outputs:
         folder = os.path.dirname(path) or "."
         if not os.access(folder, os.W_OK):
@@ -337,6 +379,9 @@ def main(arguments: list[str] | None = None) -> int:
     except (JamError, ValueError, OSError) as error:
         print(f"jam: {error}", file=sys.stderr)
         return FAILED
+    for line in system.notes.splitlines():
+        if line.startswith("warning: "):
+            print(f"jam: {line}", file=sys.stderr)
     log = _Log(o.log)
     try:
         log.follow(system)

@@ -1,6 +1,7 @@
 /* jam-pack: the parts of the program. Everything it does goes through the public header. */
 #ifndef JAM_PACK_H
 #define JAM_PACK_H
+#include <stdint.h>
 #include <stdio.h>
 #include "jam/jam.h"
 
@@ -20,8 +21,9 @@ typedef struct given {
   int stage_count;
   double lognormal; /* 0: not asked for */
   const char *diameters_file;
-  int n;        /* whether --n was given */
-  char **words; /* the command line, for the report */
+  int n;          /* whether --n was given */
+  uint64_t named; /* a bit a row of the table: options on the command line */
+  char **words;   /* the command line, for the report */
   int word_count;
 } given;
 
@@ -37,6 +39,7 @@ typedef struct outcome {
   double pressure;            /* that dynamics reached; the crunch ends at infinite pressure */
   int stage_done[MAX_STAGES]; /* which of the stages were begun */
   double seconds_md;
+  const char *notes; /* jam_notes: what reading changed */
 } outcome;
 
 /* progress.c: lines on stderr, rewritten in place on a terminal, every ten seconds elsewhere; the log; checkpoints. */
@@ -60,7 +63,13 @@ int parse_options(int argc, char **argv, options *o);
 void ending_of(const char *path, char ending[8]);
 int each_output(const options *o, int (*f)(const char *path));
 
-/* start.c: each returns 0 or -1, start after a message on stderr. */
+/* settle.c: 0, or -1 after a message on stderr. What contradicts itself, and what follows from the rest. */
+int settle(options *o);
+int is_named(const options *o, const char *name); /* whether the command line has this option, without dashes */
+/* Whether the formats asked for can hold this packing: said before the work. */
+int check_formats(const options *o, const jam_system *sys);
+
+/* start.c: start returns 0 or an exit code after a message on stderr. */
 int start(const options *o, jam_system **sys);
 int take_diameters(const char *value, options *o); /* without a message */
 
@@ -68,6 +77,7 @@ int take_diameters(const char *value, options *o); /* without a message */
 int check_writable(const char *path);
 int write_report(const options *o, const outcome *result, const char *path);
 void print_summary(const outcome *result);
+void print_warnings(const char *notes); /* those of jam_notes, on stderr */
 void complain(const char *format, ...);
 
 /* A file that appears whole or not at all. */

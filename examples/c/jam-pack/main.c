@@ -167,6 +167,7 @@ static int write_all(jam_system *sys, const options *o, outcome *result) {
   int bad = 0;
   result->info.struct_size = sizeof result->info;
   jam_info_get(sys, &result->info);
+  result->notes = jam_notes(sys);
   if (o->output) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
   if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts);
   if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
@@ -184,14 +185,17 @@ int main(int argc, char **argv) {
   terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
-  int bad;
+  int bad, code;
   const int parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
   if (each_output(&o, check_writable)) return EXIT_OUTPUT;
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
-  if (start(&o, &sys)) return EXIT_FAILED;
+  code = start(&o, &sys);
+  if (code) return code;
+  if ((o.input || o.resume || o.dim > 3) && check_formats(&o, sys)) return EXIT_USAGE;
+  print_warnings(jam_notes(sys));
   running = sys;
   if (start_progress(&t, &o, sys)) return EXIT_OUTPUT;
   if (!interrupted) status = work(sys, &o, &t, &result);

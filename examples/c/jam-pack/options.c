@@ -96,11 +96,11 @@ static int take_value(const option_row *row, const char *value, options *o) {
     case TAKE_STAGE:
       return take_stage(value, o);
     case TAKE_DIAMETERS:
-      if (!take_diameters(value, o)) return 0;
+      if (*value && !take_diameters(value, o)) return 0;
       return bad_value(row->name, value, "lognormal:S or bidisperse:R with a finite number > 0, or a file");
     default:
       *(const char **)place = value;
-      return 0;
+      return *value ? 0 : bad_value(row->name, value, "the name of a file");
   }
 }
 
@@ -109,124 +109,6 @@ static const option_row *find_option(const char *name, size_t length) {
   for (k = 0; k < sizeof table / sizeof *table; ++k)
     if (strlen(table[k].name) == length && !strncmp(table[k].name, name, length)) return &table[k];
   return NULL;
-}
-
-static int same(const char *a, const char *b) { return a && b && strcmp(a, "-") && !strcmp(a, b); }
-
-static const char *file_of(const options *o, const option_row *row) {
-  return *(const char *const *)((const char *)o + row->place);
-}
-
-int each_output(const options *o, int (*f)(const char *path)) {
-  size_t k;
-  for (k = 0; k < sizeof table / sizeof *table; ++k)
-    if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]))) return -1;
-  return 0;
-}
-
-/* Every output to its own file, none over the input, and none without the crunch that it shows. A checkpoint may go
- * where the run was resumed from. */
-static int settle_files(const options *o) {
-  const option_row *a, *b, *const end = table + sizeof table / sizeof *table;
-  for (a = table; a < end; ++a) {
-    if (a->kind != TAKE_OUTPUT || !file_of(o, a)) continue;
-    for (b = table; b < a; ++b)
-      if (b->kind == TAKE_OUTPUT && same(file_of(o, a), file_of(o, b))) {
-        complain("%s and %s must be different files", b->name, a->name);
-        return -1;
-      }
-    if (strcmp(a->name, "--output") && same(o->input, file_of(o, a))) {
-      complain("%s would overwrite the input", a->name);
-      return -1;
-    }
-    if (o->no_crunch && a->flags & AFTER_CRUNCH) {
-      complain("%s needs the crunch that --no-crunch leaves out", a->name);
-      return -1;
-    }
-  }
-  if (o->modes != NOT_GIVEN && !o->spectrum) {
-    complain("--modes says how many modes --spectrum writes, which is missing");
-    return -1;
-  }
-  return 0;
-}
-
-void ending_of(const char *path, char ending[8]) {
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot;
-  char bare[256];
-  size_t length = strlen(name);
-  if (length > 3 && !strcmp(name + length - 3, ".gz")) length -= 3;
-  snprintf(bare, sizeof bare, "%.*s", (int)length, name);
-  dot = strrchr(bare, '.');
-  snprintf(ending, 8, "%.7s", dot && dot != bare ? dot + 1 : "");
-}
-
-static int is_one_of(const char *word, const char *const *list) {
-  while (*list && strcmp(word, *list)) ++list;
-  return *list != NULL;
-}
-
-/* Whether the library knows the formats of these names: said before the work, not after it. */
-static int settle_formats(const options *o) {
-  static const char *const packings[] = {"xyz", "extxyz", "data", "lmp", "vtp", "dat", "txt", "", NULL};
-  static const char *const networks[] = {"csv", "dump", "vtp", "", NULL};
-  char ending[8];
-  if (o->output) {
-    ending_of(o->output, ending);
-    if (!is_one_of(ending, packings) && strspn(ending, "0123456789") != strlen(ending)) {
-      complain(
-          "--output %s: no format is known by this ending; use .xyz, .extxyz, .data, .lmp, .vtp, .dat, .txt or none,"
-          " with .gz behind it or without",
-          o->output);
-      return -1;
-    }
-    if (o->strain != JAM_STRAIN_NONE &&
-        (!is_one_of(ending, packings) || !strcmp(ending, "dat") || !strcmp(ending, "txt") || !*ending)) {
-      complain("--strain needs an --output in another format: plain text holds cubes alone");
-      return -1;
-    }
-    if (o->non_additivity != 0 && strcmp(ending, "xyz") && strcmp(ending, "extxyz")) {
-      complain("--non-additivity needs an --output that ends in .xyz or .extxyz: no other format can hold it");
-      return -1;
-    }
-  }
-  if (o->contacts && strcmp(o->contacts, "-") && strncmp(o->contacts, "/dev/", 5)) {
-    ending_of(o->contacts, ending);
-    if (!is_one_of(ending, networks)) {
-      complain("--contacts %s: no format is known by this ending; use .csv, .dump or .vtp", o->contacts);
-      return -1;
-    }
-  }
-  return 0;
-}
-
-/* What contradicts itself, and what follows from the rest. */
-static int settle(options *o) {
-  given *const g = &o->given;
-  int k;
-  if (settle_files(o)) return -1;
-  if (settle_formats(o)) return -1;
-  if (o->no_md && (g->stage_count || o->nve > 0)) {
-    complain("--no-md contradicts %s", g->stage_count ? "--growth" : "--nve");
-    return -1;
-  }
-  if (o->resume && o->input) {
-    complain("--resume and --input are two starts");
-    return -1;
-  }
-  g->n = o->n != NOT_GIVEN;
-  if (!g->n) o->n = 1024;
-  if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;
-  if (isfinite(o->plant)) o->phi0 = o->plant;
-  if (!isfinite(o->phi0)) o->phi0 = 0.2 * pow(0.5, o->dim > 3 ? (double)o->dim - 3 : 0);
-  if (o->no_md || (o->input && !g->stage_count)) return 0;
-  if (!g->stage_count) { /* the two stages that avoid crystals in d = 3 */
-    g->stages[g->stage_count++] = (stage){1e-2, o->pressure < 500 ? o->pressure : 500};
-    if (o->pressure > 500) g->stages[g->stage_count++] = (stage){3e-3, o->pressure};
-  }
-  for (k = 0; k < g->stage_count; ++k)
-    if (!g->stages[k].pressure) g->stages[k].pressure = o->pressure;
-  return 0;
 }
 
 /* One argument, with its value behind '=' or in the next one. Returns how many arguments were taken, 0 after a message.
@@ -242,13 +124,16 @@ static int take_argument(char **argv, int left, options *o) {
   else if (row->kind == TAKE_SWITCH) {
     if (!value) {
       *(int *)((char *)o + row->place) = 1;
+      o->given.named |= UINT64_C(1) << (row - table);
       return 1;
     }
     complain("option '%s' takes no value", row->name);
   } else if (!value && left == 1)
     complain("option '%s' lacks its value", argv[0]);
-  else if (!take_value(row, value ? value + 1 : argv[1], o))
+  else if (!take_value(row, value ? value + 1 : argv[1], o)) {
+    o->given.named |= UINT64_C(1) << (row - table);
     return value ? 1 : 2;
+  }
   return 0;
 }
 

@@ -123,6 +123,38 @@ static const char *next(int *first) {
   return between;
 }
 
+/* The lines of jam_notes: calls f with each, without its end. */
+static void each_note(const char *notes, void (*f)(const char *line, int warns, void *with), void *with) {
+  while (*notes) {
+    const size_t length = strcspn(notes, "\n");
+    char line[640];
+    snprintf(line, sizeof line, "%.*s", (int)length, notes);
+    f(line, !strncmp(line, "warning: ", 9), with);
+    notes += length + (notes[length] == '\n');
+  }
+}
+
+struct note_list {
+  FILE *file;
+  int first;
+};
+static void put_note(const char *line, int warns, void *with) {
+  struct note_list *list = with;
+  (void)warns;
+  fputs(next(&list->first), list->file);
+  put_text(list->file, line);
+}
+static void print_note(const char *line, int warns, void *with) {
+  (void)warns;
+  (void)with;
+  printf("  start     %s\n", line);
+}
+static void print_warning(const char *line, int warns, void *with) {
+  (void)with;
+  if (warns) complain("%s", line);
+}
+void print_warnings(const char *notes) { each_note(notes, print_warning, NULL); }
+
 /* What was asked for, and what was done of it in this run. */
 static void put_protocol(FILE *f, const options *o, const outcome *result) {
   static const char *const methods[] = {"barrier_path", "sequential_lp"}, *const solvers[] = {"ipm", "clp"},
@@ -157,6 +189,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   const int crunched = result->has_crunch;
   const int certified = crunched && r->contacts > 0; /* without contacts zeros would look like perfect balance */
   const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
+  struct note_list notes = {NULL, 1};
   output out;
   FILE *f;
   if (open_output(&out, path)) return -1;
@@ -166,6 +199,10 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_count(f, "dim", info->dim, 1);
   put_count(f, "seed", info->seed, 1);
   put_protocol(f, o, result);
+  notes.file = f;
+  fputs("  \"notes\": [", f);
+  each_note(result->notes, put_note, &notes);
+  fputs("],\n", f);
   put_number(f, "packing_fraction", info->packing_fraction);
   put_number(f, "diameter_mean", info->diameter_mean);
   put_number(f, "pressure", result->has_md ? result->pressure : NAN);
@@ -209,6 +246,7 @@ void print_summary(const outcome *result) {
   const jam_info *info = &result->info;
   printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
          (long long)info->seed, info->packing_fraction);
+  each_note(result->notes, print_note, NULL);
   if (result->has_md)
     printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", result->pressure, (double)result->collisions,
            result->seconds_md, jam_stop_string(result->md_stop));

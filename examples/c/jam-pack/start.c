@@ -78,6 +78,34 @@ static int make_diameters(const options *o, double **out, int64_t *n) {
   return 0;
 }
 
+/* The options of a killed job are given again: those that the checkpoint holds must be the same. */
+static int check_resumed(const options *o, const jam_system *sys) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  if (o->given.n && o->n != info.n)
+    complain("--n is %lld, the checkpoint has %lld spheres", (long long)o->n, (long long)info.n);
+  else if (is_named(o, "dim") && o->dim != info.dim)
+    complain("--dim is %lld, the checkpoint has d = %d", (long long)o->dim, (int)info.dim);
+  else if (is_named(o, "seed") && o->seed != info.seed)
+    complain("--seed is %lld, that of the checkpoint %lld", (long long)o->seed, (long long)info.seed);
+  else
+    return 0;
+  return EXIT_USAGE;
+}
+
+/* Why there is no start, with the option that helps. An option that contradicts the file is a wrong command line. */
+static int refused_start(const options *o, jam_status status) {
+  const char *const text = jam_last_error()[0] ? jam_last_error() : jam_status_string(status);
+  if (status == JAM_E_OVERLAP && o->input && !o->shrink && !strstr(text, "the same centre"))
+    complain("%s; --shrink multiplies all diameters by the factor that brings the worst pair to contact", text);
+  else
+    complain("%s", text);
+  return status == JAM_E_ARGUMENT && (is_named(o, "box") || is_named(o, "non-additivity") || is_named(o, "frame"))
+             ? EXIT_USAGE
+             : EXIT_FAILED;
+}
+
 int start(const options *o, jam_system **sys) {
   jam_create_options create;
   double *diameters = NULL;
@@ -85,24 +113,25 @@ int start(const options *o, jam_system **sys) {
   create.seed = o->seed;
   create.box = o->box;
   create.overlap = o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE;
+  create.shrink_min = o->shrink_min;
+  create.frame = o->frame;
   create.model = (int32_t)o->model;
   create.mk_zeta = o->zeta;
   create.non_additivity = o->non_additivity;
-  create.n = o->n;
   if (o->resume)
     status = jam_checkpoint_read(o->resume, sys);
   else if (o->input)
     status = jam_read(o->input, &create, sys);
   else {
-    if (make_diameters(o, &diameters, &create.n)) return -1;
+    create.n = o->n;
+    if (make_diameters(o, &diameters, &create.n)) return EXIT_FAILED;
     create.dim = (int32_t)o->dim;
     create.packing_fraction = o->phi0;
     status = jam_create(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, sys);
     free(diameters);
   }
-  if (status >= 0) return 0;
-  complain("%s", jam_last_error()[0] ? jam_last_error() : jam_status_string(status));
-  return -1;
+  if (status < 0) return refused_start(o, status);
+  return o->resume ? check_resumed(o, *sys) : 0;
 }
 
 /* The value of --diameters: lognormal:S, bidisperse:RATIO, or the name of a file. */

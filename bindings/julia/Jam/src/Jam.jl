@@ -100,9 +100,9 @@ function System(x::AbstractMatrix, diameters; given...)
 end
 
 """
-    System(path; box, overlap, seed)
+    System(path; box, frame, overlap, shrink_min, seed)
 
-From a file, plain text or extended XYZ.
+From a file of any format that `jam_read` knows; `notes` has what was changed or assumed.
 """
 function System(path::AbstractString; given...)
     o = options(jam_create_options, jam_create_options_init, given)
@@ -110,6 +110,9 @@ function System(path::AbstractString; given...)
     check(jam_read(path, o, out))
     return System(out[])
 end
+
+"What was changed or assumed when the system was made, a sentence a line."
+notes(s::System) = unsafe_string(jam_notes(handle(s)))
 
 "Makes a system from a file of `checkpoint(s, path)`: dynamics go on to the same bits."
 function from_checkpoint(path::AbstractString)

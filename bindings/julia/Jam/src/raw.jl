@@ -57,7 +57,7 @@ const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of 
 
 # jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
-const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters until the worst pair just touches
+const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters until the worst pair just touches; jam_notes tells the factor
 const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 # jam_model: Pair distance. @since 0.1
@@ -285,7 +285,7 @@ Options of jam_create and jam_read. @since 0.1
 """
 mutable struct jam_create_options
     struct_size::UInt32  # sizeof(jam_create_options)
-    dim::Int32  # 2..8, default 3. A file's own dimension wins.
+    dim::Int32  # 2..8, default 3; with a file 3, or its own
     n::Int64  # number of spheres, 1..2^31-1; default 0: taken from the arrays
     seed::Int64  # of every random stream, default 1; recorded
     box::Cdouble  # side of the cube, > 0, default 1
@@ -295,10 +295,12 @@ mutable struct jam_create_options
     mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
-    non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. A file's own value wins.
+    non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same
     wall_time::Cdouble  # seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT
     memory_limit::Cdouble  # as jam_set_memory_limit; default 0: half the machine's memory
-    jam_create_options() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    frame::Int64  # of a file with several packings, from 0, or from the end where negative; default -1, the last
+    shrink_min::Cdouble  # least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused
+    jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1019,7 +1021,7 @@ function jam_create_watched(o, positions, positions_len, diameters, diameters_le
 end
 
 """
-Sets (or with NULL removes) the log callback and its level. Threads: alone.
+Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
 """
 function jam_set_log(sys, callback, level, user)
@@ -1045,14 +1047,25 @@ function jam_set_memory_limit(sys, bytes)
 end
 
 """
-Reads a file in either format, which its content tells. o: overlap policy, seed, model, and the box of a plain file
-that gives none; NULL for defaults. The last line must end with a newline, so that a file cut inside a number is
-refused. XYZ ids are not kept.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (XYZ box that is not periodic),
-and those of jam_create. Threads: any. @since 0.1
+Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
+which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
+where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
+the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
+are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
+@since 0.1
 """
 function jam_read(path, o, out)
     return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), out)
+end
+
+"""
+What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
+sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
+Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1
+"""
+function jam_notes(sys)
+    return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)
 end
 
 """

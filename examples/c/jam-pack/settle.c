@@ -1,0 +1,239 @@
+/* What the options of one command line say together: contradictions, what has no effect, files and their formats. */
+#define _XOPEN_SOURCE 700
+#include <errno.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#define JAM_PACK_OPTIONS_TABLE
+#include "jam-pack.h"
+
+#define ROWS (sizeof table / sizeof *table)
+
+/* The name that a file has, or would have: without links, `.` and `..`. NULL when its folder is not there. */
+static char *resolve(const char *path) {
+  const char *const slash = strrchr(path, '/');
+  char *whole = realpath(path, NULL), *folder, *head;
+  if (whole) return whole;
+  head = slash ? strdup(path) : strdup(".");
+  if (!head) return NULL;
+  if (slash) head[slash == path ? 1 : slash - path] = '\0';
+  folder = realpath(head, NULL);
+  free(head);
+  if (!folder) return NULL;
+  whole = malloc(strlen(folder) + strlen(path) + 2);
+  if (whole) sprintf(whole, "%s/%s", folder, slash ? slash + 1 : path);
+  free(folder);
+  return whole;
+}
+
+/* One file under two names, but for pipes and devices, which take what comes. */
+static int same(const char *a, const char *b) {
+  struct stat there;
+  char *x, *y;
+  int equal;
+  if (!a || !b || !strcmp(a, "-") || !strcmp(b, "-")) return 0;
+  if (stat(a, &there) == 0 && !S_ISREG(there.st_mode)) return 0;
+  x = resolve(a);
+  y = resolve(b);
+  equal = x && y ? !strcmp(x, y) : !strcmp(a, b);
+  free(x);
+  free(y);
+  return equal;
+}
+
+static const char *file_of(const options *o, const option_row *row) {
+  return *(const char *const *)((const char *)o + row->place);
+}
+
+int is_named(const options *o, const char *name) {
+  size_t k;
+  for (k = 0; k < ROWS; ++k)
+    if (!strcmp(table[k].name + 2, name)) return (int)(o->given.named >> k & 1);
+  return 0;
+}
+
+int each_output(const options *o, int (*f)(const char *path)) {
+  size_t k;
+  for (k = 0; k < sizeof table / sizeof *table; ++k)
+    if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]))) return -1;
+  return 0;
+}
+
+/* Every output to its own file, none over the input, and none without the crunch that it shows. A checkpoint may go
+ * where the run was resumed from. */
+static int settle_files(const options *o) {
+  const option_row *a, *b, *const end = table + sizeof table / sizeof *table;
+  for (a = table; a < end; ++a) {
+    if (a->kind != TAKE_OUTPUT || !file_of(o, a)) continue;
+    for (b = table; b < a; ++b)
+      if (b->kind == TAKE_OUTPUT && same(file_of(o, a), file_of(o, b))) {
+        complain("%s and %s must be different files", b->name, a->name);
+        return -1;
+      }
+    if ((strcmp(a->name, "--output") && same(o->input, file_of(o, a))) ||
+        (strcmp(a->name, "--checkpoint") && same(o->resume, file_of(o, a))) ||
+        same(o->given.diameters_file, file_of(o, a))) {
+      complain("%s would overwrite the input", a->name);
+      return -1;
+    }
+    if (o->no_crunch && a->flags & AFTER_CRUNCH) {
+      complain("%s needs the crunch that --no-crunch leaves out", a->name);
+      return -1;
+    }
+  }
+  return 0;
+}
+
+void ending_of(const char *path, char ending[8]) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot;
+  char bare[256];
+  size_t length = strlen(name);
+  if (length > 3 && !strcmp(name + length - 3, ".gz")) length -= 3;
+  snprintf(bare, sizeof bare, "%.*s", (int)length, name);
+  dot = strrchr(bare, '.');
+  snprintf(ending, 8, "%.7s", dot && dot != bare ? dot + 1 : "");
+}
+
+/* The first option of a list of names that is on the command line; NULL when none is. */
+static const char *first_named(const options *o, const char *list, char name[32]) {
+  while (*list) {
+    const size_t length = strcspn(list, " ");
+    snprintf(name, 32, "%.*s", (int)length, list);
+    if (is_named(o, name + 2)) return name;
+    list += length + (list[length] == ' ');
+  }
+  return NULL;
+}
+
+/* Nothing is ignored in silence: an option that can have no effect beside the others is refused. */
+static int settle_effects(const options *o) {
+  char name[32];
+  size_t k;
+  for (k = 0; k < ROWS; ++k) {
+    const option_row *const row = &table[k];
+    if (!(o->given.named >> k & 1)) continue;
+    if (first_named(o, row->without, name)) {
+      complain("%s has no effect beside %s", row->name, name);
+      return -1;
+    }
+    if (*row->needs && !first_named(o, row->needs, name)) {
+      complain("%s has no effect without %.*s", row->name, (int)strcspn(row->needs, " "), row->needs);
+      return -1;
+    }
+  }
+  if (o->checkpoint && o->no_crunch && !o->resume && !(o->nve > 0) && !o->given.stage_count && (o->no_md || o->input)) {
+    complain("--checkpoint has no effect: neither dynamics nor a crunch run");
+    return -1;
+  }
+  return 0;
+}
+
+/* Gives --pressure to the stages without their own; it must be the target of one. */
+static int settle_stages(options *o) {
+  int k, taken = 0;
+  for (k = 0; k < o->given.stage_count; ++k)
+    if (!o->given.stages[k].pressure) {
+      o->given.stages[k].pressure = o->pressure;
+      taken = 1;
+    }
+  if (!is_named(o, "pressure") || taken) return 0;
+  complain("--pressure has no effect: no stage of growth runs up to it");
+  return -1;
+}
+
+static int is_one_of(const char *word, const char *const *list) {
+  while (*list && strcmp(word, *list)) ++list;
+  return *list != NULL;
+}
+
+/* Whether the library knows the formats of these names: said before the work, not after it. */
+static int settle_formats(const options *o) {
+  static const char *const packings[] = {"xyz", "extxyz", "data", "lmp", "vtp", "dat", "txt", "", NULL};
+  static const char *const networks[] = {"csv", "dump", "vtp", "", NULL};
+  char ending[8];
+  if (o->output) {
+    ending_of(o->output, ending);
+    if (!is_one_of(ending, packings) && strspn(ending, "0123456789") != strlen(ending)) {
+      complain(
+          "--output %s: no format is known by this ending; use .xyz, .extxyz, .data, .lmp, .vtp, .dat, .txt or none,"
+          " with .gz behind it or without",
+          o->output);
+      return -1;
+    }
+    if (o->strain != JAM_STRAIN_NONE &&
+        (!is_one_of(ending, packings) || !strcmp(ending, "dat") || !strcmp(ending, "txt") || !*ending)) {
+      complain("--strain needs an --output in another format: plain text holds cubes alone");
+      return -1;
+    }
+    if (o->non_additivity != 0 && strcmp(ending, "xyz") && strcmp(ending, "extxyz")) {
+      complain("--non-additivity needs an --output that ends in .xyz or .extxyz: no other format can hold it");
+      return -1;
+    }
+  }
+  if (o->contacts && strcmp(o->contacts, "-") && strncmp(o->contacts, "/dev/", 5)) {
+    ending_of(o->contacts, ending);
+    if (!is_one_of(ending, networks)) {
+      complain("--contacts %s: no format is known by this ending; use .csv, .dump or .vtp", o->contacts);
+      return -1;
+    }
+  }
+  return 0;
+}
+
+int settle(options *o) {
+  given *const g = &o->given;
+  if (settle_files(o) || settle_formats(o)) return -1;
+  if (o->no_md && (g->stage_count || o->nve > 0)) {
+    complain("--no-md contradicts %s", g->stage_count ? "--growth" : "--nve");
+    return -1;
+  }
+  if (o->resume && o->input) {
+    complain("--resume and --input are two starts");
+    return -1;
+  }
+  if (is_named(o, "model") && o->model == JAM_MODEL_EUCLID && (isfinite(o->zeta) || isfinite(o->plant))) {
+    complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
+    return -1;
+  }
+  if (settle_effects(o)) return -1;
+  g->n = o->n != NOT_GIVEN;
+  if (!g->n) o->n = 1024;
+  if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;
+  if (isfinite(o->plant)) o->phi0 = o->plant;
+  if (!isfinite(o->phi0)) o->phi0 = 0.2 * pow(0.5, o->dim > 3 ? (double)o->dim - 3 : 0);
+  if (o->no_md || (o->input && !g->stage_count)) return settle_stages(o);
+  if (!g->stage_count) { /* the two stages that avoid crystals in d = 3 */
+    g->stages[g->stage_count++] = (stage){1e-2, o->pressure < 500 ? o->pressure : 500};
+    if (o->pressure > 500) g->stages[g->stage_count++] = (stage){3e-3, o->pressure};
+    return 0;
+  }
+  return settle_stages(o);
+}
+
+/* The number of the format that the ending of a packing's file names; the checks of settle_formats came first. */
+static int32_t format_of(const char *ending) {
+  if (!strcmp(ending, "xyz") || !strcmp(ending, "extxyz")) return JAM_FORMAT_XYZ;
+  if (!strcmp(ending, "data") || !strcmp(ending, "lmp")) return JAM_FORMAT_LAMMPS;
+  return !strcmp(ending, "vtp") ? JAM_FORMAT_VTP : JAM_FORMAT_PLAIN;
+}
+
+int check_formats(const options *o, const jam_system *sys) {
+  jam_info info;
+  char ending[8];
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  if (o->output) {
+    ending_of(o->output, ending);
+    if (jam_write(sys, "/dev/null", format_of(ending)) < 0) {
+      complain("--output %s: %s", o->output, jam_last_error());
+      return -1;
+    }
+  }
+  if (!o->contacts || info.dim <= 3) return 0;
+  ending_of(o->contacts, ending);
+  if (strcmp(ending, "dump") && strcmp(ending, "vtp")) return 0;
+  complain("--contacts %s: such files hold d = 2 and d = 3, this packing has d = %d", o->contacts, (int)info.dim);
+  return -1;
+}

@@ -1,0 +1,197 @@
+// Dumps of LAMMPS: dump atom and dump custom as text, with radius or diameter, one frame or several.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "io/read_helpers.hpp"
+
+namespace jam {
+namespace {
+using Words = std::vector<std::string_view>;
+
+// The lines of a box: cell vectors as rows, and where they begin.
+struct Box {
+  std::array<double, 9> rows{};
+  std::array<double, 3> low{};
+};
+
+// behind: the words after `BOX BOUNDS`. Tilts, the bounds then being those of the parallelepiped; or `abc origin`; then
+// perhaps a boundary for each direction.
+Box read_box(LineReader &in, Words behind) {
+  const bool general = behind.size() >= 2 && behind[0] == "abc" && behind[1] == "origin";
+  const bool tilted = behind.size() >= 3 && behind[0] == "xy" && behind[1] == "xz" && behind[2] == "yz";
+  behind.erase(behind.begin(), behind.begin() + (general ? 2 : tilted ? 3 : 0));
+  for (const std::string_view boundary : behind)
+    if (boundary != "pp")
+      in.fail(JAM_E_UNSUPPORTED, "the boundary is '%s': the box must be periodic (pp) in every direction",
+              shown(boundary).c_str());
+  std::string_view line;
+  Words words;
+  std::array<std::array<double, 4>, 3> x{};
+  const size_t columns = general ? 4 : tilted ? 3 : 2;
+  for (auto &row : x) {
+    if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends inside the box");
+    split(line, words);
+    if (words.size() != columns) in.fail(JAM_E_FORMAT, "%zu numbers of the box, %zu are needed", words.size(), columns);
+    for (size_t c = 0; c < columns; ++c) row[c] = parse_number(in, words[c]);
+  }
+  Box box;
+  if (general) {
+    for (size_t r = 0; r < 3; ++r) {
+      for (size_t c = 0; c < 3; ++c) box.rows[3 * r + c] = x[r][c];
+      box.low[r] = x[r][3];
+    }
+    return box;
+  }
+  const double xy = x[0][2], xz = x[1][2], yz = x[2][2];
+  x[0][0] -= std::min({0.0, xy, xz, xy + xz});
+  x[0][1] -= std::max({0.0, xy, xz, xy + xz});
+  x[1][0] -= std::min(0.0, yz);
+  x[1][1] -= std::max(0.0, yz);
+  for (size_t c = 0; c < 3; ++c) {
+    box.low[c] = x[c][0];
+    box.rows[4 * c] = x[c][1] - x[c][0];
+    if (!(box.rows[4 * c] > 0.0)) in.fail(JAM_E_FORMAT, "the box has no extent along %c", "xyz"[c]);
+  }
+  box.rows[3] = xy;
+  box.rows[6] = xz;
+  box.rows[7] = yz;
+  return box;
+}
+
+struct Columns {
+  size_t total = 0, id = 0, count = 0;  // count: of coordinates
+  bool has_id = false, scaled = false;
+  std::array<size_t, 3> axis{};
+  SizeColumn size;
+  std::vector<std::string> unread;
+};
+
+Columns read_columns(const LineReader &in, const Words &names) {
+  Columns columns;
+  columns.total = names.size();
+  const auto place = [&](const std::string &name) {
+    return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  std::vector<bool> used(names.size(), false);
+  for (const char *kind : {"", "u", "s", "su"}) {  // x in the box, unwrapped, over the edges, both
+    while (columns.count < 3) {
+      const size_t at = place("xyz"[columns.count] + std::string(kind));
+      if (at == names.size()) break;
+      columns.axis[columns.count++] = at;
+    }
+    if (columns.count >= 2) {
+      columns.scaled = kind[0] == 's';
+      break;
+    }
+    columns.count = 0;
+  }
+  if (columns.count < 2)
+    in.fail(JAM_E_FORMAT, "the columns have no positions: x y z, xu yu zu, xs ys zs or xsu ysu zsu are needed");
+  for (size_t c = 0; c < columns.count; ++c) used[columns.axis[c]] = true;
+  for (size_t k = 0; k < names.size(); ++k) {
+    if (used[k] || columns.size.take(in, names[k], k)) continue;
+    if (names[k] == "id") {
+      columns.has_id = true;
+      columns.id = k;
+    } else {
+      columns.unread.emplace_back(names[k]);
+    }
+  }
+  if (!columns.size.found())
+    in.fail(JAM_E_FORMAT, "the columns have no sizes: dump id radius x y z (or diameter) with LAMMPS");
+  return columns;
+}
+
+void read_atoms(LineReader &in, int64_t n, const Box &box, const Columns &columns, FileContent &content) {
+  Rows rows(in, false);
+  Words words;
+  std::vector<double> position;
+  std::vector<int64_t> ids;
+  for (int64_t k = 0; k < n; ++k) {
+    if (!rows.next(words)) ends_early(in, k, n);
+    if (words.size() != columns.total)
+      in.fail(JAM_E_FORMAT, "%zu columns, ITEM: ATOMS names %zu", words.size(), columns.total);
+    std::array<double, 3> x{};
+    for (size_t c = 0; c < columns.count; ++c) x[c] = parse_number(in, words[columns.axis[c]]);
+    for (size_t c = 0; c < 3; ++c) {
+      const double scaled = x[0] * box.rows[c] + x[1] * box.rows[3 + c] + x[2] * box.rows[6 + c];
+      if (c < 2)
+        position.push_back(columns.scaled ? scaled : x[c] - box.low[c]);
+      else  // from the origin of the file, where it is 0 in a plane
+        position.push_back(columns.scaled ? scaled + box.low[2] : x[2]);
+    }
+    content.diameter.push_back(columns.size.diameter(in, words));
+    if (columns.has_id) ids.push_back(parse_count(in, words[columns.id], "the number of an atom"));
+  }
+  const bool plane = columns.count == 2;
+  take_plane(position, plane ? -1.0 : box.low[2], plane ? 1.0 : box.low[2] + box.rows[8], content);
+  if (content.dim == 3)
+    for (size_t k = 2; k < content.position.size(); k += 3) content.position[k] -= box.low[2];
+  if (!std::is_sorted(ids.begin(), ids.end())) {
+    content.notes.say("the ids of the dump do not count up: spheres keep its order, ids are not kept");
+    std::sort(ids.begin(), ids.end());
+  }
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) in.fail(JAM_E_FORMAT, "atom %lld is there twice", static_cast<long long>(*twice));
+}
+
+// The next line that is not blank, with its words; false at the end of the file.
+bool next_words(LineReader &in, std::string_view &line, Words &words) {
+  if (!in.next_filled(line)) return false;
+  split(line, words);
+  return true;
+}
+
+// Frame k; false at the end of the file.
+bool read_frame(LineReader &in, FileContent &content) {
+  std::string_view line;
+  Words words;
+  int64_t n = -1;
+  Box box;
+  bool begun = false, has_box = false;
+  while (next_words(in, line, words)) {
+    if (words[0] != "ITEM:" || words.size() < 2)
+      in.fail(JAM_E_FORMAT, "'%s' is there where an ITEM: must begin%s", shown(line).c_str(),
+              begun ? "" : "; there may be more atoms than NUMBER OF ATOMS says");
+    const std::string item(words[1]);
+    begun = true;
+    if (item == "TIMESTEP" || item == "TIME" || item == "UNITS") {
+      if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends behind ITEM: %s", item.c_str());
+    } else if (item == "NUMBER" && words.size() == 4 && words[3] == "ATOMS") {
+      if (!next_words(in, line, words)) in.fail(JAM_E_FORMAT, "the file ends before the number of atoms");
+      n = take_count(in, parse_count(in, words[0], "a number of atoms"));
+    } else if (item == "BOX" && words.size() >= 3 && words[2] == "BOUNDS") {
+      const std::string kept(line);
+      split(kept, words);
+      box = read_box(in, Words(words.begin() + 3, words.end()));
+      has_box = true;
+    } else if (item == "ATOMS") {
+      if (n < 0 || !has_box) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS and BOX BOUNDS must stand before ITEM: ATOMS");
+      const std::string names(line);
+      split(names, words);
+      const Columns columns = read_columns(in, Words(words.begin() + 2, words.end()));
+      read_atoms(in, n, box, columns, content);
+      const size_t d = static_cast<size_t>(content.dim);
+      if (d == 2 && (box.rows[2] != 0.0 || box.rows[5] != 0.0 || box.rows[6] != 0.0 || box.rows[7] != 0.0))
+        in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
+      std::vector<double> rows;
+      for (size_t r = 0; r < d; ++r) rows.insert(rows.end(), &box.rows[3 * r], &box.rows[3 * r] + d);
+      take_cell(in, std::move(rows), content);
+      say_unread(content, columns.unread);
+      return true;
+    } else {
+      in.fail(JAM_E_UNSUPPORTED, "'%s' is no part of a dump of atoms", shown(line).c_str());
+    }
+  }
+  if (begun) in.fail(JAM_E_FORMAT, "the file ends before ITEM: ATOMS");
+  return false;
+}
+
+}  // namespace
+
+FileContent read_dump(LineReader &in, const ReadOptions &options) {
+  return choose_frame(in, options.frame, [&](FileContent &content, int64_t) { return read_frame(in, content); });
+}
+
+}  // namespace jam

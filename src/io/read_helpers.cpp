@@ -1,0 +1,107 @@
+#include "io/read_helpers.hpp"
+
+#include <algorithm>
+
+#include "core/cell_reduction.hpp"
+
+namespace jam {
+namespace {
+// Characters behind the decimal point, those of an exponent too.
+size_t behind_point(std::string_view word) {
+  const size_t point = word.find('.');
+  return point == std::string_view::npos ? 0 : word.size() - point;
+}
+}  // namespace
+
+bool next_text(LineReader &in, std::string_view &line, std::vector<std::string_view> &words) {
+  while (in.next(line)) {
+    split(before_comment(line), words);
+    if (!words.empty()) return true;
+  }
+  return false;
+}
+
+void check_end(LineReader &in, int64_t n) {
+  std::string_view line;
+  std::vector<std::string_view> words;
+  if (next_text(in, line, words))
+    in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'",
+            static_cast<long long>(n), shown(line).c_str());
+}
+
+bool Rows::next(std::vector<std::string_view> &words) {
+  std::string_view line;
+  do {
+    if (!in_.next_filled(line, true)) return false;
+    const char last = line.back();
+    const std::string_view text = comments_ ? before_comment(line) : line;
+    if (comments_ && text.size() < line.size() && in_.cut_short()) in_.fail_cut_short();
+    split_columns(in_, text, words);
+    if (words.empty()) continue;
+    check_last(words, last == ' ' || last == '\t');
+  } while (words.empty());
+  return true;
+}
+
+void Rows::check_last(const std::vector<std::string_view> &words, bool blank_behind) {
+  const size_t length = behind_point(words.back());
+  if (in_.cut_short() && !blank_behind) {
+    size_t whole = longest_;
+    if (first_)
+      for (size_t k = 0; k + 1 < words.size(); ++k) whole = std::max(whole, behind_point(words[k]));
+    if (whole == 0 || length < whole) in_.fail_cut_short();
+  }
+  first_ = false;
+  longest_ = std::max(longest_, length);
+}
+
+bool SizeColumn::take(const LineReader &in, std::string_view name, size_t column) {
+  const std::string word = lower(name);
+  const bool radius = word == "radius", diameter = word == "diameter";
+  if (!radius && !diameter) return false;
+  if (found_) in.fail(JAM_E_FORMAT, "two columns hold sizes: keep one of radius and diameter");
+  found_ = true;
+  radius_ = radius;
+  column_ = column;
+  return true;
+}
+
+double SizeColumn::diameter(const LineReader &in, const std::vector<std::string_view> &words) const {
+  const double x = positive(in, words[column_], radius_ ? "radius" : "diameter");
+  return radius_ ? 2.0 * x : x;
+}
+
+void say_unread(FileContent &content, const std::vector<std::string> &names) {
+  if (names.empty()) return;
+  std::string all;
+  for (const std::string &name : names) all += (all.empty() ? "" : ", ") + shown(name);
+  content.notes.say("columns of the file that were not read: %s", all.c_str());
+}
+
+void take_cell(const LineReader &in, std::vector<double> rows, FileContent &content) {
+  const size_t d = static_cast<size_t>(content.dim);
+  bool cube = true;
+  for (size_t k = 0; k < rows.size(); ++k) cube = cube && rows[k] == (k % (d + 1) == 0 ? rows[0] : 0.0);
+  if (cube && rows[0] > 0.0) {
+    at_line(in, [&] { check_box(rows[0]); });
+    content.box = rows[0];
+    return;
+  }
+  at_line(in, [&] { reduce_cell(content.dim, rows.data()); });
+  content.cell = std::move(rows);
+}
+
+void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content) {
+  content.dim = 3;
+  bool flat = low < 0.0 && high > 0.0;
+  for (size_t k = 2; k < positions.size(); k += 3) flat = flat && positions[k] == 0.0;
+  if (!flat) {
+    content.position = positions;
+    return;
+  }
+  content.dim = 2;
+  for (size_t k = 0; k < positions.size(); k += 3)
+    content.position.insert(content.position.end(), {positions[k], positions[k + 1]});
+}
+
+}  // namespace jam

@@ -1,0 +1,201 @@
+// Extended XYZ, one frame or several.
+#include <algorithm>
+#include <string>
+
+#include "io/read_helpers.hpp"
+
+namespace jam {
+namespace {
+
+// The value of key= on the comment line, in quotes, in braces or bare; false when the key is not there.
+bool find_key(const LineReader &in, std::string_view comment, std::string_view key, std::string_view &value) {
+  size_t k = 0;
+  while (k < comment.size()) {
+    while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
+    const size_t start = k;
+    while (k < comment.size() && comment[k] != '=' && comment[k] != ' ' && comment[k] != '\t') ++k;
+    const std::string_view name = comment.substr(start, k - start);
+    if (k >= comment.size() || comment[k] != '=') continue;  // a bare word
+    const char opens = ++k < comment.size() ? comment[k] : ' ';
+    const bool quoted = opens == '"' || opens == '\'' || opens == '{';
+    if (quoted) ++k;
+    const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
+    size_t stop = comment.find_first_of(ends, k);
+    if (stop == std::string_view::npos) {
+      if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
+      stop = comment.size();
+    }
+    value = comment.substr(k, stop - k);
+    k = stop + 1;
+    if (name == key) return true;
+  }
+  return false;
+}
+
+struct Columns {
+  size_t total = 0, pos = 0, pos_count = 0, id = 0;
+  bool has_pos = false, has_id = false;
+  SizeColumn size;
+  std::vector<std::string> unread;
+};
+
+Columns read_properties(const LineReader &in, std::string_view properties) {
+  std::vector<std::string_view> part;
+  for (size_t k = 0; k <= properties.size();) {
+    const size_t stop = std::min(properties.find(':', k), properties.size());
+    part.push_back(properties.substr(k, stop - k));
+    k = stop + 1;
+  }
+  if (part.size() % 3) in.fail(JAM_E_FORMAT, "Properties is not a list of name:type:columns");
+  Columns columns;
+  for (size_t k = 0; k < part.size(); k += 3) {
+    const int64_t count = parse_count(in, part[k + 2], "a number of columns");
+    if (count < 1 || count > 1000)
+      in.fail(JAM_E_FORMAT, "property '%s' has %lld columns", shown(part[k]).c_str(), static_cast<long long>(count));
+    const bool number = part[k + 1] == "R" || part[k + 1] == "I";
+    if (part[k] == "pos" && number) {
+      if (columns.has_pos) in.fail(JAM_E_FORMAT, "Properties has pos twice");
+      columns.has_pos = true;
+      columns.pos = columns.total;
+      columns.pos_count = static_cast<size_t>(count);
+    } else if (part[k] == "id" && number && count == 1) {
+      columns.has_id = true;
+      columns.id = columns.total;
+    } else if (!(number && count == 1 && columns.size.take(in, part[k], columns.total))) {
+      columns.unread.emplace_back(part[k]);
+    }
+    columns.total += static_cast<size_t>(count);
+  }
+  if (!columns.has_pos) in.fail(JAM_E_FORMAT, "Properties has no pos:R column");
+  if (!columns.size.found())
+    in.fail(JAM_E_FORMAT, "Properties has no radius:R:1 or diameter:R:1 column: spheres need sizes");
+  return columns;
+}
+
+// The d vectors of a cell in rows of `width` numbers; what does not belong to them must be 0 (d = 2 in three columns,
+// its third vector aside).
+void read_cell(const LineReader &in, std::string_view text, const char *name, size_t width, FileContent &content) {
+  std::vector<std::string_view> words;
+  split(text, words);
+  if (words.size() != width * width)
+    in.fail(JAM_E_FORMAT, "%s has %zu numbers, %zu are needed", name, words.size(), width * width);
+  const size_t d = std::min(width, static_cast<size_t>(content.dim));
+  std::vector<double> rows;
+  bool cube = true;
+  for (size_t row = 0; row < width; ++row)
+    for (size_t column = 0; column < width; ++column) {
+      const double x = parse_number(in, words[width * row + column]);
+      if (row < d && column < d) {
+        rows.push_back(x);
+        cube = cube && x == (row == column ? rows.front() : 0.0);
+      } else if ((row < d || column < d) && x != 0.0) {
+        in.fail(JAM_E_UNSUPPORTED, "%s '%s' leaves the plane of the packing", name, shown(text).c_str());
+      }
+    }
+  if (d == static_cast<size_t>(content.dim)) return take_cell(in, std::move(rows), content);
+  if (!cube)
+    in.fail(JAM_E_UNSUPPORTED, "%s '%s' is not a cube: in d = %d the %d vectors are needed as cell=", name,
+            shown(text).c_str(), content.dim, content.dim);
+  content.box = take_box(in, words[0]);
+}
+
+// Every direction must be periodic, as T, True or 1; in d = 2 the third one is ignored.
+void check_periodic(const LineReader &in, std::string_view pbc, int dim) {
+  std::vector<std::string_view> words;
+  split(pbc, words);
+  for (size_t k = 0; k < words.size() && k < static_cast<size_t>(dim); ++k) {
+    const std::string word = lower(words[k]);
+    if (word == "t" || word == "true" || word == "1") continue;
+    in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction%s", shown(pbc).c_str(),
+            dim == 3 && k == 2 ? "; a packing of disks needs dim=2 on this line" : "");
+  }
+}
+
+// What line 2 says of the frame.
+Columns read_keys(const LineReader &in, std::string_view comment, const ReadOptions &options, FileContent &content) {
+  std::string_view value;
+  if (!find_key(in, comment, "Properties", value))
+    in.fail(JAM_E_FORMAT, "no Properties=, such as Properties=species:S:1:pos:R:3:radius:R:1 for these columns");
+  Columns columns = read_properties(in, value);
+  int64_t dim = static_cast<int64_t>(columns.pos_count);
+  if (find_key(in, comment, "dim", value))
+    dim = parse_count(in, value, "a dimension");
+  else if (dim == 3 && options.dim == 2)
+    dim = 2;
+  content.dim = take_dim(in, dim);
+  if (dim != static_cast<int64_t>(columns.pos_count) && !(dim == 2 && columns.pos_count == 3))
+    in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
+  if (!find_key(in, comment, "Lattice", value))
+    in.fail(JAM_E_FORMAT, "no Lattice=, the cell vectors, such as Lattice=\"L 0 0 0 L 0 0 0 L\" for a cube");
+  std::string_view whole;
+  if (content.dim > 3 && find_key(in, comment, "cell", whole))
+    read_cell(in, whole, "cell", static_cast<size_t>(content.dim), content);
+  else
+    read_cell(in, value, "Lattice", 3, content);
+  if (find_key(in, comment, "pbc", value)) check_periodic(in, value, content.dim);
+  if (find_key(in, comment, "non_additivity", value)) {
+    content.non_additivity = parse_number(in, value);
+    content.has_non_additivity = true;
+    at_line(in, [&] { check_non_additivity(content.non_additivity); });
+  }
+  return columns;
+}
+
+// The rows of a frame; in d = 2 a third coordinate must be the same for all disks.
+void read_rows(LineReader &in, int64_t n, const Columns &columns, FileContent &content) {
+  std::vector<std::string_view> words;
+  const size_t d = static_cast<size_t>(content.dim);
+  Rows rows(in, false);
+  double height = 0.0;
+  bool sorted = true;
+  int64_t before = 0;
+  for (int64_t k = 0; k < n; ++k) {
+    if (!rows.next(words)) ends_early(in, k, n);
+    if (words.size() != columns.total)
+      in.fail(JAM_E_FORMAT, "%zu columns, Properties announces %zu", words.size(), columns.total);
+    for (size_t c = 0; c < d; ++c) content.position.push_back(parse_number(in, words[columns.pos + c]));
+    for (size_t c = d; c < columns.pos_count; ++c) {
+      const double x = parse_number(in, words[columns.pos + c]);
+      if (k == 0) height = x;
+      if (x != height)
+        in.fail(JAM_E_UNSUPPORTED, "the third coordinate is %g, that of the first disk %g: disks need one plane", x,
+                height);
+    }
+    content.diameter.push_back(columns.size.diameter(in, words));
+    if (!columns.has_id) continue;
+    const int64_t id = parse_count(in, words[columns.id], "the number of a sphere");
+    sorted = sorted && (k == 0 || id == before + 1);
+    before = id;
+  }
+  if (!sorted) content.notes.say("the ids of the file do not count up: spheres keep its order, ids are not kept");
+}
+
+// Frame k; false at the end of the file.
+bool read_frame(LineReader &in, const ReadOptions &options, int64_t k, int64_t &n, FileContent &content) {
+  std::string_view line;
+  std::vector<std::string_view> words;
+  if (!in.next_filled(line)) return false;
+  while (k == 0 && line[line.find_first_not_of(" \t")] == '#')
+    if (!in.next_filled(line)) return false;
+  split(line, words);
+  if (k > 0 && (words.size() != 1 || !is_count(words[0])))
+    in.fail(JAM_E_FORMAT, "there is more after the %lld spheres that the header announces: '%s'",
+            static_cast<long long>(n), shown(line).c_str());
+  n = take_count(in, parse_count(in, words[0], "a number of spheres"));
+  if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends before the line of keys");
+  const std::string keys(line);
+  const Columns columns = read_keys(in, keys, options, content);
+  read_rows(in, n, columns, content);
+  say_unread(content, columns.unread);
+  return true;
+}
+
+}  // namespace
+
+FileContent read_xyz(LineReader &in, const ReadOptions &options) {
+  int64_t n = 0;
+  return choose_frame(in, options.frame,
+                      [&](FileContent &content, int64_t k) { return read_frame(in, options, k, n, content); });
+}
+
+}  // namespace jam

@@ -1,0 +1,308 @@
+/* Files of other programs and of people: what is unambiguous is read, the rest is refused by its name with a way out,
+ * and what was changed on the way stands in jam_notes and in the log. */
+#include <math.h>
+#include "io_helpers.h"
+
+static jam_system *read_with(const char *text, size_t length, const jam_create_options *o) {
+  jam_system *sys = NULL;
+  put_bytes(in_scratch("in.any"), text, length);
+  if (jam_read(in_scratch("in.any"), o, &sys) != JAM_OK) fail_msg("%s; input:\n%s", jam_last_error(), text);
+  return sys;
+}
+static jam_system *read_text(const char *text) { return read_with(text, strlen(text), NULL); }
+
+static jam_create_options defaults(void) {
+  jam_create_options o;
+  jam_create_options_init(&o, sizeof o);
+  return o;
+}
+
+static void expect_refused_with(const char *text, const jam_create_options *o, jam_status status, const char *part) {
+  jam_system *sys = NULL;
+  jam_status got;
+  put_bytes(in_scratch("in.any"), text, strlen(text));
+  got = jam_read(in_scratch("in.any"), o, &sys);
+  if (got != status || !strstr(jam_last_error(), part))
+    fail_msg("status %d, text '%s', expected %d and '%s'; input:\n%s", got, jam_last_error(), status, part, text);
+}
+
+/* Three spheres at the places that all texts below write. */
+static void same_three(jam_system *sys) {
+  static const double want[9] = {0.1, 0.2, 0.3, 0.6, 0.7, 0.8, 0.35, 0.9, 0.15};
+  const double *x, *s;
+  size_t len, k;
+  jam_positions_view(sys, &x, &len);
+  assert_int_equal(len, 9);
+  for (k = 0; k < 9; ++k) assert_true(x[k] == want[k]);
+  jam_diameters_view(sys, &s, &len);
+  for (k = 0; k < 3; ++k) assert_true(s[k] == 0.2);
+  jam_destroy(sys);
+}
+
+static void odd_plain_text(void **state) {
+  (void)state;
+  same_three(
+      read_text("\xef\xbb\xbf"
+                "3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 0.8\n0.35 0.9 0.15\n"));        /* the mark of UTF-8 */
+  same_three(read_text("3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 0.8\n0.35 0.9 0.15"));   /* no last newline */
+  same_three(read_text("3\n3\n0.2\n0.1 0.2 0.30\n0.6 0.7 0.8\n0.35 0.9 0.15 ")); /* a blank there */
+  same_three(read_text("3\r3\r0.2\r0.1 0.2 0.3\r0.6 0.7 0.8\r0.35 0.9 0.15\r"));
+  same_three(read_text("3\r\n3\r\n0.2\r\n0.1 0.2 0.3\r\n0.6 0.7 0.8\r\n0.35 0.9 0.15\r\n"));
+  same_three(read_text(
+      "# mine\n3 # dimension\n\n3\n0.2 # diameter\n#x\n0.1 0.2 0.3\n0.6 0.7 0.8 # b\n0.35 0.9 0.15\n# end\n"));
+  same_three(read_text("3\n3\n0.2\n0.1,0.2,0.3\n0.6, 0.7,0.8\n0.35 , 0.9,\t0.15\n"));
+  same_three(read_text("3\n3\n2.0D-01\n1.0D-01 0.2d0 3D-1\n0.6 0.7 0.8\n0.35 0.9 0.15\n"));
+  expect_refused("3\n1\n0.2\n0,1 0,2 0,3\n", JAM_E_FORMAT, "line 4: '0,1' has a comma: write decimal points");
+  expect_refused("2\n1\n0.2\n0,1; 0,2\n", JAM_E_FORMAT, "line 4: '0,1;' has a comma");
+  expect_refused("2\n1\n0.2\n0.1,,0.2\n", JAM_E_FORMAT, "line 4: '0.1,,0.2' has a comma");
+  expect_refused("2\n1\n0.2\n0.1 1D\n", JAM_E_FORMAT, "line 4: '1D' is not a number");
+}
+
+/* A box that is not named is 1. Positions beyond it say that it was another. */
+static void a_box_that_is_not_named(void **state) {
+  jam_create_options o = defaults();
+  const char *text = "3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 1.8\n0.35 0.9 0.15\n";
+  jam_info info;
+  jam_system *sys;
+  (void)state;
+  expect_refused(text, JAM_E_FORMAT,
+                 "line 5: the coordinate 1.8 lies outside the box [0, 1], and the file names no box");
+  expect_refused("2\n1\n0.1\n0.1 -0.2\n", JAM_E_FORMAT, "line 4: the coordinate -0.2");
+  o.box = 2.0;
+  sys = read_with(text, strlen(text), &o);
+  assert_string_equal(jam_notes(sys), "");
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  assert_true(info.box == 2.0);
+  jam_destroy(sys);
+  jam_destroy(read_text("2\n2\n0.1\n0.1 1.000000\n-0.0000004 0.5\n")); /* rounding of six digits */
+}
+
+static void tables(void **state) {
+  jam_create_options o = defaults();
+  jam_system *sys;
+  const double *s;
+  size_t len;
+  (void)state;
+  sys = read_text("0.1 0.2 0.3 0.1\n0.6 0.7 0.8 0.1\n0.35 0.9 0.15 0.1\n");
+  assert_non_null(
+      strstr(jam_notes(sys), "warning: the file does not name its 4 columns: 3 coordinates and the radius"));
+  assert_non_null(strstr(jam_notes(sys), "the file names no box: its side is taken as 1"));
+  same_three(sys);
+  same_three(read_text("# x y z r\n0.1 0.2 0.3 0.1\n0.6 0.7 0.8 0.1\n0.35 0.9 0.15 0.1\n"));
+  same_three(read_text("x,y,z,diameter\n0.1,0.2,0.3,0.2\n0.6,0.7,0.8,0.2\n0.35,0.9,0.15,0.2\n"));
+  same_three(read_text("Radius id X Z Y\n0.1 7 0.1 0.3 0.2\n0.1 8 0.6 0.8 0.7\n0.1 9 0.35 0.15 0.9\n"));
+  sys = read_text("x1 x2 x3 x4 d mass\n.1 .2 .3 .4 .1 7\n");
+  assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: mass"));
+  jam_diameters_view(sys, &s, &len);
+  assert_true(len == 1 && s[0] == 0.1);
+  jam_destroy(sys);
+  o.dim = 2;
+  o.box = 4.0;
+  jam_destroy(read_with("1 2 0.5\n3 1 0.25\n", 17, &o));
+  expect_refused("1 2 0.5\n3 1 0.25\n", JAM_E_FORMAT, "line 1: 3 columns, a table without names has 4 in d = 3");
+  expect_refused("0.1 0.2 0.3 0.1\n0.6 0.7 1.8 0.1\n", JAM_E_FORMAT, "line 2: the coordinate 1.8 lies outside");
+  expect_refused("0.1 0.2 0.3 0.1\n0.6 0.7 0.1\n", JAM_E_FORMAT, "line 2: 3 columns, the first rows have 4");
+  expect_refused("x y z\n0.1 0.2 0.3\n", JAM_E_FORMAT, "the columns have no size");
+  expect_refused("# x y z mass\n0.1 0.2 0.3 1\n", JAM_E_FORMAT, "the columns have no size");
+  o.dim = 3;
+  expect_refused_with("0 1 2 0.1\n1 2 2 0.1\n2 3 3 0.1\n", &o, JAM_E_FORMAT, "the first column counts the rows");
+  /* the overlap that a wrong guess leads to repeats the guess */
+  expect_refused("0.1 0.2 0.3 0.3\n0.5 0.2 0.3 0.3\n", JAM_E_OVERLAP, "coordinates and the radius were assumed");
+}
+
+#define BOX "Lattice=\"1 0 0 0 1 0 0 0 1\" "
+static void odd_xyz(void **state) {
+  jam_create_options o = defaults();
+  jam_system *sys;
+  jam_info info;
+  (void)state;
+#define R "1 0.1 0.2 0.3 0.1\n1 0.6 0.7 0.8 0.1\n1 0.35 0.9 0.15 0.1\n"
+  same_three(
+      read_text("3\nLattice={1 0 0 0 1 0 0 0 1} Properties=type:I:1:pos:R:3:radius:R:1 pbc=\"TRUE True t\"\n" R));
+  same_three(read_text("3\n" BOX "Properties=type:I:1:pos:R:3:Radius:R:1\n" R));
+  same_three(read_text("3\n" BOX "Properties=pos:R:3:Diameter:R:1\n0.1 0.2 0.3 0.2\n.6 .7 .8 .2\n0.35 0.9 0.15 .2\n"));
+  sys = read_text("1\nLattice=\"9 0 0 0 9 0 0 0 9\" Properties=pos:I:3:radius:I:1\n1 2 3 1\n");
+  assert_string_equal(jam_notes(sys), "");
+  jam_destroy(sys);
+  sys = read_text("2\n" BOX "Properties=id:I:1:pos:R:3:radius:R:1\n1 .6 .7 .8 .1\n0 .1 .2 .3 .1\n");
+  assert_string_equal(jam_notes(sys), "the ids of the file do not count up: spheres keep its order, ids are not kept");
+  jam_destroy(sys);
+  expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1:radius:R:1\n.1 .2 .3 .1 .2\n", JAM_E_FORMAT,
+                 "two columns hold");
+  expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1:diameter:R:1\n.1 .2 .3 .1 .2\n", JAM_E_FORMAT, "two columns");
+  expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1 dim=2\n.1 .2 .3 .1\nmore\n", JAM_E_FORMAT,
+                 "there is more after");
+  expect_refused("2\n" BOX "Properties=pos:R:3:radius:R:1 dim=2\n.1 .2 0 .1\n.5 .5 .3 .1\n", JAM_E_UNSUPPORTED,
+                 "line 4: the third coordinate is 0.3, that of the first disk 0");
+  expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 0 .1\n", JAM_E_UNSUPPORTED,
+                 "needs dim=2");
+  o.dim = 2;
+  sys = read_with("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 7 .1\n",
+                  strlen("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 7 .1\n"), &o);
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  assert_int_equal(info.dim, 2);
+  jam_destroy(sys);
+}
+
+static void frames(void **state) {
+  jam_create_options o = defaults();
+  static const char frame[] = "1\n" BOX "Properties=pos:R:3:radius:R:1\n%g .2 .3 .1\n";
+  char text[600], cut[600];
+  const double *x;
+  size_t len, k;
+  jam_system *sys;
+  (void)state;
+  for (len = k = 0; k < 3; ++k) len += (size_t)snprintf(text + len, sizeof text - len, frame, 0.125 * (double)(k + 1));
+  sys = read_text(text);
+  jam_positions_view(sys, &x, &k);
+  assert_true(x[0] == 0.375);
+  assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 take others");
+  jam_destroy(sys);
+  for (o.frame = -3; o.frame <= 2; ++o.frame) {
+    sys = read_with(text, len, &o);
+    jam_positions_view(sys, &x, &k);
+    assert_true(x[0] == 0.125 * (double)((o.frame + 3) % 3 + 1));
+    jam_destroy(sys);
+  }
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "frame is 3, the file holds 3 (0 to 2");
+  o.frame = -4;
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "frame is -4, the file holds 3");
+  o.frame = 1;
+  expect_refused_with("2\n1\n0.1\n0.5 0.5\n", &o, JAM_E_ARGUMENT, "frame is 1, but plain text holds one packing");
+  snprintf(cut, sizeof cut, "%.*s", (int)len - 5, text); /* a job that was killed amid a frame */
+  expect_refused(cut, JAM_E_FORMAT, "frame=1 is the last whole one");
+  jam_destroy(read_with(cut, strlen(cut), &o));
+}
+
+/* One table knows files by their first bytes and words, whatever their names. */
+static void known_by_their_beginning(void **state) {
+  static const struct {
+    const char *bytes;
+    size_t length;
+    const char *part;
+  } files[] = {
+#define FILE_OF(bytes, part) {bytes, sizeof bytes - 1, part}
+      FILE_OF("\x89HDF\r\n\x1a\n\0\0\0", "HDF5: jam.load of Python"),
+      FILE_OF("\xdf\x65\xdf\x65\xdf\x65\xdf\x65\0\0", "GSD of HOOMD-blue: System.read of Python"),
+      FILE_OF("\x93NUMPY\x01\0v\0{'descr'", "numpy (npy)"),
+      FILE_OF("PK\x03\x04\x14\0\0\0", "a zip archive"),
+      FILE_OF("BZh91AY", "packed by bzip2: unpack it"),
+      FILE_OF("\xfd"
+              "7zXZ\0\0",
+              "packed by xz: unpack it"),
+      FILE_OF("CDF\x01\0\0", "NetCDF"),
+      FILE_OF("T\0\0\0CORD\0", "DCD trajectory"),
+      FILE_OF("\x80\x04\x95\0\0", "pickle of Python"),
+      FILE_OF("\xff\xfe"
+              "3\0\n\0",
+              "UTF-16"),
+      FILE_OF("\x89PNG\r\n", "picture"),
+      FILE_OF("ab\0cd", "binary file that no reader knows"),
+      FILE_OF("CRYST1   10.0\nATOM      1\n", "PDB: it holds no diameters"),
+      FILE_OF("data_x\nloop_\n", "CIF: it holds no diameters"),
+      FILE_OF("# vtk DataFile Version 3.0\n", "VTK: such files are written only"),
+      FILE_OF("<!DOCTYPE html>\n", "a page in HTML"),
+      FILE_OF("{\n", "JSON"),
+      FILE_OF("3\n3 1\n3\n0.2\n1 0 0 0 1 0 0 0 1\nT T T\n0.1 0.2 0.3\n", "Skoge and Donev: make it plain text"),
+      FILE_OF("3\n1.0 1.0 1.0\na 0.1 0.2 0.3 0.1\n", "a snapshot of EDMD (.sph): make line 2 Lattice="),
+      FILE_OF("3\nmy packing\n1 0.1 0.2 0.3 0.1\n", "XYZ without keys on line 2: make line 2 Lattice="),
+      FILE_OF("3\nt = 0\n1 0.1 0.2 0.3 0.1\n", "line 2: no Properties=, such as Properties=species:S:1"),
+      FILE_OF("hello\n", "line 1: 'hello' begins no file that is read"),
+  };
+  size_t k;
+  (void)state;
+  for (k = 0; k < sizeof files / sizeof *files; ++k) {
+    jam_system *sys = NULL;
+    put_bytes(in_scratch("in.any"), files[k].bytes, files[k].length);
+    assert_int_equal(jam_read(in_scratch("in.any"), NULL, &sys), JAM_E_FORMAT);
+    if (!strstr(jam_last_error(), files[k].part)) fail_msg("'%s' without '%s'", jam_last_error(), files[k].part);
+  }
+  {
+    jam_system *sys = some_packing(3, 8, 1.0, 1.0), *back = NULL;
+    assert_int_equal(jam_checkpoint_write(sys, in_scratch("state")), JAM_OK);
+    assert_int_equal(jam_read(in_scratch("state"), NULL, &back), JAM_E_FORMAT);
+    assert_non_null(strstr(jam_last_error(), "a checkpoint of libjam: jam_checkpoint_read"));
+    jam_destroy(sys);
+  }
+}
+
+/* Options that the file answers must agree with it. */
+static void options_that_contradict_the_file(void **state) {
+  const char *text = "3\n1\n0.2\n0.1 0.2 0.3\n", *xyz = "1\n" BOX "Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n";
+  jam_create_options o = defaults();
+  (void)state;
+  o.n = 77;
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "the option n is 77, but the file has 1");
+  o = defaults(), o.dim = 4;
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "the option dim is 4, but the file has 3");
+  o = defaults(), o.box = 5.0;
+  expect_refused_with(xyz, &o, JAM_E_ARGUMENT, "the option box is 5, but the file has 1");
+  o = defaults(), o.packing_fraction = 0.3;
+  expect_refused_with(text, &o, JAM_E_ARGUMENT, "packing_fraction is 0.3");
+  o = defaults(), o.n = 1, o.box = 5.0;
+  jam_destroy(read_with(text, strlen(text), &o));
+}
+
+static char log_text[2000];
+static void keep_line(int32_t level, const char *line, void *user) {
+  (void)user;
+  snprintf(log_text + strlen(log_text), sizeof log_text - strlen(log_text), "%d %s\n", (int)level, line);
+}
+
+/* Shrinking changes all diameters: factor and pair are told, in the notes, in those of a copy and in the log. */
+static void shrinking_is_told(void **state) {
+  jam_create_options o = defaults();
+  jam_system *sys, *copy = NULL;
+  const double x[4] = {0.1, 0.5, 0.4, 0.5}, sigma = 0.4;
+  double factor = 0.0;
+  int i = -1, j = -1;
+  (void)state;
+  o.dim = 2;
+  o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(
+      sscanf(jam_notes(sys), "warning: all diameters were multiplied by %lf: spheres %d and %d", &factor, &i, &j), 3);
+  assert_true(fabs(factor - 0.75) < 1e-15);
+  assert_int_equal(i, 0);
+  assert_int_equal(j, 1);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_string_equal(jam_notes(copy), jam_notes(sys));
+  assert_int_equal(jam_set_log(copy, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
+  assert_memory_equal(log_text, "1 all diameters were multiplied by", 34);
+  assert_string_equal(jam_notes(NULL), "");
+  jam_destroy(copy);
+  jam_destroy(sys);
+}
+
+/* One duplicate must not take the diameters of all the others. */
+static void absurd_factors_are_refused(void **state) {
+  jam_create_options o = defaults();
+  const char *near = "2\n3\n0.3\n0.1 0.5\n0.1000001 0.5\n0.6 0.6\n", *faces = "2\n3\n0.3\n0 0.5\n1 0.5\n0.5 0.1\n";
+  (void)state;
+  o.overlap = JAM_OVERLAP_SHRINK;
+  expect_refused_with(near, &o, JAM_E_OVERLAP, "spheres 0 and 1 overlapped by 1 of their contact distance");
+  expect_refused_with(near, &o, JAM_E_OVERLAP, "less than shrink_min 0.001; leave one of two duplicates out");
+  expect_refused_with(faces, &o, JAM_E_OVERLAP, "spheres 0 and 1 have the same centre: no shrinking helps");
+  expect_refused(faces, JAM_E_OVERLAP, "they have the same centre");
+  o.shrink_min = 1e-8;
+  jam_destroy(read_with(near, strlen(near), &o));
+  o.shrink_min = 2.0;
+  expect_refused_with(near, &o, JAM_E_ARGUMENT, "shrink_min is 2, supported are 0..1");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(odd_plain_text),
+      cmocka_unit_test(a_box_that_is_not_named),
+      cmocka_unit_test(tables),
+      cmocka_unit_test(odd_xyz),
+      cmocka_unit_test(frames),
+      cmocka_unit_test(known_by_their_beginning),
+      cmocka_unit_test(options_that_contradict_the_file),
+      cmocka_unit_test(shrinking_is_told),
+      cmocka_unit_test(absurd_factors_are_refused),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

@@ -142,6 +142,10 @@ class Crafted(Case):
 
         return change
 
+    def entry_of_forces(self):
+        with h5py.File(self.path, "r") as file:
+            return [file["jam/contacts/forces"].id.get_offset(), [63], "<f8", "0" * 64]
+
     def test_nothing_changed_is_read(self):
         path = self.written(crafted(self.good, lambda index: None))
         np.testing.assert_array_equal(jam.load(path).forces, self.disks.forces)
@@ -193,6 +197,10 @@ class Crafted(Case):
             self.refused(lambda index, text=text: text)
         for part in ("data", "attributes"):
             self.refused(lambda index, part=part: index.pop(part) and None)
+        forces = list(self.entry_of_forces())
+        self.refused(lambda index: index["data"].update({f"a{k}": forces for k in range(5000)}), "4096")
+        self.refused(lambda index: index["data"].update({"a/" * 100 + "b": forces}), "deep")
+        self.refused(lambda index: index["data"].update({f"a{k}": forces for k in range(1000)}), "longer than the file")
         self.refused(lambda index: index["attributes"]["jam"].update(schema="x"))
         self.refused(lambda index: index["attributes"]["jam"].update(schema=99), "newer")
         self.refused(lambda index: index["data"].pop("jam/state") and None)

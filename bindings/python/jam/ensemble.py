@@ -33,7 +33,8 @@ from .ensemble_folder import FIELDS, Folder, Found, builds_of
 from .ensemble_pool import LocalPool, WorkerDied
 from .ensemble_protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
 
-from .sealed import StoreError, open_file
+from .errors import StoreError
+from .sealed import open_file
 from .system import System
 
 WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work

@@ -6,7 +6,6 @@ import json
 import os
 import re
 import sys
-import warnings
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
 from typing import Any

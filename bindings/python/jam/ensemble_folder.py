@@ -26,7 +26,8 @@ from . import store
 from ._generated import REPORTS
 from ._paths import check_writable, remove_abandoned
 from .ensemble_protocol import identity
-from .sealed import StoreError, open_file, refusing
+from .errors import StoreError
+from .sealed import open_file, refusing
 
 _REPORT = store._dtype(REPORTS["jam_crunch_report"])
 _REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()

@@ -55,6 +55,10 @@ class StoppedError(JamError, TimeoutError):
     """A call that makes a system was stopped by wall_time or by its progress callable, so there is none."""
 
 
+class StoreError(OSError):
+    """A file of Python's own formats that cannot be written or read; the text names the file, the cause and what to do."""
+
+
 # Where a Python name differs from the C function's.
 _NAMES = {
     "create": "System.random or System.from_arrays",

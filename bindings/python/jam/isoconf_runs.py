@@ -4,6 +4,9 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import struct
+import zipfile
+import zlib
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, Sequence
 
@@ -13,7 +16,11 @@ from ._types import Array
 from . import _calls, raw
 from ._generated import IsoconfColumn, StatusCode
 from ._paths import replacing
+from .errors import StoreError
 
+# What numpy and zipfile make of a damaged .npz file
+_DAMAGE: tuple[type[Exception], ...] = (OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError)
+_DAMAGE += (zipfile.BadZipFile, zlib.error, struct.error)
 _SUMS = ("displacement", "square", "distance2", "distance4")
 
 
@@ -136,19 +143,28 @@ class Runs:
         arrays = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("series", "kept")}
         arrays.update({"series_" + k: v for k, v in self.series.items()})
         arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
+        arrays = {k: np.asarray(v) for k, v in arrays.items()}
         with replacing(path, "w+b") as file:
-            np.savez(file, **arrays)
+            np.savez(file, **arrays, sha256=np.array(_digest(arrays)))
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> "Runs":
-        """Reads what save wrote."""
-        with np.load(path) as data:
+    def load(cls, path: str | os.PathLike[str], unverified: bool = False) -> "Runs":
+        """Reads what save wrote. A damaged file is a jam.errors.StoreError; unverified: without the checksum."""
+        try:
+            with np.load(path) as file:
+                data = {k: file[k] for k in file.files}
+                if data.pop("sha256", "") != _digest(data) and not unverified:
+                    raise ValueError("its arrays are not those of its checksum; unverified=True reads an older version's")
             plain = {f.name: data[f.name] for f in fields(cls) if f.name not in ("series", "kept")}
-            series = {k[7:]: data[k] for k in data.files if k.startswith("series_")}
-            kept = {int(k[5:]): data[k] for k in data.files if k.startswith("kept_")}
-        for name in ("first_run", "block", "step", "acceptance", "origin"):
-            plain[name] = plain[name].item()
-        plain["status"] = StatusCode(int(plain["status"]))
+            series = {k[7:]: data[k] for k in data if k.startswith("series_")}
+            kept = {int(k[5:]): data[k] for k in data if k.startswith("kept_")}
+            for name in ("first_run", "block", "step", "acceptance", "origin"):
+                plain[name] = plain[name].item()
+            plain["status"] = StatusCode(int(plain["status"]))
+        except FileNotFoundError:
+            raise
+        except _DAMAGE as error:
+            raise StoreError(5, f"{path} is damaged, or no file of runs: {error}. Take a copy from elsewhere") from error
         return cls(**plain, series=series, kept=kept)
 
     def __repr__(self) -> str:
@@ -205,6 +221,14 @@ def run(
     system.status = StatusCode(status)
     sets = {int(k): system.isoconf_kept(int(k)).reshape(-1, system.n, system.dim) for k in kept}
     return replace(runs, instants=times, block=made.block, kept=sets, status=system.status)
+
+
+def _digest(arrays: dict[str, Any]) -> str:
+    """SHA-256 of arrays with their names, types and shapes: zip's own checksums miss a member that is gone."""
+    found = hashlib.sha256()
+    for name, array in sorted(arrays.items()):
+        found.update(f"{name} {array.dtype.str} {array.shape} ".encode() + np.ascontiguousarray(array).tobytes())
+    return found.hexdigest()
 
 
 # What may change from one part of a campaign to the next.

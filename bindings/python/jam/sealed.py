@@ -19,11 +19,12 @@ import mmap
 import os
 import re
 import stat
-from typing import Any, Callable, Iterator, Mapping, Sequence
+from typing import Any, Callable, Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from ._types import Array
+from .errors import StoreError
 
 try:
     import h5py
@@ -33,14 +34,11 @@ except ImportError as error:  # pragma: no cover
 USER_BLOCK = 512
 INDEX = "seal"
 _LARGEST_INDEX = 1 << 22  # bytes; 1000 packings of a shard take 0.1 MB
+_MOST_ARRAYS, _DEEPEST = 4096, 12  # of a packing: bounds what a crafted index can ask for
 _CHUNK = 1 << 20
 _BEGIN = b"jam packing file"
 _UNWRITTEN = "0" * 64
 _KIND = re.compile(r"[<>|][biufcS][0-9]{1,9}")
-
-
-class StoreError(OSError):
-    """A file of packings that cannot be written or read; the text names the file, the cause and what to do."""
 
 
 def damaged(path: Any, what: str) -> StoreError:
@@ -105,7 +103,13 @@ def _index_of(group: Any) -> dict[str, Any]:
             found["attributes"][path] = {k: _plain_value(v) for k, v in node.attrs.items()}
 
     group.visititems(add)
+    _check_names(found["data"])
     return found
+
+
+def _check_names(names: Collection[str]) -> None:
+    if len(names) > _MOST_ARRAYS or any(name.count("/") > _DEEPEST for name in names):
+        raise ValueError(f"more than {_MOST_ARRAYS} arrays, or groups in each other more than {_DEEPEST} deep")
 
 
 def _digest(image: memoryview, at: int, size: int) -> str:
@@ -255,6 +259,9 @@ class _File:
 
     def group(self, index: Mapping[str, Any]) -> Group:
         data: Mapping[str, Any] = index["data"]
+        _check_names(data)
+        if sum(_size(shape, _type(kind)) for _, shape, kind, _ in data.values()) > self.length:
+            raise ValueError("the arrays together are longer than the file")
 
         def fetch(name: str) -> Array:
             with refusing(self.path):

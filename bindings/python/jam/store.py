@@ -40,8 +40,9 @@ from ._types import Array
 from . import _generated, errors, raw
 from ._explain import explain, report_text, report_type
 from ._paths import replacing
+from .errors import StoreError
 from .results import Contacts
-from .sealed import Group, Shard, StoreError, damaged, open_file, refusing, seal
+from .sealed import Group, Shard, damaged, open_file, refusing, seal
 from .system import System, _restore
 
 SCHEMA = 1

@@ -9,7 +9,8 @@ import h5py
 import numpy as np
 
 from ._types import Array
-from .sealed import Group, Shard, StoreError, _plain_value
+from .errors import StoreError
+from .sealed import Group, Shard, _plain_value
 
 _MOST_OBJECTS, _DEEPEST = 1_000_000, 12
 

@@ -79,6 +79,8 @@ constexpr const char *no_diameters =
 
 // Order: bytes that are no text; then text, the particular before the general.
 constexpr KnownFile table[] = {
+    {"a packing of System.save", [](const Head &h) { return begins(h, "jam packing file"); }, nullptr,
+     "jam.load of Python reads it"},
     {"HDF5", [](const Head &h) { return begins(h, "\x89HDF\r\n\x1a\n"); }, nullptr,
      "jam.load of Python reads what System.save wrote; read others with h5py and System.from_arrays"},
     {"GSD of HOOMD-blue", [](const Head &h) { return begins(h, "\xdf\x65\xdf\x65\xdf\x65\xdf\x65"); }, nullptr,

@@ -185,6 +185,7 @@ static void known_by_their_beginning(void **state) {
   } files[] = {
 #define FILE_OF(bytes, part) {bytes, sizeof bytes - 1, part}
       FILE_OF("\x89HDF\r\n\x1a\n\0\0\0", "HDF5: jam.load of Python"),
+      FILE_OF("jam packing file, format 1\nlength 1\n", "a packing of System.save: jam.load of Python"),
       FILE_OF("\xdf\x65\xdf\x65\xdf\x65\xdf\x65\0\0", "GSD of HOOMD-blue: System.read of Python"),
       FILE_OF("\x93NUMPY\x01\0v\0{'descr'", "numpy (npy)"),
       FILE_OF("PK\x03\x04\x14\0\0\0", "a zip archive"),

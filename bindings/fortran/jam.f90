@@ -388,23 +388,24 @@ module jam
     real(c_double) :: time = 0
   end type jam_run_options
 
-  ! One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1
+  ! Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
+  ! first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1
   type, bind(c) :: jam_compress_options
     ! sizeof(jam_compress_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
     integer(c_int32_t) :: resume = 0
-    ! G > 0, default 1e-2
+    ! G > 0: one stage of this rate; 0, the default: the stages of the protocol
     real(c_double) :: growth_rate = 0
-    ! target reduced pressure, > 1, default 500
+    ! target reduced pressure of the last stage, > 1, default 1e7
     real(c_double) :: pressure = 0
     ! target, > 0, default infinity
     real(c_double) :: packing_fraction = 0
-    ! limit since the stage began, > 0, default infinity
+    ! limit since each stage began, > 0, default infinity
     real(c_double) :: collisions_per_particle = 0
     ! limit in seconds of this call, > 0, default infinity
     real(c_double) :: wall_time = 0
-    ! limit of simulated time since the stage began, > 0, default infinity
+    ! limit of simulated time since each stage began, > 0, default infinity
     real(c_double) :: time = 0
     ! quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
     real(c_double) :: growth_rate_end = 0
@@ -652,7 +653,7 @@ module jam
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
   type, bind(c) :: jam_crunch_report
     ! set by the caller: sizeof(jam_crunch_report)
-    integer(c_int32_t) :: struct_size = 272
+    integer(c_int32_t) :: struct_size = 280
     ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     integer(c_int32_t) :: jammed = 0
     ! jam_stop_reason
@@ -727,6 +728,10 @@ module jam
     real(c_double) :: seconds_assemble = 0
     ! of it in triangular solves
     real(c_double) :: seconds_solve = 0
+    ! jam_status_code of the call that made this report
+    integer(c_int32_t) :: status = 0
+    ! 0
+    integer(c_int32_t) :: reserved_end = 0
   end type jam_crunch_report
 
   ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
@@ -1159,8 +1164,8 @@ module jam
       type(c_ptr) :: status
     end function jam_stop_string
 
-    ! Text of this thread's last failed call, with the name and value at fault; "" when none.
-    ! Valid until this thread's next jam call that fails. Threads: per thread. @since 0.1
+    ! Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
+    ! The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1
     function jam_last_error() &
         bind(c, name="jam_last_error") result(status)
       import
@@ -1198,9 +1203,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_create
 
-    ! Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
-    ! they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
-    ! Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
+    ! Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
+    ! has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
+    ! with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
     function jam_copy(src, out) &
         bind(c, name="jam_copy") result(status)
       import
@@ -1269,8 +1274,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_positions
 
-    ! Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
+    ! Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
+    ! jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
+    ! JAM_E_BUSY. @since 0.1
     function jam_set_velocities(sys, velocities, velocities_len) &
         bind(c, name="jam_set_velocities") result(status)
       import
@@ -1518,13 +1524,13 @@ module jam
       integer(c_int32_t) :: status
     end function jam_run
 
-    ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
-    ! that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
-    ! 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL. Growth heats; a thermostat
-    ! holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly.
-    ! Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-    ! JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
-    ! ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+    ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
+    ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
+    ! by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
+    ! may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
+    ! to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
+    ! JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+    ! protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
     ! Threads: alone. @since 0.1
     function jam_compress(sys, o, report) &
         bind(c, name="jam_compress") result(status)
@@ -1536,11 +1542,12 @@ module jam
     end function jam_compress
 
     ! Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-    ! and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
-    ! step. The contact network and what was observed are not in it. The file is written under another name and then
-    ! renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
-    ! packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
-    ! JAM_E_IO, JAM_E_MEMORY. @since 0.1
+    ! and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
+    ! steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
+    ! moves the spheres, its callback writes the packing of the last step without results. The file is written under
+    ! another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
+    ! begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
+    ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
     function jam_checkpoint_write(sys, path) &
         bind(c, name="jam_checkpoint_write") result(status)
       import
@@ -3508,7 +3515,7 @@ contains
   ! state, are told and passed.
   subroutine jam_check(status)
     integer(c_int32_t), intent(in) :: status
-    if (status > 0) print '(2a)', 'stopped early: ', jam_text(jam_status_string(status))
+    if (status > 0) print '(2a)', 'stopped early: ', jam_message()
     if (status >= 0) return
     print '(2a)', 'failed: ', jam_message()
     error stop 1

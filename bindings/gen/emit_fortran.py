@@ -49,7 +49,7 @@ contains
   ! state, are told and passed.
   subroutine jam_check(status)
     integer(c_int32_t), intent(in) :: status
-    if (status > 0) print '(2a)', 'stopped early: ', jam_text(jam_status_string(status))
+    if (status > 0) print '(2a)', 'stopped early: ', jam_message()
     if (status >= 0) return
     print '(2a)', 'failed: ', jam_message()
     error stop 1

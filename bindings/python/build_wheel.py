@@ -33,8 +33,8 @@ Name: jam
 Version: {_version()}
 Summary: Jammed packings of hard spheres, made and analysed
 License: MIT
-Requires-Python: >=3.9
-Requires-Dist: numpy
+Requires-Python: >=3.10
+Requires-Dist: numpy>=1.20
 Provides-Extra: all
 Requires-Dist: scipy; extra == "all"
 Requires-Dist: matplotlib; extra == "all"

@@ -9,6 +9,9 @@
 
 static PyObject *jam_error_factory = NULL; /* callable (status, text) -> exception */
 
+/* Texts name files, whose names need not be UTF-8: other bytes show as \xff. */
+static PyObject *jam_text(const char *text) { return PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "backslashreplace"); }
+
 /* Raises the exception of a status below zero. An exception that a callback has already raised wins. */
 static void jam_raise(jam_status status) {
   if (PyErr_Occurred()) return;
@@ -17,7 +20,8 @@ static void jam_raise(jam_status status) {
     PyErr_SetString(PyExc_RuntimeError, text);
     return;
   }
-  PyObject *error = PyObject_CallFunction(jam_error_factory, "is", (int)status, text[0] ? text : jam_status_string(status));
+  PyObject *readable = jam_text(text[0] ? text : jam_status_string(status));
+  PyObject *error = readable ? PyObject_CallFunction(jam_error_factory, "iN", (int)status, readable) : NULL;
   if (error) {
     PyErr_SetObject((PyObject *)Py_TYPE(error), error);
     Py_DECREF(error);
@@ -68,7 +72,8 @@ static int32_t jam_on_progress(const jam_progress *progress, void *user) {
 static void jam_on_log(int32_t level, const char *line, void *user) {
   PyGILState_STATE gil = PyGILState_Ensure();
   if (!PyErr_Occurred()) {
-    PyObject *answer = PyObject_CallFunction((PyObject *)user, "is", (int)level, line);
+    PyObject *text = jam_text(line);
+    PyObject *answer = text ? PyObject_CallFunction((PyObject *)user, "iN", (int)level, text) : NULL;
     Py_XDECREF(answer); /* an exception stays set: the next progress report stops the call */
   }
   PyGILState_Release(gil);
@@ -76,6 +81,7 @@ static void jam_on_log(int32_t level, const char *line, void *user) {
 %}
 
 %include <stdint.i>
+%typemap(out) const char * { $result = jam_text($1); }
 
 // ---- status: an exception below zero, or when a callback raised
 %typemap(out) jam_status {
@@ -121,7 +127,7 @@ FILL_TYPE(char, "c")
 // ---- single results
 %define RESULT_TYPE(T, MAKE)
 %typemap(in, numinputs=0) T *RESULT (T temp) { temp = 0; $1 = &temp; }
-%typemap(argout) T *RESULT { $result = SWIG_Python_AppendOutput($result, MAKE(*$1)); }
+%typemap(argout) T *RESULT { %append_output(MAKE(*$1)); }
 %enddef
 RESULT_TYPE(size_t, PyLong_FromSize_t)
 RESULT_TYPE(int32_t, PyLong_FromLong)
@@ -134,7 +140,7 @@ RESULT_TYPE(double, PyFloat_FromDouble)
   data = NULL; count = 0; $1 = (void *)&data; $2 = &count;
 }
 %typemap(argout) (const double **VIEW, size_t *VIEW_LEN) {
-  $result = SWIG_Python_AppendOutput($result, Py_BuildValue("(NN)", PyLong_FromVoidPtr((void *)*$1), PyLong_FromSize_t(*$2)));
+  %append_output(Py_BuildValue("(NN)", PyLong_FromVoidPtr((void *)*$1), PyLong_FromSize_t(*$2)));
 }
 
 // ---- the handle: owned by its Python proxy
@@ -144,7 +150,7 @@ typedef struct jam_system {} jam_system;
 %ignore jam_destroy;
 %typemap(in, numinputs=0) jam_system **out (jam_system *made) { made = NULL; $1 = &made; }
 %typemap(argout) jam_system **out {
-  $result = SWIG_Python_AppendOutput($result, SWIG_NewPointerObj(*$1, SWIGTYPE_p_jam_system, SWIG_POINTER_OWN));
+  %append_output(SWIG_NewPointerObj(*$1, SWIGTYPE_p_jam_system, SWIG_POINTER_OWN));
 }
 
 // ---- callbacks: the caller keeps the callable alive

@@ -99,7 +99,8 @@
   }
   ~jam_compress_options() { free($self); }
 }
-%feature("docstring") jam_compress_options "One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1"
+%feature("docstring") jam_compress_options "Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
+first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1"
 %extend jam_md_report {
   jam_md_report() {
     jam_md_report *made = (jam_md_report *)calloc(1, sizeof *made);
@@ -312,8 +313,8 @@ none. Changes that were not committed do not show in it. Static storage. Threads
 %feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_last_error "Text of this thread's last failed call, with the name and value at fault; \"\" when none.
-Valid until this thread's next jam call that fails. Threads: per thread. @since 0.1"
+%feature("docstring") jam_last_error "Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; \"\" when none.
+The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1"
 %feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_create "Makes a system. Example: examples/c/first.c
@@ -325,9 +326,9 @@ out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
 JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
 Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1"
-%feature("docstring") jam_copy "Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
-they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
-Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_copy "Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
+has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
+with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_destroy "Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1"
 %feature("docstring") jam_info_get "Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_positions_view "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
@@ -338,8 +339,9 @@ JAM_E_NULL. @since 0.1"
 jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_set_positions "Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_set_velocities "Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_set_velocities "Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
+jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
+JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
@@ -403,20 +405,21 @@ run by wall_time therefore does not change its result. A failure while it goes o
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
 JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
-that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
-1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL. Growth heats; a thermostat
-holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly.
-Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
-ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+%feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
+the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
+by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
+may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
+to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
+JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
 Threads: alone. @since 0.1"
 %feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
-step. The contact network and what was observed are not in it. The file is written under another name and then
-renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
-packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
-JAM_E_IO, JAM_E_MEMORY. @since 0.1"
+and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
+steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
+moves the spheres, its callback writes the packing of the last step without results. The file is written under
+another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
+begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
 damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"

@@ -37,9 +37,9 @@
  *   that many rows, are the lengths. Each of these arrays may be NULL with length 0.
  *
  * Status and options
- * - Status: 0 done; > 0 stopped early, the state is valid and kept; < 0 failed, the state is
- *   as before the call unless said otherwise. jam_last_error() holds the text of the last
- *   failure of this thread. Outputs are written only when the status is >= 0.
+ * - Status: 0 done; > 0 stopped early or not the answer hoped for, the state is valid and
+ *   kept; < 0 failed, the state is as before the call unless said otherwise. jam_last_error()
+ *   says why in a sentence, also for a status above 0. Outputs are written only when the status is >= 0.
  * - Option structs begin with struct_size. Fill them with jam_X_options_init(&o, sizeof o),
  *   then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
@@ -165,8 +165,8 @@ JAM_API const char *jam_blas_kernel(void);
 JAM_API const char *jam_status_string(jam_status code);
 /* One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_stop_string(int32_t reason);
-/* Text of this thread's last failed call, with the name and value at fault; "" when none.
- * Valid until this thread's next jam call that fails. Threads: per thread. @since 0.1 */
+/* Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
+ * The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1 */
 JAM_API const char *jam_last_error(void);
 
 /* ------------------------------------------------------------------ the system */
@@ -232,9 +232,9 @@ JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
  * Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1 */
 JAM_API jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
                               const double *diameters, size_t diameters_len, jam_system **out);
-/* Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
- * they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
- * Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1 */
+/* Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
+ * has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
+ * with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
 /* Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1 */
 JAM_API void jam_destroy(jam_system *sys);
@@ -272,8 +272,9 @@ JAM_API jam_status jam_velocities_view(const jam_system *sys, const double **vie
 /* Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
-/* Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1 */
+/* Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
+ * jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
+ * JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
 /* Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1 */
@@ -446,16 +447,17 @@ typedef enum jam_growth_law {
                             * means the same protocol at every n. */
 } jam_growth_law;
 
-/* One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1 */
+/* Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
+ * first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1 */
 typedef struct jam_compress_options {
   uint32_t struct_size; /* sizeof(jam_compress_options) */
   int32_t resume;       /* 1: go on with the stage that stopped early, of which all but the limits is kept; default 0 */
-  double growth_rate;   /* G > 0, default 1e-2 */
-  double pressure;      /* target reduced pressure, > 1, default 500 */
+  double growth_rate;   /* G > 0: one stage of this rate; 0, the default: the stages of the protocol */
+  double pressure;      /* target reduced pressure of the last stage, > 1, default 1e7 */
   double packing_fraction;        /* target, > 0, default infinity */
-  double collisions_per_particle; /* limit since the stage began, > 0, default infinity */
+  double collisions_per_particle; /* limit since each stage began, > 0, default infinity */
   double wall_time;               /* limit in seconds of this call, > 0, default infinity */
-  double time;                    /* limit of simulated time since the stage began, > 0, default infinity */
+  double time;                    /* limit of simulated time since each stage began, > 0, default infinity */
   double growth_rate_end;         /* quasi-static: the rate falls as a power of p to this one at the target pressure; in
                                    * [0, growth_rate], default 0: constant */
   int32_t growth_law;             /* jam_growth_law, default DIAMETER */
@@ -495,22 +497,23 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
  * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
  * JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
-/* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
- * that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
- * 1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL. Growth heats; a thermostat
- * holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly.
- * Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
- * JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
- * ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+/* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
+ * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
+ * by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
+ * may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
+ * to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
+ * JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+ * protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
  * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
- * and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
- * step. The contact network and what was observed are not in it. The file is written under another name and then
- * renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
- * packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
- * JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
+ * and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
+ * steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
+ * moves the spheres, its callback writes the packing of the last step without results. The file is written under
+ * another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
+ * begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
+ * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
 /* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
  * damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
@@ -855,6 +858,8 @@ typedef struct jam_crunch_report {
   double seconds_factor;          /* of it in factorisations */
   double seconds_assemble;        /* of it in neighbour lists and assembly */
   double seconds_solve;           /* of it in triangular solves */
+  int32_t status;                 /* jam_status_code of the call that made this report */
+  int32_t reserved_end;           /* 0 */
 } jam_crunch_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */

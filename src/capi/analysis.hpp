@@ -16,12 +16,12 @@ inline void need_network(const jam_system *sys) {
 // A verb whose work is left by Cancelled when the monitor says so; nothing has been written then.
 template <class F>
 jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_verb(sys, [&]() -> Answer {
     const LeavingScope scope;
     try {
       return f(CancellationPoint(sys->monitor));
     } catch (const Cancelled &) {
-      return JAM_CANCELLED;
+      return {JAM_CANCELLED, "jam_cancel or a callback stopped the call; it has changed and written nothing"};
     }
   });
 }

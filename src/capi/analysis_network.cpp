@@ -6,6 +6,43 @@
 
 using namespace jam;
 
+namespace {
+
+// Why the network of a geometry is not the only one, or not rigid.
+Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
+  const jam_geometry_report &r = found.report;
+  const auto n = [](int64_t x) { return static_cast<long long>(x); };
+  if (found.status == JAM_NOT_JAMMED && r.contacts == 0)
+    return {JAM_NOT_JAMMED,
+            sentence("no contacts with gaps up to %.2g carry balanced forces: raise window or tolerance, or crunch",
+                     o.tolerance > 0.0 ? o.tolerance : o.window)};
+  if (found.status == JAM_NOT_JAMMED)
+    return {JAM_NOT_JAMMED,
+            sentence("not collectively jammed even with these %lld contacts closed: excess %lld, %lld zero "
+                     "modes, translations among them; jam_flex gives a motion",
+                     n(r.contacts), n(r.excess_contacts), n(r.zero_modes))};
+  if (found.status != JAM_AMBIGUOUS) return found.status;
+  std::string why;
+  const auto add = [&why](const std::string &reason) { why += (why.empty() ? "" : "; ") + reason; };
+  const bool clear = o.tolerance > 0.0 || (r.jump > 100.0 && r.jump > r.second_jump * r.second_jump);
+  if (!clear && r.second_contacts >= 0)
+    add(sentence("%lld contacts with gaps up to %.2g were taken, but %lld up to %.2g fit too: set tolerance to choose",
+                 n(r.contacts), r.tolerance, n(r.second_contacts), r.second_tolerance));
+  else if (!clear)
+    add(sentence("%lld contacts were taken where gaps jump by a factor of %.3g only, from %.2g to %.2g", n(r.contacts),
+                 r.jump, r.gap_below, r.gap_above));
+  if (r.self_stresses > 1)
+    add(sentence("%lld states of self-stress, so forces are not unique: the centre of the non-negative ones was taken",
+                 n(r.self_stresses)));
+  if (found.verdict.result.jammed != Verdict::yes)
+    add(sentence(
+        "contacts are open by up to %.1e, which leaves the verdict of jam_rigidity open: jam_crunch closes them",
+        r.gap_below));
+  return {JAM_AMBIGUOUS, why};
+}
+
+}  // namespace
+
 extern "C" {
 
 jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) {
@@ -13,7 +50,7 @@ jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) {
 }
 
 jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
     check_out_struct(report, "report");
     jam_geometry_options full = default_geometry_options();
     take_options(o, full);
@@ -25,11 +62,13 @@ jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_option
     r.stop_reason = JAM_STOP_NONE;
     r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
     r.seconds = sys->monitor.seconds();
+    r.status = result.status;
+    const Answer answer = answer_of(result, full);
     sys->contacts = std::move(result.network);
     sys->report = r;
     sys->has_report = true;
     give_struct(result.report, report);
-    return result.status;
+    return answer;
   });
 }
 
@@ -49,7 +88,7 @@ jam_status jam_contact_candidates(const jam_system *sys, double window, double *
 
 jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                              double *residual, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     check_output(force, force_len, g.contacts(), "force");
@@ -61,7 +100,14 @@ jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, d
     put_output(s.force, force, s.force.size());
     put_output(s.basis, basis, s.basis.size());
     if (residual) *residual = s.residual;
-    return !s.positive ? JAM_NOT_JAMMED : s.dimension > 1 ? JAM_AMBIGUOUS : JAM_OK;
+    const auto states = static_cast<long long>(s.dimension);
+    if (!s.positive)
+      return {JAM_NOT_JAMMED,
+              sentence("%lld states of self-stress, and none has forces of one sign on all contacts", states)};
+    if (states > 1)
+      return {JAM_AMBIGUOUS,
+              sentence("%lld states of self-stress: force is the centre of the non-negative ones", states)};
+    return JAM_OK;
   });
 }
 

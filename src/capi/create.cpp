@@ -79,7 +79,7 @@ jam_status jam_create(const jam_create_options *o, const double *positions, size
 jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
                               const double *diameters, size_t diameters_len, jam_progress_fn callback, void *user,
                               jam_system **out) {
-  return guard([&]() -> jam_status {
+  return guard([&]() -> Answer {
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
@@ -91,7 +91,7 @@ jam_status jam_create_watched(const jam_create_options *o, const double *positio
 
 jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len, const double *positions,
                               size_t positions_len, const double *diameters, size_t diameters_len, jam_system **out) {
-  return guard([&]() -> jam_status {
+  return guard([&]() -> Answer {
     need(out, "out");
     need(cell, "cell");
     jam_create_options full = default_create_options();

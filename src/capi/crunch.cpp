@@ -31,7 +31,7 @@ jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size) {
 }
 
 jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report) {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_verb(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     jam_crunch_options full = default_crunch_options();
     take_options(o, full);
@@ -47,6 +47,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     Results found;
     found.contacts = std::move(result.contacts);
     found.report = result.report;
+    found.report.status = result.status;
     found.history = std::move(history).rows();
     found.kept_steps = std::move(history).kept();
     found.has_report = found.has_history = true;
@@ -59,7 +60,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     if (result.status < 0)
       fail(result.status, "%s",
            result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
-    return result.status;
+    return stopped(result.status, result.report.stop_reason);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include "capi/answer.hpp"
 #include "capi/system.hpp"
 #include "core/call_scope.hpp"
 #include "core/create.hpp"
@@ -15,11 +16,17 @@ namespace jam {
 // Thread-local text of jam_last_error; set_last_error never allocates.
 void set_last_error(const char *text) noexcept;
 
-// Runs f() and maps what it throws to a status and text. f returns jam_status.
+inline const char *why(const Answer &answer) {
+  return answer.text.empty() ? meaning_of(answer.status) : answer.text.c_str();
+}
+
+// Runs f() and maps what it throws to a status and text. f returns jam_status or Answer.
 template <class F>
 jam_status guard(F &&f) noexcept {
   try {
-    return f();
+    const Answer answer = f();
+    if (answer.status != JAM_OK) set_last_error(why(answer));
+    return answer.status;
   } catch (const Error &e) {
     set_last_error(e.what());
     return e.code();
@@ -95,9 +102,9 @@ jam_status guard_set(jam_system *sys, F &&f) noexcept {
   return guard([&] {
     const Busy busy(sys);
     const CallScope scope(sys->memory_limit);
-    const jam_status status = f();
+    const auto answer = f();
     check_state_left(sys);
-    return status;
+    return answer;
   });
 }
 
@@ -113,9 +120,15 @@ jam_status guard_verb(jam_system *sys, F &&f) noexcept {
     } release{sys->monitor};
     sys->monitor.begin();
     const CallScope scope(sys->memory_limit, &sys->monitor);
-    const jam_status status = f();
-    check_state_left(sys);
-    return status;
+    try {
+      const Answer answer = f();
+      check_state_left(sys);
+      if (answer.status != JAM_OK) sys->monitor.log(JAM_LOG_WARNING, "%s", why(answer));
+      return answer;
+    } catch (const Error &e) {
+      sys->monitor.log(JAM_LOG_WARNING, "%s", e.what());
+      throw;
+    }
   });
 }
 
@@ -181,7 +194,7 @@ void give_struct(const T &full, T *out) {
 // A verb that may be left by Cancelled before it has changed anything; the report then tells why and nothing else.
 template <class Report, class F>
 jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
-  return guard_verb(sys, [&]() -> jam_status {
+  return guard_verb(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     try {
       return f();
@@ -190,7 +203,7 @@ jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
       Report r{};
       r.stop_reason = cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
       give_struct(r, report);
-      return cancelled ? JAM_CANCELLED : JAM_LIMIT;
+      return stopped(cancelled ? JAM_CANCELLED : JAM_LIMIT, r.stop_reason);
     }
   });
 }

@@ -49,7 +49,7 @@ void settle_options(const char *path, const FileContent &file, jam_create_option
 extern "C" {
 
 jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out) {
-  return guard([&]() -> jam_status {
+  return guard([&]() -> Answer {
     need(path, "path");
     need(out, "out");
     jam_create_options full = default_create_options();

@@ -39,7 +39,7 @@ jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size) {
 jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o, const jam_monte_carlo_options *m,
                                   const double *instant, size_t instant_len, const int32_t *kept, size_t kept_len,
                                   jam_isoconf_report *report) {
-  return guard_reporting(sys, report, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> Answer {
     jam_isoconf_options full = default_isoconf_options();
     jam_monte_carlo_options monte_carlo = default_monte_carlo_options();
     take_options(o, full);
@@ -67,7 +67,7 @@ jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
     const Running running(sys, sys->runs.get());
     const jam_status status = sys->runs->run(limits, listeners);
     give_struct(sys->runs->report(), report);
-    return status;
+    return stopped(status, sys->runs->report().stop_reason);
   });
 }
 

@@ -7,8 +7,7 @@
 namespace jam {
 
 template <class Make>
-jam_status make_system(const jam_create_options &o, jam_progress_fn callback, void *user, jam_system **out,
-                       Make &&make) {
+Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *user, jam_system **out, Make &&make) {
   auto sys = std::make_unique<jam_system>();
   if (o.memory_limit > 0.0) sys->memory_limit = o.memory_limit;
   Monitor monitor;
@@ -21,7 +20,8 @@ jam_status make_system(const jam_create_options &o, jam_progress_fn callback, vo
     sys->packing = make(&sys->notes);
   } catch (const Cancelled &) {
     *out = nullptr;
-    return monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
+    if (monitor.cancelled()) return {JAM_CANCELLED, "the callback stopped the call before there was a system"};
+    return {JAM_LIMIT, "wall_time came before there was a system: raise it"};
   }
   check_packing(sys->packing, JAM_E_INTERNAL);
   sys->note_diameters();

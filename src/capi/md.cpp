@@ -39,7 +39,7 @@ class Live {
 };
 
 // Runs a stage; the handle changes only when nothing is thrown. The handle keeps a stage that was stopped early.
-jam_status run_md(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &limits, jam_md_report &report) {
+jam_status run_md(jam_system *sys, std::unique_ptr<Stage> &stage, const Limits &limits, jam_md_report &report) {
   Listeners listeners;
   listeners.monitor = &sys->monitor;
   if (sys->observing) listeners.observer = sys->observer.get();
@@ -76,15 +76,55 @@ std::unique_ptr<Stage> take_stage(jam_system *sys, bool resume, const MdStage &s
   return std::unique_ptr<Stage>(static_cast<Stage *>(sys->paused.release()));
 }
 
+// Runs a stage and those that follow it in its protocol. Where one cannot begin in time, the handle keeps the one
+// before, and a resumed call begins there.
+jam_status run_all(jam_system *sys, std::unique_ptr<Stage> stage, Limits limits, jam_md_report &report, bool &moved) {
+  const double wall_time = limits.wall_time;
+  for (;;) {
+    const MdStage plan = stage->plan();
+    if (!plan.reached) {
+      limits.wall_time = wall_time - sys->monitor.seconds();
+      const jam_status status = run_md(sys, stage, limits, report);
+      moved = true;
+      if (status != JAM_OK || report.stop_reason != JAM_STOP_PRESSURE || plan.then == 0.0) return status;
+    }
+    MdStage next = next_stage(plan);
+    next.wall_time = wall_time;
+    try {
+      stage = make_stage(sys, next);
+    } catch (const Cancelled &) {
+      const bool cancelled = sys->monitor.cancelled();
+      stage->mark_reached();
+      sys->paused = std::move(stage);
+      report.stop_reason = cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+      return cancelled ? JAM_CANCELLED : JAM_LIMIT;
+    }
+  }
+}
+
+// The same, and one call is one change: after a failure the packing is that of before.
+jam_status run_stages(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &limits, jam_md_report &report) {
+  std::unique_ptr<Packing> before;
+  Results results;
+  if (stage->plan().then > 0.0) before = std::make_unique<Packing>(sys->packing), results = sys->results();
+  bool moved = false;
+  try {
+    return run_all(sys, std::move(stage), limits, report, moved);
+  } catch (...) {
+    if (before && moved) sys->commit(*before, std::move(results));
+    throw;
+  }
+}
+
 template <class Options, class Check>
-jam_status verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_md_report *report) {
+Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_md_report *report) {
   take_options(o, full);
   check(full);
   const MdStage stage = stage_of(full);
   jam_md_report made{};
-  const jam_status status = run_md(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
+  const jam_status status = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
   give_struct(made, report);
-  return status;
+  return stopped(status, made.stop_reason);
 }
 
 }  // namespace
@@ -103,22 +143,8 @@ jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *rep
 }
 
 jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report) {
-  return guard_reporting(sys, report, [&]() -> jam_status {
-    if (o) return verb(sys, o, default_compress_options(), check_compress_options, report);
-    const Packing before = sys->packing;
-    Results results = sys->results();
-    jam_md_report made{};
-    jam_status status = JAM_OK;
-    try {
-      for (const MdStage &stage : default_protocol)
-        if (status == JAM_OK) status = run_md(sys, make_stage(sys, stage), stage.limits(), made);
-    } catch (...) {
-      sys->commit(before, std::move(results));  // one call, one change
-      throw;
-    }
-    give_struct(made, report);
-    return status;
-  });
+  return guard_reporting(sys, report,
+                         [&] { return verb(sys, o, default_compress_options(), check_compress_options, report); });
 }
 
 jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {

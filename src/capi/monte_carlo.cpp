@@ -13,7 +13,7 @@ jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size)
 }
 
 jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report) {
-  return guard_reporting(sys, report, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> Answer {
     jam_monte_carlo_options full = default_monte_carlo_options();
     take_options(o, full);
     check_monte_carlo_options(full);
@@ -45,7 +45,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);
     give_struct(made, report);
-    return status;
+    return stopped(status, made.stop_reason);
   });
 }
 

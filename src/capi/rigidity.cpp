@@ -13,6 +13,25 @@ Jamming take_kind(int32_t kind) {
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 
+// Why a packing is not known to be jammed.
+Answer answer_of(const jam_rigidity_report &r) {
+  const char *kind = r.kind == JAM_RIGIDITY_STRICT ? "strictly" : "collectively";
+  const auto n = [](int64_t x) { return static_cast<long long>(x); };
+  if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
+  if (r.jammed == JAM_VERDICT_NO && r.contacts == 0)
+    return {JAM_NOT_JAMMED, sentence("not %s jammed: no non-negative forces on the contacts balance; jam_flex gives a "
+                                     "motion, jam_crunch leads to a jammed packing",
+                                     kind)};
+  if (r.jammed == JAM_VERDICT_NO)
+    return {JAM_NOT_JAMMED, sentence("not %s jammed: forces on %lld contacts balance, %lld would be needed at least, "
+                                     "and %lld motions keep them closed; jam_flex gives one",
+                                     kind, n(r.contacts), n(r.contacts_needed), n(r.flexes))};
+  return {JAM_AMBIGUOUS,
+          sentence("undecided whether %s jammed: %lld pairs with gaps of 1e-10 to 1e-7 may be contacts or "
+                   "not, and the margin is %.1e; jam_crunch closes them",
+                   kind, n(r.undecided_contacts), r.rigidity_margin)};
+}
+
 PackingVerdict test(const jam_system *sys, Jamming kind, const CancellationPoint &cancel_point) {
   return test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind, cancel_point);
 }
@@ -22,7 +41,7 @@ PackingVerdict test(const jam_system *sys, Jamming kind, const CancellationPoint
 extern "C" {
 
 jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
     check_out_struct(report, "report");
     const Jamming jamming = take_kind(kind);
     const PackingVerdict v = test(sys, jamming, cancel_point);
@@ -42,7 +61,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     r.rigidity_margin = v.result.margin;
     r.force_residual = v.result.force_residual;
     give_struct(r, report);
-    return v.result.jammed == Verdict::yes ? JAM_OK : v.result.jammed == Verdict::no ? JAM_NOT_JAMMED : JAM_AMBIGUOUS;
+    return answer_of(r);
   });
 }
 

@@ -28,9 +28,16 @@ Results soft_results(SoftResult &soft, double seconds) {
   r.stop_reason = JAM_STOP_NONE;
   r.gain = r.max_step = r.gamma_residual = r.duality_gap = nan;
   r.seconds = seconds;
+  r.status = soft.status;
   found.contacts = std::move(soft.contacts);
   found.has_report = true;
   return found;
+}
+
+Answer why_no_minimum(jam_status status, int32_t stop_reason) {
+  if (status == JAM_NOT_JAMMED)
+    return {status, "no overlaps are left, so no contacts carry force: take larger diameters or a higher density"};
+  return stopped(status, stop_reason);
 }
 
 // Contacts that both networks have, and the largest difference of their forces where all are the same.
@@ -80,7 +87,7 @@ jam_status jam_relax_options_init(jam_relax_options *o, size_t size) {
 }
 
 jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report) {
-  return guard_reporting(sys, report, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> Answer {
     jam_relax_options full = default_relax_options();
     take_options(o, full);
     need_soft(sys);
@@ -89,7 +96,7 @@ jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_repo
     const jam_status status = result.status;
     sys->commit(result.packing, soft_results(result, made.seconds));
     give_struct(made, report);
-    return status;
+    return why_no_minimum(status, made.stop_reason);
   });
 }
 
@@ -98,7 +105,7 @@ jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size) {
 }
 
 jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report) {
-  return guard_reporting(sys, report, [&]() -> jam_status {
+  return guard_reporting(sys, report, [&]() -> Answer {
     jam_decompress_options full = default_decompress_options();
     take_options(o, full);
     need_soft(sys);
@@ -107,10 +114,12 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     if (full.crunch == 1) judge = [&](const SoftResult &soft) { return judge_by_crunch(soft, sys->monitor, hard); };
     DecompressionResult result = decompress(sys->packing, full, sys->monitor, judge);
     const jam_decompress_report made = result.report;
+    const jam_status status = result.status;
     Results found;
     if (made.same_network == 1) {
       found.contacts = std::move(hard.contacts);
       found.report = hard.report;
+      found.report.status = hard.status;
       found.has_report = true;
     } else {
       found = soft_results(result.soft, made.seconds);
@@ -118,7 +127,7 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     found.soft_history = std::move(result.history);
     sys->commit(made.same_network == 1 ? hard.packing : result.soft.packing, std::move(found));
     give_struct(made, report);
-    return result.status;
+    return why_no_minimum(status, made.stop_reason);
   });
 }
 

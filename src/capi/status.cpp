@@ -1,4 +1,7 @@
 // Status codes, their texts and the thread-local last error.
+#include <cstdarg>
+#include <cstdio>
+
 #include "capi/guard.hpp"
 #include "linalg/blas.hpp"
 
@@ -7,6 +10,75 @@ namespace {
 thread_local char last_error[512] = "";
 }
 void set_last_error(const char *text) noexcept { std::snprintf(last_error, sizeof last_error, "%s", text); }
+
+const char *meaning_of(jam_status status) {
+  switch (status) {
+    case JAM_CANCELLED:
+      return "jam_cancel or a callback stopped the call; the state is valid";
+    case JAM_LIMIT:
+      return "a limit of work or time came before the end; the state is valid: raise the limit, or call again to go on";
+    case JAM_NOT_CONVERGED:
+      return "the method made no more progress; what it gives is the best so far";
+    case JAM_PRECISION:
+      return "the target lies beyond what doubles can resolve; what is given is as near as they come";
+    case JAM_NOT_JAMMED:
+      return "the contact network is empty, so there is nothing rigid to look at: crunch the packing first";
+    case JAM_AMBIGUOUS:
+      return "the answer is not unique: another one fits as well";
+    default:
+      return jam_status_string(status);
+  }
+}
+
+namespace {
+const char *meaning_of_stop(int32_t reason) {
+  switch (reason) {
+    case JAM_STOP_COLLISIONS:
+      return "collisions_per_particle came before the target; the packing reached is kept: raise it, or call again to "
+             "go "
+             "on";
+    case JAM_STOP_TIME:
+      return "the limit of simulated time came before the target; the packing reached is kept: raise it, or call again "
+             "to go on";
+    case JAM_STOP_WALL_TIME:
+      return "wall_time came before the end; the packing reached is kept: raise wall_time, or call again to go on";
+    case JAM_STOP_CANCELLED:
+      return "jam_cancel or a callback stopped the call; the packing reached is kept: call again to go on";
+    case JAM_STOP_PRECISION:
+      return "gaps are at the resolution of the coordinates; the packing reached is kept, and doubles allow no more";
+    case JAM_STOP_LP_LIMIT:
+      return "max_lps came before convergence; the packing reached is kept: raise max_lps, or crunch again to go on";
+    case JAM_STOP_SOLVER:
+      return "an answer of the solver did not pass the checks; the packing reached is kept, and it is not certified";
+    case JAM_STOP_UNJAMMED:
+      return "the steps converged without a rigid network: no forces balance on contacts; compress the packing further "
+             "first, or take more spheres";
+    case JAM_STOP_SADDLE:
+      return "forces balance, but a motion opens contacts, and steps along it lead nowhere: take another seed, or "
+             "compress the packing further first";
+    case JAM_STOP_EVALUATIONS:
+      return "max_evaluations came before the minimum; the state reached is kept: raise it, or call again to go on";
+    case JAM_STOP_STEPS:
+      return "max_steps came before the end; the state reached is kept: raise it, or call again to go on";
+    default:
+      return nullptr;
+  }
+}
+}  // namespace
+
+Answer stopped(jam_status status, int32_t stop_reason) {
+  const char *text = status > 0 ? meaning_of_stop(stop_reason) : nullptr;
+  return text ? Answer(status, text) : Answer(status);
+}
+
+std::string sentence(const char *format, ...) {
+  char text[400];
+  va_list args;
+  va_start(args, format);
+  std::vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  return text;
+}
 }  // namespace jam
 
 // One list for code and text; the numbers are checked against the header by the compiler through the switch.

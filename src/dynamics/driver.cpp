@@ -87,8 +87,7 @@ jam_run_options default_run_options() {
 jam_compress_options default_compress_options() {
   jam_compress_options o{};
   o.struct_size = sizeof o;
-  o.growth_rate = 1e-2;
-  o.pressure = 500.0;
+  o.pressure = 1e7;
   o.packing_fraction = o.collisions_per_particle = o.wall_time = o.time = no_limit;
   return o;
 }
@@ -104,7 +103,7 @@ void check_run_options(const jam_run_options &o) {
 
 void check_compress_options(const jam_compress_options &o) {
   flag(o.resume, "resume");
-  positive(o.growth_rate, "growth_rate");
+  if (o.growth_rate != 0.0) positive(o.growth_rate, "growth_rate");
   if (o.growth_rate > limits::growth_rate_max)
     fail(JAM_E_ARGUMENT, "growth_rate is %g, supported are values up to %g", o.growth_rate, limits::growth_rate_max);
   if (!(o.pressure > 1.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be greater than 1", o.pressure);
@@ -113,7 +112,8 @@ void check_compress_options(const jam_compress_options &o) {
   positive(o.wall_time, "wall_time");
   positive(o.time, "time");
   if (!(o.growth_rate_end >= 0.0) || o.growth_rate_end > o.growth_rate)
-    fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate", o.growth_rate_end);
+    fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate, which is %g", o.growth_rate_end,
+         o.growth_rate);
   if (o.growth_rate_end > 0.0 && o.pressure == no_limit)
     fail(JAM_E_ARGUMENT, "growth_rate_end needs a finite pressure to be reached at");
   if (o.growth_law != JAM_GROWTH_DIAMETER && o.growth_law != JAM_GROWTH_DENSITY)
@@ -128,15 +128,31 @@ MdStage stage_of(const jam_run_options &o) {
   return s;
 }
 
+namespace {
+// The protocol that avoids crystals in d = 3: fast where a fluid could order, slower near jamming.
+constexpr double first_rate = 1e-2, first_pressure = 500.0, last_rate = 3e-3;
+}  // namespace
+
 MdStage stage_of(const jam_compress_options &o) {
   MdStage s{o.growth_rate, o.pressure, o.packing_fraction, o.collisions_per_particle, o.wall_time};
+  if (o.growth_rate == 0.0) {
+    s.growth = first_rate;
+    s.pressure = std::min(o.pressure, first_pressure);
+    s.then = o.pressure > first_pressure ? o.pressure : 0.0;
+  }
   s.time = o.time;
   s.growth_end = o.growth_rate_end;
   s.relative = o.growth_law == JAM_GROWTH_DENSITY;
   return s;
 }
 
-const MdStage default_protocol[2] = {{1e-2, 500.0, no_limit, no_limit, no_limit},
-                                     {3e-3, 1e7, no_limit, no_limit, no_limit}};
+MdStage next_stage(const MdStage &stage) {
+  MdStage next = stage;
+  next.growth = last_rate;
+  next.pressure = stage.then;
+  next.then = 0.0;
+  next.reached = 0;
+  return next;
+}
 
 }  // namespace jam

@@ -14,6 +14,8 @@ struct MdStage {
   double time = no_limit;                // simulated, from the beginning of the stage
   double growth_end = 0.0;               // > 0: growth falls as a power of p, to this at the target pressure
   int64_t relative = 0;                  // 1: constant relative rate of growth
+  double then = 0.0;                     // > 0: the protocol goes on after this stage, up to this pressure
+  int64_t reached = 0;                   // 1: its pressure is reached, the next stage has not begun
   Limits limits() const { return {collisions_per_particle, time, wall_time}; }
 };
 
@@ -23,11 +25,10 @@ jam_compress_options default_compress_options();
 void check_run_options(const jam_run_options &o);
 void check_compress_options(const jam_compress_options &o);
 MdStage stage_of(const jam_run_options &o);
-MdStage stage_of(const jam_compress_options &o);
+MdStage stage_of(const jam_compress_options &o);  // the first one of the protocol without a growth rate
+MdStage next_stage(const MdStage &stage);         // of the protocol: stage.then > 0
 
 // Begins a stage, runs it and takes its packing: for tests and benchmarks.
 jam_status run_stage(Packing &p, const MdStage &stage, Monitor &monitor, jam_md_report &report);
-// The stages of jam_compress(sys, NULL, ..).
-extern const MdStage default_protocol[2];
 
 }  // namespace jam

@@ -97,6 +97,7 @@ void Stage::archive(Archive &a) {
     a(*k);
   a(windows_);
   if (a.reading()) {
+    Archive::check(stage_.then == 0.0 || stage_.then > 1.0);
     Archive::check(stage_.growth >= 0.0 && window_ > 0 && part_ >= 0 && windows_.size() < 1u << 20);
     for (const int64_t k :
          {window_, part_, part_goal_, steady_, old_collisions_, old_events_, cooled_collisions_, frozen_})
@@ -278,7 +279,7 @@ jam_status Stage::run(const Limits &limits, const Listeners &listeners) {
   report_collisions_ = report.collisions;
   take_limits(limits);
   listeners.monitor->expect(progress());
-  listeners.monitor->wall_time = limits.wall_time;  // for searches for pairs
+  listeners.monitor->wall_time = listeners.monitor->seconds() + limits.wall_time;  // for searches for pairs
   engine_->set_time_limit(stage_.time - time());
   attach(listeners.observer);
   const bool there = growing() && engine_->packing_fraction() >= stage_.packing_fraction;

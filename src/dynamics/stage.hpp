@@ -19,6 +19,8 @@ class Stage final : public Dynamics {
   jam_status run(const Limits &limits, const Listeners &listeners) override;
   const Packing &packing() const override { return p_; }
   Packing current() const override;
+  const MdStage &plan() const { return stage_; }
+  void mark_reached() { stage_.reached = 1; }
   void archive(Archive &a) override;
   // Each run adds to it, so that stages that follow each other give one report. Not part of the archive.
   jam_md_report report{};

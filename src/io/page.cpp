@@ -173,8 +173,9 @@ void write_page(const PageContent &content, const char *path) {
   out += "{\"title\": ";
   put_string(out, content.title);
   out += std::string(", \"small\": ") + (content.small ? "true" : "false");
-  out += ", \"dim\": " + std::to_string(p.dim) + ", \"n\": " + std::to_string(p.n()) +
-         ", \"seed\": " + std::to_string(p.seed) + ", \"non_additivity\": ";
+  out += ", \"dim\": " + std::to_string(p.dim) + ", \"n\": " + std::to_string(p.n()) + ", \"seed\": \"" +
+         std::to_string(p.seed) +  // as text: JavaScript rounds numbers above 2^53
+         "\", \"non_additivity\": ";
   append_number(out, p.non_additivity);
   out += ", \"packing_fraction\": ";
   put_number(out, packing_fraction(p));

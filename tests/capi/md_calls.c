@@ -62,7 +62,7 @@ static void refuses_bad_arguments(void **state) {
     assert_int_equal(jam_run(sys, &r, NULL), JAM_E_ARGUMENT);
     says("wall_time");
     jam_compress_options_init(&c, sizeof c);
-    c.growth_rate = bad[k];
+    c.growth_rate = bad[k] == 0.0 ? -1e-300 : bad[k]; /* 0 is the protocol */
     assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_ARGUMENT);
     says("growth_rate");
     jam_compress_options_init(&c, sizeof c);

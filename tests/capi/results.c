@@ -212,7 +212,7 @@ static void every_move_clears_all(void **state) {
   crunch(jammed, JAM_STRAIN_NONE, 0, 0.0, 0);
   assert_int_equal(jam_positions_view(jammed, &v, &len), JAM_OK);
   assert_int_equal(jam_set_velocities(jammed, v, len), JAM_OK); /* any will do */
-  assert_int_equal(knows(jammed), 3); /* velocities move nothing */
+  assert_int_equal(knows(jammed), 3);                           /* velocities move nothing */
   for (move = 0; move < 6; ++move) {
     jam_system *sys = NULL;
     assert_int_equal(jam_copy(jammed, &sys), JAM_OK);

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include "fuzz.h"
 
-#define BASES 7
+#define BASES 8
 #define LARGEST (1 << 16)
 static uint8_t base[BASES][LARGEST];
 static size_t base_size[BASES];
@@ -48,13 +48,13 @@ static int32_t stop_on_path(const jam_progress *progress, void *user) {
 }
 
 /* 0: created. 1: Mari-Kurchan. 2: a run, 3: a compression, 4: Monte Carlo, 5: runs from one configuration, 6: a crunch;
- * the last five were stopped and go on. */
+ * these five were stopped and go on. 7: a crunched packing with its results and steps. */
 static jam_system *make(int kind) {
   jam_create_options o;
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.dim = kind == 3 || kind == 6 ? 3 : 2;
-  o.n = kind == 6 ? 16 : 8;
+  o.n = kind >= 6 ? 16 : 8;
   if (kind == 1) o.model = JAM_MODEL_MK, o.packing_fraction = 1.0;
   demand(jam_create(&o, NULL, 0, NULL, 0, &sys) == JAM_OK, "create");
   jam_set_progress(sys, stop_at_once, NULL);
@@ -76,7 +76,32 @@ static jam_system *make(int kind) {
     demand(jam_crunch(sys, &crunch, NULL) == JAM_CANCELLED, "crunch");
   }
   jam_set_progress(sys, NULL, NULL);
+  if (kind == 7) {
+    jam_crunch_options crunch;
+    jam_crunch_options_init(&crunch, sizeof crunch);
+    crunch.keep_steps = 3;
+    demand(jam_crunch(sys, &crunch, NULL) >= 0, "crunch");
+  }
   return sys;
+}
+
+/* Calls that rely on the results of a checkpoint. */
+static void use_results(jam_system *sys) {
+  static double out[LARGEST];
+  static int32_t flags[LARGEST];
+  jam_crunch_report r;
+  size_t m = 0;
+  r.struct_size = sizeof r;
+  check_status(jam_crunch_report_get(sys, &r));
+  check_status(jam_contact_classes(sys, flags, LARGEST, &m));
+  check_status(jam_class_values(sys, JAM_QUANTITY_FORCE_PAIRS, JAM_CLASS_ALL, out, LARGEST, &m));
+  check_status(jam_hessian_map(sys, flags, LARGEST, &m));
+  check_status(jam_modes(sys, NULL, NULL, out, LARGEST, NULL, 0, NULL, 0, &m));
+  check_status(jam_stress_states(sys, out, LARGEST, NULL, 0, NULL, &m));
+  check_status(jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL));
+  check_status(jam_compare(sys, sys, NULL, out, LARGEST, &m));
+  check_status(jam_write_page(sys, "/dev/null", "", 0, "", NULL, 0));
+  check_status(jam_write_contacts(sys, "/dev/null", JAM_CONTACTS_CSV));
 }
 
 static jam_status read_back(const uint8_t *data, size_t size, jam_system **sys) {
@@ -168,7 +193,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *input, size_t size) {
   jam_run_options_init(&run, sizeof run);
   jam_compress_options_init(&compress, sizeof compress);
   jam_monte_carlo_options_init(&sweeps, sizeof sweeps);
-  run.resume = compress.resume = sweeps.resume = kind >= 2;
+  if (kind >= 6) use_results(sys);
+  run.resume = compress.resume = sweeps.resume = kind >= 2 && kind < 7;
   run.collisions_per_particle = compress.collisions_per_particle = 5.0;
   sweeps.sweeps = 5;
   run.wall_time = compress.wall_time = sweeps.wall_time = 0.05;

@@ -19,7 +19,7 @@ static inline void demand(int truth, const char *what) {
 /* A known status; an error has a text, and is never a bug that libjam found in itself. */
 static inline void check_status(jam_status status) {
   demand(strcmp(jam_status_string(status), "unknown status") != 0, "the status is known");
-  demand(status >= 0 || jam_last_error()[0] != '\0', "an error has a text");
+  demand(status == JAM_OK || jam_last_error()[0] != '\0', "every other status has a text");
   demand(status != JAM_E_INTERNAL, "no internal error");
 }
 

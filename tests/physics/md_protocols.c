@@ -69,7 +69,7 @@ static void quasi_static(void **state) {
   (void)state;
   report.struct_size = sizeof report;
   jam_compress_options_init(&c, sizeof c);
-  c.pressure = 1e3;
+  c.growth_rate = 1e-2, c.pressure = 1e3;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
   c.pressure = 1e7;
   c.growth_rate_end = 1e-3;

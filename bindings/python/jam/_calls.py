@@ -145,17 +145,17 @@ def spell_out(method: Any, struct: str) -> None:
         choices = "{" + ", ".join(repr(e.name.lower()) for e in enum) + "}" if enum else kind
         rows.append(f"{name} : {choices}, optional")
         rows += textwrap.wrap(" ".join(text.split()), 100, initial_indent="    ", subsequent_indent="    ")
-    block = textwrap.indent("\n".join(rows), " " * 8)
-    doc = method.__doc__.rstrip()
-    head = "\n\n        Parameters\n        ----------\n"
+    block = "\n".join(rows)
+    doc = inspect.cleandoc(method.__doc__ or "")  # Python 3.13 has taken the indentation away already
+    head = "\n\nParameters\n----------\n"
     if head in doc:
         at = doc.find("\n\n", doc.index(head) + len(head))
         at = len(doc) if at < 0 else at
-        method.__doc__ = doc[:at] + "\n" + block + doc[at:] + "\n        "
+        method.__doc__ = doc[:at] + "\n" + block + doc[at:] + "\n"
     else:
-        at = doc.find("\n\n        Returns\n")
+        at = doc.find("\n\nReturns\n")
         at = len(doc) if at < 0 else at
-        method.__doc__ = doc[:at] + head + block + doc[at:] + "\n        "
+        method.__doc__ = doc[:at] + head + block + doc[at:] + "\n"
 
 
 # Shapes of the arrays that calls fill, by name of function and array: m is *needed or *rows, d the dimension. Others are flat (m,).

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from typing import Any, Callable
 
 from . import _calls, errors, raw
-from ._generated import Info, Progress, StatusCode
+from ._generated import Info, Progress, Report, StatusCode
 from ._methods import Methods
 from ._progress import end, reporter
 
@@ -65,13 +65,14 @@ class Base(Methods):
     def __init__(self, handle: Any) -> None:
         self._handle: Any = handle
         self._first_info: Info | None = None
-        self._carried: tuple[Any, ...] | None = None  # report, contacts and history that came with a pickle or a file
         #: Calls that moved the spheres: verb, options (every one), status and stop reason of each
         self.calls: list[dict[str, Any]] = []
         #: Progress records of this system's calls, at most one every 0.05 s
         self.trace: list[Progress] = []
-        #: Status of the last call: > 0 where it stopped early or the answer is not unique
+        #: Status of the last call: > 0 where it stopped early or the answer is not unique. Properties leave it as it is
         self.status: StatusCode = StatusCode.OK
+        #: Why, in a sentence; "" for status OK
+        self.status_text = ""
         handle._dispatch = self._dispatch = _Dispatch()  # the C side holds a borrowed reference
         raw.set_progress(handle, self._dispatch)
 
@@ -105,25 +106,23 @@ class Base(Methods):
         """Calls the C function jam_<name> on this system by the header's conventions.
 
         Inputs by position or keyword, members of option structs by keyword; arrays of any real dtype. Outputs are
-        returned: an array, a number, a report, or a named tuple of them. self.status holds the StatusCode.
+        returned: an array, a number, a report, or a named tuple of them. self.status holds the StatusCode, and
+        self.status_text says why it is not OK.
         """
         handle = self.handle
         with self._reporting(progress):
-            if name == "gaps" and self._carried and self._carried[1] is not None:
-                raise errors.StateError("gaps must tell contacts from others. " + _MENDED_BY)
-            try:
-                self.status, result = _calls.invoke(handle, self.dim, name, args, named)
-            except errors.StateError as error:
-                if self._carried is None:
-                    raise
-                raise errors.StateError(f"{error}. {_MENDED_BY}") from None
-        if name in _MOVERS:
-            self._carried = None
+            status, result = _calls.invoke(handle, self.dim, name, args, named)
+            self._note(status, result)
         return result
 
+    def _ask(self, name: str, *args: Any) -> Any:
+        """What call() returns, for properties: the status of the last call stays."""
+        return _calls.invoke(self.handle, self.dim, name, args, {})[1]
 
-_MENDED_BY = (
-    "This system came from a file or a pickle, which hold results and not the network in memory: "
-    "call contacts_from_geometry() first, or crunch()"
-)
-_MOVERS = {"set_positions", "set_velocities", "scale_diameters", "contacts_from_geometry", "monte_carlo"}
+    def _note(self, status: int, report: Any = None) -> None:
+        """Keeps the status of a call that has just returned, on this thread, and writes it on its report."""
+        self.status = StatusCode(status)
+        self.status_text = errors.last_text() if status else ""
+        if isinstance(report, Report):
+            object.__setattr__(report, "status", self.status)
+            object.__setattr__(report, "status_text", self.status_text)

@@ -37,10 +37,11 @@ class Methods:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
         model, and a stage that was stopped early or runs now.
 
-        While a crunch runs, its callback writes the packing of the last step. The contact network and what was
-        observed are not in it. The file is written under another name and then renamed. Dynamics that go on from it
-        make the same bits as those that never stopped. A crunch begins anew from the packing that it had reached: it
-        ends jammed, not always with the same bits.
+        The results are in it too: contact network, report, histories, kept steps and runs from one configuration.
+        What was observed, the limit of memory and callbacks are not. While a call moves the spheres, its callback
+        writes the packing of the last step without results. The file is written under another name and then renamed.
+        Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
+        packing that it had reached: it ends jammed, not always with the same bits.
 
         Parameters
         ----------

@@ -7,7 +7,7 @@ import numpy as np
 
 from ._types import Array
 from . import _calls, raw
-from ._generated import CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
+from ._generated import CrunchReport, HistoryColumn, ModesWhich, RigidityReport
 from ._handle import Base
 from ._methods import FlexResult, StressStatesResult
 from .results import Contacts, Modes
@@ -19,21 +19,15 @@ class Network(Base):
     @property
     def report(self) -> CrunchReport:
         """Result and certificate of the last crunch, a CrunchReport."""
-        if self._carried and self._carried[0] is not None:
-            found: CrunchReport = self._carried[0]
-            return found
         made = _calls.new_report("jam_crunch_report")
         raw.jam_crunch_report_get(self.handle, made)
-        found = _calls.freeze(made, "jam_crunch_report")
+        found: CrunchReport = _calls.freeze(made, "jam_crunch_report")
         return found
 
     @property
     def history(self) -> Array:
         """Steps of the last crunch as a structured array: one field for each HistoryColumn, in lower case."""
-        if self._carried and self._carried[2] is not None:
-            found: Array = self._carried[2]
-            return found
-        columns = [self.call("crunch_history", c) for c in HistoryColumn]
+        columns = [self._ask("crunch_history", c) for c in HistoryColumn]
         rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in HistoryColumn])
         for c, values in zip(HistoryColumn, columns):
             rows[c.name.lower()] = values
@@ -52,27 +46,20 @@ class Network(Base):
         >>> contacts.pairs.shape == (report.contacts, 2), abs(contacts.gaps).max() < 1e-10
         (True, True)
         """
-        if self._carried and self._carried[1] is not None:
-            found: Contacts = self._carried[1]
-            return found
         return Contacts(
-            self.call("contacts"), self.call("contact_vectors"), self.call("contact_gaps"), self.call("forces")
+            self._ask("contacts"), self._ask("contact_vectors"), self._ask("contact_gaps"), self._ask("forces")
         )
 
     @property
     def forces(self) -> Array:
         """Contact forces, shape (contacts,), mean 1. Times report.force_scale they are lambda r of the LP."""
-        found: Array = (
-            self._carried[1].forces if self._carried and self._carried[1] is not None else self.call("forces")
-        )
+        found: Array = self._ask("forces")
         return found
 
     @property
     def coordination(self) -> Array:
         """Number of contacts of each sphere, shape (n,); 0 for rattlers."""
-        if self._carried and self._carried[1] is not None:
-            return np.bincount(self._carried[1].pairs.reshape(-1), minlength=self.n).astype(np.int32)
-        found: Array = self.call("coordination")
+        found: Array = self._ask("coordination")
         return found
 
     @property
@@ -105,10 +92,10 @@ class Network(Base):
         from scipy.sparse import csr_matrix
 
         chosen = _calls.options("jam_hessian_options", dict(options, stiffness=stiffness))
-        size = self.dim * len(self.call("hessian_map"))
+        size = self.dim * len(self._ask("hessian_map"))
         count = raw.jam_hessian(self.handle, chosen, None, None, None)[1]
         start, column, value = np.empty(size + 1, np.int32), np.empty(count, np.int32), np.empty(count)
-        raw.jam_hessian(self.handle, chosen, start, column, value)
+        self._note(raw.jam_hessian(self.handle, chosen, start, column, value)[0])
         return csr_matrix((value, column, start), shape=(size, size))
 
     def modes(
@@ -151,7 +138,7 @@ class Network(Base):
         handle = self.handle
         h = _calls.options("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
         o = _calls.options("jam_modes_options", dict(options, which=which, count=k))
-        spheres = self.call("hessian_map")
+        spheres = self._ask("hessian_map")
         m = (
             min(k, self.dim * len(spheres))
             if _calls.as_enum(which, "ModesWhich") != ModesWhich.ALL
@@ -161,12 +148,13 @@ class Network(Base):
         participation = np.empty(m)
         with self._reporting(progress):
             status, m = raw.jam_modes(handle, h, o, values, vectors.reshape(-1), participation)
-        return Modes(values[:m], vectors[:m], participation[:m], spheres, StatusCode(status))
+            self._note(status)
+        return Modes(values[:m], vectors[:m], participation[:m], spheres, self.status)
 
     def pair_correlation(
         self, r_max: float = 4.0, bins: int = 200, *, kind: Any = None, a: int = -1, b: int = -1
     ) -> Array:
-        """g(r) in equal bins from 0 to r_max. No contact network is needed.
+        """g(r) in equal bins from 0 to r_max, at the distances `radii(r_max, bins)`. No contact network is needed.
 
         Parameters
         ----------
@@ -185,9 +173,16 @@ class Network(Base):
         >>> g = jam.System.random(n=64, dim=3, seed=1).pair_correlation(2.0, 40)
         >>> g.shape, (g[:20] == 0).all()
         ((40,), True)
+        >>> jam.System.radii(2.0, 40)[:2]
+        array([0.025, 0.075])
         """
         found: Array = self.call("pair_correlation", kind, a, b, r_max, bins)
         return found
+
+    @staticmethod
+    def radii(r_max: float = 4.0, bins: int = 200) -> Array:
+        """Distances of pair_correlation: the middles of its bins, in mean diameters."""
+        return (np.arange(bins) + 0.5) * (r_max / bins)
 
     def stress_states(self, *, progress: Any = None) -> StressStatesResult:
         """States of self-stress, from positions alone.
@@ -206,7 +201,7 @@ class Network(Base):
             m = raw.jam_stress_states(handle, None, None)[-1]
             force, basis = np.empty(contacts if m else 0), np.empty((m, contacts))
             status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
-        self.status = StatusCode(status)
+            self._note(status)
         return StressStatesResult(force, basis, residual)
 
     def rigidity(self, kind: int | str = "collective", *, progress: Any = None) -> RigidityReport:
@@ -237,5 +232,6 @@ class Network(Base):
         """
         out, strain = np.empty((self.n, self.dim)), np.empty((self.dim, self.dim))
         with self._reporting(progress):
-            raw.jam_flex(self.handle, _calls.as_enum(kind, "RigidityKind"), out.reshape(-1), strain.reshape(-1))
+            kind = _calls.as_enum(kind, "RigidityKind")
+            self._note(raw.jam_flex(self.handle, kind, out.reshape(-1), strain.reshape(-1))[0])
         return FlexResult(out, strain)

@@ -47,7 +47,7 @@ class Observed:
     @property
     def series(self) -> Array:
         """Structured array with fields time, collisions (per particle), fraction, pressure, error (of the pressure), msd."""
-        columns = self._system.call("observed_series")
+        columns = self._system._ask("observed_series")
         rows = np.empty(len(columns.time), [(name, "f8") for name in columns._fields])
         for name, values in zip(columns._fields, columns):
             rows[name] = values
@@ -56,25 +56,25 @@ class Observed:
     @property
     def spheres(self) -> ObservedSpheresResult:
         """collisions (n,) and unwrapped displacement (n, d). Collisions are counted with collisions=1 only."""
-        found: ObservedSpheresResult = self._system.call("observed_spheres")
+        found: ObservedSpheresResult = self._system._ask("observed_spheres")
         return found
 
     @property
     def pairs(self) -> ObservedPairsResult:
         """pair (m, 2), collisions (m,), momentum (m,), and time: momentum over time is the mean force."""
-        found: ObservedPairsResult = self._system.call("observed_pairs")
+        found: ObservedPairsResult = self._system._ask("observed_pairs")
         return found
 
     @property
     def gaps(self) -> ObservedGapsResult:
         """edge (bins + 1,), density (bins,), error (bins,)."""
-        found: ObservedGapsResult = self._system.call("observed_gaps")
+        found: ObservedGapsResult = self._system._ask("observed_gaps")
         return found
 
     @property
     def correlation(self) -> ObservedCorrelationResult:
         """r (bins,), g (bins,)."""
-        found: ObservedCorrelationResult = self._system.call("observed_correlation")
+        found: ObservedCorrelationResult = self._system._ask("observed_correlation")
         return found
 
 
@@ -109,7 +109,7 @@ class Observing(Base):
             stop = bool(user(p)) if user else False
             try:
                 step = Step(
-                    *(self.call("crunch_step_" + name) for name in ("displacements", "contacts", "vectors", "duals"))
+                    *(self._ask("crunch_step_" + name) for name in ("displacements", "contacts", "vectors", "duals"))
                 )
             except errors.StateError:  # amid a step
                 return stop

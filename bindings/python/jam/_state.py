@@ -86,7 +86,10 @@ class State(Base):
 
     @property
     def velocities(self) -> Array:
-        """Velocities with kT/m = 1, shape (n, d): a read-only view; zero until molecular dynamics draws them."""
+        """Velocities with kT/m = 1, shape (n, d): a read-only view; zero until molecular dynamics draws them.
+
+        Assign a new array to set them; contacts and report stay.
+        """
         return self._show(raw.jam_velocities_view)
 
     @velocities.setter
@@ -99,7 +102,6 @@ class State(Base):
         if x.shape != shape:
             raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
         function(self.handle, x.reshape(-1))
-        self._carried = None
 
     @property
     def diameters(self) -> Array:
@@ -120,12 +122,10 @@ class State(Base):
     @cell.setter
     def cell(self, vectors: Any) -> None:
         raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None)
-        self._carried = None
 
     def strain(self, strain: Any) -> None:
         """Deforms cell and positions by r -> (1 + strain) r, strain of shape (d, d); diameters stay."""
         raw.jam_strain(self.handle, self._matrix(strain, "strain"))
-        self._carried = None
 
     def _matrix(self, values: Any, name: str) -> Array:
         x = _calls.as_array(values, name=name)
@@ -136,4 +136,3 @@ class State(Base):
     def scale_diameters(self, factor: float) -> None:
         """Multiplies all diameters by factor."""
         raw.jam_scale_diameters(self.handle, float(factor))
-        self._carried = None

@@ -23,10 +23,8 @@ class Verbs(Observing):
         made = _calls.new_report(report)
         with self._reporting(progress):
             status = getattr(raw, name)(handle, chosen, made)
-        self._carried = None
-        frozen = _calls.freeze(made, report)
-        self.status = StatusCode(status)
-        object.__setattr__(frozen, "status", self.status)
+            frozen = _calls.freeze(made, report)
+            self._note(status, frozen)
         self.calls.append(
             {
                 "verb": name.removeprefix("jam_"),
@@ -76,13 +74,14 @@ class Verbs(Observing):
     ) -> MdReport:
         """Molecular dynamics while the diameters grow (Lubachevsky and Stillinger 1990).
 
-        Without arguments it runs the two stages that avoid crystals in d = 3: growth rate 1e-2 to p = 500, then 3e-3 to
-        p = 1e7.
+        Without `stages` and growth_rate it runs the two stages that avoid crystals in d = 3: growth rate 1e-2 to p = 500,
+        then 3e-3 to `pressure`, 1e7 by default. Limits, targets and growth_law keep them. A growth_rate makes one stage
+        of that rate.
 
         Parameters
         ----------
         stages : sequence, optional
-            Each stage is a pair (growth_rate, pressure) or a dict of options. They run one after the other, and
+            Each stage is a pair (growth_rate, pressure) or a dict of options, growth_rate among them. They run one after the other, and
             `options` hold for all of them. A stage that stops early ends the sequence.
 
         Returns
@@ -154,7 +153,7 @@ class Verbs(Observing):
         if on_step is not None:
             told, options = self._stepper(on_step, told), {**options, "steps": 1}
         if checkpoint is not None:
-            told = self._keeper(os.fspath(checkpoint), checkpoint_every, told)
+            told = self._keeper(os.fsdecode(checkpoint), checkpoint_every, told)
         try:
             report: CrunchReport = self._verb(
                 "jam_crunch", "jam_crunch_options", "jam_crunch_report", told, options or None
@@ -163,7 +162,7 @@ class Verbs(Observing):
             end(user)
         early = report.status in (StatusCode.CANCELLED, StatusCode.LIMIT)
         if checkpoint is not None and (early or report.stop_reason == StopReason.DUALITY_GAP):
-            self.call("checkpoint_write", os.fspath(checkpoint))
+            raw.jam_checkpoint_write(self.handle, os.fsdecode(checkpoint))
         return report
 
     def _keeper(self, path: str, every: float, told: Callable[[Any], Any] | None) -> Callable[[Any], bool]:
@@ -232,7 +231,7 @@ class Verbs(Observing):
     @property
     def soft_history(self) -> Array:
         """Minima of the last decompression as a structured array: one field for each SoftColumn, in lower case."""
-        columns = [self.call("decompress_history", c) for c in SoftColumn]
+        columns = [self._ask("decompress_history", c) for c in SoftColumn]
         rows = np.empty(len(columns[0]), [(c.name.lower(), "f8") for c in SoftColumn])
         for c, values in zip(SoftColumn, columns):
             rows[c.name.lower()] = values

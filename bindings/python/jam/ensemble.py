@@ -144,7 +144,8 @@ class Entry:
     """One packing of an ensemble, read from its file when asked for.
 
     Attributes are what System calls them: positions, diameters, pairs, vectors, contact_gaps, forces, coordination,
-    history; `gaps` are those of the protocol's analysis; `analysis(name)` reads any other result.
+    rattlers (which spheres are), history; `gaps` are those of the protocol's analysis; `analysis(name)` reads any other
+    result. Numbers of the report go by their names, the number of rattlers by row["rattlers"].
     """
 
     _PLACES = {
@@ -174,6 +175,8 @@ class Entry:
             return tuple(self._get(file, name) for name in names)
 
     def _get(self, file: Any, name: str) -> Any:
+        if name == "rattlers":
+            return self._get(file, "coordination") == 0
         if name == "positions":
             return file["particles/spheres/position/value"][0]
         if name in FIELDS and name not in self._PLACES:

@@ -15,7 +15,7 @@ import hashlib
 import inspect
 import json
 import math
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -86,7 +86,16 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     return {**made, "diameters": _diameters(sizes, made["n"]), "lattice": lattice}
 
 
-def _stage(given: Mapping[str, Any], number: int) -> dict[str, Any]:
+def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str, Any]:
+    """A stage: options with its verb, or as in System.compress a pair (growth_rate, pressure)."""
+    if not isinstance(given, Mapping):
+        try:
+            growth_rate, pressure = (float(x) for x in given)
+        except (TypeError, ValueError):
+            raise ProtocolError(
+                f"stages[{number}]: {given!r} is neither a pair (growth_rate, pressure) nor a dict of options"
+            ) from None
+        given = {"verb": "compress", "growth_rate": growth_rate, "pressure": pressure}
     rest = dict(given)
     verb = rest.pop("verb", "compress")
     struct = f"jam_{verb}_options"

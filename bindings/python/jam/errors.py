@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import re
 
+from . import raw
 from ._generated import StatusCode
 
 
@@ -80,6 +81,11 @@ def _in_python(text: str) -> str:
         return f"{word}()" if callable(getattr(System, word, None)) else found.group(0)
 
     return re.sub(r"\bjam_([a-z_]+)\b", name, text)
+
+
+def last_text() -> str:
+    """Why this thread's last call of the library has not the status OK."""
+    return _in_python(raw.jam_last_error())
 
 
 def make(status: int, text: str) -> JamError:

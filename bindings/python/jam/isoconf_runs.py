@@ -173,18 +173,18 @@ class Runs:
 
 def take_runs(system: Any) -> Runs:
     """The runs that a system holds, also after System.from_checkpoint; instants are then those of the first call."""
-    report = system.isoconf_report()
+    report = system._ask("isoconf_report_get")
     m, n, d = report.instants, system.n, system.dim
     sums: dict[str, list[Array]] = {name: [] for name in _SUMS}
     counts: list[int] = []
     for block in range(report.blocks):
-        one = system.isoconf_sums(block)
+        one = system._ask("isoconf_sums", block)
         counts.append(one.runs)
         for name in _SUMS:
             sums[name].append(getattr(one, name).reshape((m, n, d) if name in ("displacement", "square") else (m, n)))
     shape = {name: (0, m, n, d) if name in ("displacement", "square") else (0, m, n) for name in _SUMS}
     series = {
-        c.name.lower(): np.array([system.isoconf_series(b, c) for b in range(report.blocks)]).reshape(-1, m)
+        c.name.lower(): np.array([system._ask("isoconf_series", b, c) for b in range(report.blocks)]).reshape(-1, m)
         for c in IsoconfColumn
     }
     filled: dict[str, Any] = {name: np.array(v) if v else np.empty(shape[name]) for name, v in sums.items()}
@@ -217,9 +217,9 @@ def run(
         status = raw.jam_isoconfigurational(
             system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
         )
+        system._note(status)
     runs = take_runs(system)
-    system.status = StatusCode(status)
-    sets = {int(k): system.isoconf_kept(int(k)).reshape(-1, system.n, system.dim) for k in kept}
+    sets = {int(k): system._ask("isoconf_kept", int(k)).reshape(-1, system.n, system.dim) for k in kept}
     return replace(runs, instants=times, block=made.block, kept=sets, status=system.status)
 
 

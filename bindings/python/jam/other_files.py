@@ -64,7 +64,7 @@ def read_gsd(path: str | os.PathLike[str], frame: int = -1, **options: Any) -> S
 
     from .system import System
 
-    with gsd.hoomd.open(os.fspath(path), "rb") as file:
+    with gsd.hoomd.open(os.fsdecode(path), "rb") as file:
         one = file[frame]
     if "jam/position" in one.log:
         cell = one.log["jam/cell"]
@@ -99,12 +99,12 @@ def read_ase(path: str | os.PathLike[str], diameters: Any = None, *, dim: int = 
 
     from .system import System
 
-    atoms = ase.io.read(os.fspath(path))
+    atoms = ase.io.read(os.fsdecode(path))
     if not all(atoms.pbc[:dim]):
-        raise ValueError(f"{os.fspath(path)}: the cell must be periodic in every direction, pbc is {list(atoms.pbc)}")
+        raise ValueError(f"{os.fsdecode(path)}: the cell must be periodic in every direction, pbc is {list(atoms.pbc)}")
     if diameters is None:
         if "radius" not in atoms.arrays:
-            raise ValueError(f"{os.fspath(path)} has no array `radius`: give diameters=")
+            raise ValueError(f"{os.fsdecode(path)} has no array `radius`: give diameters=")
         diameters = 2.0 * atoms.arrays["radius"]
     cell = np.asarray(atoms.cell)[:dim, :dim]
     return System.from_arrays(np.asarray(atoms.positions)[:, :dim], diameters, **_box(cell), **options)

@@ -23,6 +23,8 @@ def _repr(self: Any) -> str:
     lines = [f"  {f.name:{width}s}  {_text(getattr(self, f.name))}" for f in fields(self)]
     status = getattr(self, "status", None)
     head = type(self).__name__ + (f" ({status.name.lower()})" if status is not None and status != 0 else "")
+    if text := getattr(self, "status_text", ""):
+        head += ": " + text
     return "\n".join([head] + lines)
 
 

@@ -183,7 +183,8 @@ def image(
         group.attrs.update({"schema": SCHEMA, "seed": system.seed, "protocol": protocol_id, **provenance()})
         group.attrs["written"] = time.time()
         group.attrs.update(times or {})
-        state, carried, calls = system.__reduce__()[1][:3]
+        state, calls = system.__reduce__()[1][:2]
+        carried = system._results()
         _put(group, "state", np.frombuffer(state, np.uint8))
         _put(group, "diameters", system.diameters)
         if carried:
@@ -330,8 +331,7 @@ def load(
 ) -> System:
     """A packing from a file of save(), of an ensemble, or, by its name, from a shard of Ensemble.export.
 
-    Reports, contacts, forces, coordination and history are those that were stored. Calls that need the network in
-    memory (Hessian, modes, floppy modes) ask for contacts_from_geometry() first.
+    It has its contact network, report and history, so that all calls work as on the system that was saved.
 
     Parameters
     ----------
@@ -358,13 +358,16 @@ def load(
         if not (isinstance(calls, list) and all(isinstance(c, dict) for c in calls)):
             raise ValueError("jam/calls is no list of calls")
         try:
-            made = _restore(jam["state"][()].tobytes(), results_of(jam, n, dim), calls, [])
+            made, stored = _restore(jam["state"][()].tobytes(), calls, []), results_of(jam, n, dim)
+            same = not stored or stored[1] is None or np.array_equal(stored[1].table(), made.contacts.table())
         except errors.JamError as error:
             if isinstance(error, MemoryError):
                 raise
             raise damaged(path, f"jam/state: {error}") from error
         if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, jam["diameters"])):
             raise damaged(path, "positions or diameters are not those of jam/state")
+        if not same:
+            raise damaged(path, "contacts are not those of jam/state")
         return made
 
 

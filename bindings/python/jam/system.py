@@ -158,7 +158,7 @@ class System(State, Verbs, Network):
             overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, and box for a plain file that
             names none. What the file holds wins.
         """
-        name = os.fspath(path)
+        name = os.fsdecode(path)
         if name.endswith(".gsd"):
             from . import other_files
 
@@ -191,7 +191,7 @@ class System(State, Verbs, Network):
         finally:
             end(told)
         if status != 0:
-            raise errors.StoppedError(f"no system was made: {raw.jam_status_string(status)}")
+            raise errors.StoppedError(f"no system was made: {raw.jam_last_error()}")
         return cls(handle)
 
     # ---- life
@@ -207,9 +207,9 @@ class System(State, Verbs, Network):
         self.close()
 
     def copy(self) -> "System":
-        """Deep copy with results. It has the same seed, so set velocities to make its dynamics differ."""
+        """Deep copy with results and what was observed. It has the same seed, so set velocities to make its dynamics differ."""
         made = System(raw.jam_copy(self.handle)[1])
-        made.trace, made.calls, made._carried = list(self.trace), list(self.calls), self._carried
+        made.trace, made.calls = list(self.trace), list(self.calls)
         return made
 
     __copy__ = copy
@@ -218,12 +218,13 @@ class System(State, Verbs, Network):
         return self.copy()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        with tempfile.TemporaryDirectory() as folder:  # the checkpoint alone holds all: velocities, Mari-Kurchan shifts
+        with tempfile.TemporaryDirectory() as folder:  # the checkpoint holds all: velocities, shifts, results
             file = Path(folder, "state")
             self.checkpoint_write(str(file))
-            return _restore, (file.read_bytes(), self._results(), self.calls, self.trace)
+            return _restore, (file.read_bytes(), self.calls, self.trace)
 
     def _results(self) -> tuple[Any, ...] | None:
+        """Report, contacts and history, None where there is none."""
         found: list[Any] = []
         for name in ("report", "contacts", "history"):
             try:
@@ -255,7 +256,7 @@ class System(State, Verbs, Network):
             .gsd HOOMD's (needs python3-gsd); .dat, .txt and no ending plain text. With .gz behind it the file is
             compressed. Other endings are refused.
         """
-        name = os.fspath(path)
+        name = os.fsdecode(path)
         if format == "auto" and name.endswith(".gsd"):
             from . import other_files
 
@@ -332,17 +333,17 @@ class System(State, Verbs, Network):
         """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
 
         Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
-        options, and where it was made. Positions and box have the layout of H5MD.
+        options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
         """
         from . import store
 
         store.save(self, path)
 
 
-def _restore(state: bytes, results: tuple[Any, ...] | None, calls: list[Any], trace: list[Any]) -> System:
+def _restore(state: bytes, calls: list[Any], trace: list[Any]) -> System:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "state")
         file.write_bytes(state)
         made = System.from_checkpoint(file)
-    made._carried, made.calls, made.trace = results, calls, trace
+    made.calls, made.trace = calls, trace
     return made

@@ -206,7 +206,7 @@ int main(int argc, char **argv) {
   else if (interrupted)
     complain("interrupted; writing the state reached");
   else if (status > 0)
-    complain("stopped early: %s", jam_status_string(status));
+    complain("stopped early: %s", jam_last_error());
   bad |= write_all(sys, &o, &result);
   jam_destroy(sys);
   if (bad) return EXIT_OUTPUT;

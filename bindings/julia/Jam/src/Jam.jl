@@ -41,10 +41,11 @@ end
 mutable struct System
     handle::Ptr{Cvoid}
     status::Int32                 # of the last call
+    why::String                   # a sentence, where the status is not 0
     callback::Any                 # of the running call
     thrown::Any                   # by the callback
     function System(handle::Ptr{Cvoid})
-        s = new(handle, JAM_OK, nothing, nothing)
+        s = new(handle, JAM_OK, "", nothing, nothing)
         finalizer(close, s)
         return s
     end
@@ -188,11 +189,18 @@ function copy_struct(p::Ptr{T}) where {T}
     return made
 end
 
+# Keeps the status of a call that has just returned, and why it is not 0.
+function note!(s::System, status::Integer)
+    s.status = check(status)
+    s.why = status > 0 ? unsafe_string(jam_last_error()) : ""
+    return s.status
+end
+
 # Runs f(handle) with the callback set; progress(p) returns true to stop.
 function verb(f, s::System, progress)
     h = handle(s)
     if progress === nothing
-        s.status = GC.@preserve s check(f(h))
+        note!(s, GC.@preserve s f(h))
         return nothing
     end
     s.callback, s.thrown = progress, nothing
@@ -207,7 +215,7 @@ function verb(f, s::System, progress)
         e, s.thrown = s.thrown, nothing
         throw(e[1])
     end
-    s.status = check(status)
+    note!(s, status)
     return nothing
 end
 
@@ -264,7 +272,7 @@ function call_array(::Type{T}, f, s::System, args...) where {T}
     needed = Ref{Csize_t}(0)
     check(f(handle(s), args..., nothing, 0, needed))
     out = Vector{T}(undef, Int(needed[]))
-    s.status = check(f(handle(s), args..., out, length(out), needed))
+    note!(s, f(handle(s), args..., out, length(out), needed))
     return out
 end
 

@@ -355,17 +355,18 @@ mutable struct jam_run_options
 end
 
 """
-One stage of Lubachevsky-Stillinger growth. Whichever target comes first ends it. @since 0.1
+Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
+first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1
 """
 mutable struct jam_compress_options
     struct_size::UInt32  # sizeof(jam_compress_options)
     resume::Int32  # 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
-    growth_rate::Cdouble  # G > 0, default 1e-2
-    pressure::Cdouble  # target reduced pressure, > 1, default 500
+    growth_rate::Cdouble  # G > 0: one stage of this rate; 0, the default: the stages of the protocol
+    pressure::Cdouble  # target reduced pressure of the last stage, > 1, default 1e7
     packing_fraction::Cdouble  # target, > 0, default infinity
-    collisions_per_particle::Cdouble  # limit since the stage began, > 0, default infinity
+    collisions_per_particle::Cdouble  # limit since each stage began, > 0, default infinity
     wall_time::Cdouble  # limit in seconds of this call, > 0, default infinity
-    time::Cdouble  # limit of simulated time since the stage began, > 0, default infinity
+    time::Cdouble  # limit of simulated time since each stage began, > 0, default infinity
     growth_rate_end::Cdouble  # quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
     growth_law::Int32  # jam_growth_law, default DIAMETER
     reserved::Int32  # 0
@@ -574,7 +575,9 @@ mutable struct jam_crunch_report
     seconds_factor::Cdouble  # of it in factorisations
     seconds_assemble::Cdouble  # of it in neighbour lists and assembly
     seconds_solve::Cdouble  # of it in triangular solves
-    jam_crunch_report() = new(272, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    status::Int32  # jam_status_code of the call that made this report
+    reserved_end::Int32  # 0
+    jam_crunch_report() = new(280, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -864,8 +867,8 @@ function jam_stop_string(reason)
 end
 
 """
-Text of this thread's last failed call, with the name and value at fault; "" when none.
-Valid until this thread's next jam call that fails. Threads: per thread. @since 0.1
+Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
+The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1
 """
 function jam_last_error()
     return ccall((:jam_last_error, libjam), Cstring, ())
@@ -895,9 +898,9 @@ function jam_create(o, positions, positions_len, diameters, diameters_len, out)
 end
 
 """
-Deep copy of src with its results, without its callbacks. The copy has the seed of src: where both draw velocities,
-they draw the same ones. For independent runs give the copy its own with jam_set_velocities. Threads: const on src.
-Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
+Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
+has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
+with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
 """
 function jam_copy(src, out)
     return ccall((:jam_copy, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
@@ -950,8 +953,9 @@ function jam_set_positions(sys, positions, positions_len)
 end
 
 """
-Replaces velocities (n, d). jam_run uses them as they are. jam_compress rescales them to kT/m = 1. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
+Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
+jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
+JAM_E_BUSY. @since 0.1
 """
 function jam_set_velocities(sys, velocities, velocities_len)
     return ccall((:jam_set_velocities, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(velocities), velocities_len)
@@ -1129,13 +1133,13 @@ function jam_run(sys, o, report)
 end
 
 """
-Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). o NULL runs the two-stage protocol
-that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to p = 1e7 (a stage costs about
-1.63 (N/G) ln(p2/p1) collisions). Stages are made by calling again. report may be NULL. Growth heats; a thermostat
-holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly.
-Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason), JAM_CANCELLED,
-JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. Of the protocol of o NULL a resumed call
-ends with the stage that was stopped. The protocol orders small systems (below about 200 equal spheres in d = 3).
+Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
+the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
+by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
+may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
+to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
+JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
 Threads: alone. @since 0.1
 """
 function jam_compress(sys, o, report)
@@ -1144,11 +1148,12 @@ end
 
 """
 Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
-and a stage that was stopped early or runs now. While a crunch runs, its callback writes the packing of the last
-step. The contact network and what was observed are not in it. The file is written under another name and then
-renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
-packing that it had reached: it ends jammed, not always with the same bits. Threads: const. Errors: JAM_E_NULL,
-JAM_E_IO, JAM_E_MEMORY. @since 0.1
+and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
+steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
+moves the spheres, its callback writes the packing of the last step without results. The file is written under
+another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
+begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
+Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_write(sys, path)
     return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)

@@ -1,0 +1,24 @@
+// What a call answers: its status, and the sentence that jam_last_error gives for one above zero.
+#pragma once
+#include <string>
+#include <utility>
+
+#include "jam/jam.h"
+
+namespace jam {
+
+struct Answer {
+  jam_status status;
+  std::string text;  // empty: meaning_of(status)
+  Answer(jam_status code) : status(code) {}
+  Answer(jam_status code, std::string why) : status(code), text(std::move(why)) {}
+};
+
+// status.cpp: what a status above zero means where a call has no more to say.
+const char *meaning_of(jam_status status);
+// Of a call that ended for a jam_stop_reason: what stopped it, and the way out.
+Answer stopped(jam_status status, int32_t stop_reason);
+
+__attribute__((format(printf, 1, 2))) std::string sentence(const char *format, ...);
+
+}  // namespace jam

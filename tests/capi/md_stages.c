@@ -1,0 +1,164 @@
+/* The protocol of jam_compress: limits and targets keep it, a growth rate makes one stage, resumed calls end it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "test.h"
+
+#include "jam/jam.h"
+
+static jam_system *start(void) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 60, o.seed = 2;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+static jam_md_report grow(jam_system *sys, const jam_compress_options *o, jam_status expected) {
+  jam_md_report r;
+  memset(&r, 0, sizeof r);
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_compress(sys, o, &r), expected);
+  return r;
+}
+
+static jam_compress_options defaults(void) {
+  jam_compress_options o;
+  assert_int_equal(jam_compress_options_init(&o, sizeof o), JAM_OK);
+  return o;
+}
+
+static void same_packing(const jam_system *a, const jam_system *b) {
+  const double *x, *y;
+  size_t m, k;
+  jam_positions_view(a, &x, &m), jam_positions_view(b, &y, &k);
+  assert_int_equal(m, k);
+  assert_memory_equal(x, y, m * sizeof *x);
+}
+
+/* Options that change no stage give the bits of no options. */
+static void limits_keep_the_protocol(void **state) {
+  jam_system *plain = start(), *limited = start(), *law = start();
+  jam_compress_options o = defaults();
+  jam_md_report r;
+  (void)state;
+  r = grow(plain, NULL, JAM_OK);
+  assert_true(r.pressure > 0.9e7);
+  o.wall_time = 1e6, o.collisions_per_particle = 1e9, o.packing_fraction = 0.9, o.time = 1e9;
+  grow(limited, &o, JAM_OK);
+  same_packing(plain, limited);
+  o = defaults();
+  o.growth_law = JAM_GROWTH_DENSITY;
+  r = grow(law, &o, JAM_OK);
+  assert_true(r.pressure > 0.9e7);
+  jam_destroy(law);
+  jam_destroy(limited);
+  jam_destroy(plain);
+}
+
+static void targets_end_the_protocol(void **state) {
+  jam_system *low = start(), *high = start(), *dense = start();
+  jam_compress_options o = defaults();
+  jam_md_report r;
+  (void)state;
+  o.pressure = 30.0;
+  r = grow(low, &o, JAM_OK);
+  assert_true(r.pressure > 25.0 && r.pressure < 100.0);
+  o.pressure = 1e4;
+  r = grow(high, &o, JAM_OK);
+  assert_true(r.pressure > 0.9e4 && r.pressure < 1e6);
+  o = defaults();
+  o.packing_fraction = 0.5;
+  r = grow(dense, &o, JAM_OK);
+  assert_int_equal(r.stop_reason, JAM_STOP_PACKING_FRACTION);
+  assert_true(fabs(r.packing_fraction - 0.5) < 1e-6);
+  jam_destroy(dense);
+  jam_destroy(high);
+  jam_destroy(low);
+}
+
+/* One stage of a rate of one's own goes to the same pressure as jam-pack --growth RATE. */
+static void a_rate_makes_one_stage(void **state) {
+  jam_system *one = start(), *two = start();
+  jam_compress_options o = defaults();
+  jam_md_report r;
+  (void)state;
+  o.growth_rate = 0.1;
+  r = grow(one, &o, JAM_OK);
+  assert_true(r.pressure > 0.9e7);
+  assert_true(fabs(r.growth_rate / 0.1 - 1.0) < 1e-12);
+  o.growth_rate = 0.0, o.growth_rate_end = 1e-3;
+  assert_int_equal(jam_compress(two, &o, NULL), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "growth_rate_end"));
+  o.growth_rate = -1.0, o.growth_rate_end = 0.0;
+  assert_int_equal(jam_compress(two, &o, NULL), JAM_E_ARGUMENT);
+  jam_destroy(two);
+  jam_destroy(one);
+}
+
+static int32_t stop_at_times(const jam_progress *p, void *user) {
+  (void)p;
+  return ++*(int *)user % 3 == 0;
+}
+
+/* However often it is stopped, also between two stages and across checkpoints, it ends as if it had not been. */
+static void a_stopped_protocol_goes_on(void **state) {
+  jam_system *whole = start(), *cut = start(), *again = NULL;
+  jam_compress_options o = defaults();
+  int asked = 0, calls = 0;
+  jam_status status;
+  jam_info info;
+  (void)state;
+  grow(whole, NULL, JAM_OK);
+  for (;;) {
+    assert_int_equal(jam_set_progress(cut, stop_at_times, &asked), JAM_OK);
+    status = jam_compress(cut, &o, NULL);
+    info.struct_size = sizeof info;
+    assert_int_equal(jam_info_get(cut, &info), JAM_OK);
+    if (status == JAM_OK) break;
+    assert_int_equal(status, JAM_CANCELLED);
+    assert_int_equal(info.paused, JAM_PHASE_COMPRESS);
+    assert_int_equal(jam_checkpoint_write(cut, "md_stages.bin"), JAM_OK);
+    assert_int_equal(jam_checkpoint_read("md_stages.bin", &again), JAM_OK);
+    jam_destroy(cut);
+    cut = again;
+    o.resume = 1;
+    ++calls;
+  }
+  remove("md_stages.bin");
+  assert_true(calls > 0);
+  same_packing(whole, cut);
+  jam_destroy(cut);
+  jam_destroy(whole);
+}
+
+/* Slices of wall time: the limit is that of the call, not of each stage. */
+static void wall_time_cuts_the_protocol(void **state) {
+  jam_system *whole = start(), *cut = start();
+  jam_compress_options o = defaults();
+  jam_status status;
+  (void)state;
+  grow(whole, NULL, JAM_OK);
+  o.wall_time = 0.01;
+  while ((status = jam_compress(cut, &o, NULL)) == JAM_LIMIT) {
+    jam_info info;
+    info.struct_size = sizeof info;
+    assert_int_equal(jam_info_get(cut, &info), JAM_OK);
+    o.resume = info.paused != 0;
+  }
+  assert_int_equal(status, JAM_OK);
+  same_packing(whole, cut);
+  jam_destroy(cut);
+  jam_destroy(whole);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(limits_keep_the_protocol),    cmocka_unit_test(targets_end_the_protocol),
+      cmocka_unit_test(a_rate_makes_one_stage),      cmocka_unit_test(a_stopped_protocol_goes_on),
+      cmocka_unit_test(wall_time_cuts_the_protocol),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -159,9 +159,11 @@ bool read_frame(LineReader &in, FileContent &content) {
     if (item == "TIMESTEP" || item == "TIME" || item == "UNITS") {
       if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends behind ITEM: %s", item.c_str());
     } else if (item == "NUMBER" && words.size() == 4 && words[3] == "ATOMS") {
+      if (n >= 0) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS stands twice in one frame");
       if (!next_words(in, line, words)) in.fail(JAM_E_FORMAT, "the file ends before the number of atoms");
       n = take_count(in, parse_count(in, words[0], "a number of atoms"));
     } else if (item == "BOX" && words.size() >= 3 && words[2] == "BOUNDS") {
+      if (has_box) in.fail(JAM_E_FORMAT, "BOX BOUNDS stand twice in one frame");
       const std::string kept(line);
       split(kept, words);
       box = read_box(in, Words(words.begin() + 3, words.end()));

@@ -31,6 +31,10 @@ bool matches(const Words &words, size_t at, std::initializer_list<std::string_vi
          std::equal(names.begin(), names.end(), words.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
+void once(const LineReader &in, bool already, const char *what) {
+  if (already) in.fail(JAM_E_FORMAT, "%s stands in the header twice", what);
+}
+
 // Takes a line of the header. Returns how many of its words were understood, 0 for none: LAMMPS takes text behind them.
 size_t take_header(const LineReader &in, const Words &words, Header &header) {
   static constexpr std::string_view lows[] = {"xlo", "ylo", "zlo"}, highs[] = {"xhi", "yhi", "zhi"},
@@ -38,6 +42,7 @@ size_t take_header(const LineReader &in, const Words &words, Header &header) {
   const auto number = [&](size_t k) { return parse_number(in, words[k]); };
   for (size_t c = 0; c < 3; ++c) {
     if (matches(words, 2, {lows[c], highs[c]})) {
+      once(in, header.bounds[c], "a bound of the box");
       header.low[c] = number(0);
       header.high[c] = number(1);
       header.bounds[c] = true;
@@ -45,12 +50,14 @@ size_t take_header(const LineReader &in, const Words &words, Header &header) {
       return 4;
     }
     if (matches(words, 3, {vectors[c]})) {
+      once(in, header.vectors[c], "a cell vector");
       for (size_t k = 0; k < 3; ++k) header.general[3 * c + k] = number(k);
       header.vectors[c] = true;
       return 4;
     }
   }
   if (matches(words, 3, {"xy", "xz", "yz"})) {
+    once(in, header.tilted, "the tilt");
     for (size_t c = 0; c < 3; ++c) header.tilt[c] = number(c);
     header.tilted = true;
     return 6;
@@ -61,6 +68,7 @@ size_t take_header(const LineReader &in, const Words &words, Header &header) {
   }
   if (words.size() < 2 || !is_count(words[0])) return 0;
   if (words[1] == "atoms") {
+    once(in, header.atoms >= 0, "the number of atoms");
     header.atoms = take_count(in, parse_count(in, words[0], "a number of atoms"));
     return 2;
   }

@@ -7,9 +7,10 @@
 namespace jam {
 namespace {
 
-// The value of key= on the comment line, in quotes, in braces or bare; false when the key is not there.
+// The value of key= on the comment line, in quotes, in braces or bare; false when the key is not there. Once only.
 bool find_key(const LineReader &in, std::string_view comment, std::string_view key, std::string_view &value) {
   size_t k = 0;
+  bool found = false;
   while (k < comment.size()) {
     while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
     const size_t start = k;
@@ -25,11 +26,14 @@ bool find_key(const LineReader &in, std::string_view comment, std::string_view k
       if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
       stop = comment.size();
     }
-    value = comment.substr(k, stop - k);
+    if (name == key) {
+      if (found) in.fail(JAM_E_FORMAT, "'%s=' is there twice", shown(name).c_str());
+      found = true;
+      value = comment.substr(k, stop - k);
+    }
     k = stop + 1;
-    if (name == key) return true;
   }
-  return false;
+  return found;
 }
 
 struct Columns {
@@ -58,7 +62,7 @@ Columns read_properties(const LineReader &in, std::string_view properties) {
       columns.has_pos = true;
       columns.pos = columns.total;
       columns.pos_count = static_cast<size_t>(count);
-    } else if (part[k] == "id" && number && count == 1) {
+    } else if (part[k] == "id" && part[k + 1] == "I" && count == 1) {
       columns.has_id = true;
       columns.id = columns.total;
     } else if (!(number && count == 1 && columns.size.take(in, part[k], columns.total))) {

@@ -63,6 +63,11 @@ void test_errors(void **) {
     assert_non_null(strstr(e.what(), "9"));
   }
   assert_true(throws<jam::Error>([] { jam::System::read("/does/not/exist"); }));
+  jam_create_options o = jam::create_options();
+  o.overlap = JAM_OVERLAP_SHRINK;
+  assert_string_equal(jam::System::random(10).notes().c_str(), "");
+  const jam::System shrunk(o, {0.1, 0.5, 0.5, 0.4, 0.5, 0.5}, {0.4});
+  assert_non_null(strstr(shrunk.notes().c_str(), "warning: all diameters were multiplied by 0.7"));
   assert_true(throws<std::invalid_argument>([] { jam::System bad(nullptr); }));
   assert_true(throws<jam::Error>([] { jam::System::random(10).forces(); }));
 }

@@ -48,6 +48,7 @@ program fortran_layer
   call expect(status == JAM_OK, 'create')
   status = jam_info_get(sys, info)
   call expect(info%n == n .and. info%dim == d, 'info')
+  call expect(jam_text(jam_notes(sys)) == '', 'nothing was changed')
   status = jam_positions_view(sys, view, view_len)
   call expect(view_len == d*n, 'view length')
   call c_f_pointer(view, seen, [d, n])

@@ -128,6 +128,8 @@ static void odd_xyz(void **state) {
   sys = read_text("2\n" BOX "Properties=id:I:1:pos:R:3:radius:R:1\n1 .6 .7 .8 .1\n0 .1 .2 .3 .1\n");
   assert_string_equal(jam_notes(sys), "the ids of the file do not count up: spheres keep its order, ids are not kept");
   jam_destroy(sys);
+  expect_refused("1\n" BOX BOX "Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n", JAM_E_FORMAT,
+                 "'Lattice=' is there twice");
   expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1:radius:R:1\n.1 .2 .3 .1 .2\n", JAM_E_FORMAT,
                  "two columns hold");
   expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1:diameter:R:1\n.1 .2 .3 .1 .2\n", JAM_E_FORMAT, "two columns");

@@ -109,6 +109,8 @@ static void data_that_cannot_be_read(void **state) {
   expect_refused(HEAD "1 ellipsoids\n" BOX ROWS, JAM_E_UNSUPPORTED, "line 5: ellipsoids are no spheres");
   expect_refused(HEAD BOX ROWS "4 1 0.2 1 0.7 0.7 0.7\n", JAM_E_FORMAT, "line 14: there is more after the 3 atoms");
   expect_refused(HEAD BOX ROWS ROWS, JAM_E_FORMAT, "second section Atoms");
+  expect_refused(HEAD BOX "0 3 xlo xhi\n" ROWS, JAM_E_FORMAT, "line 8: a bound of the box stands in the header twice");
+  expect_refused(HEAD "4 atoms\n" BOX ROWS, JAM_E_FORMAT, "line 5: the number of atoms stands in the header twice");
   expect_refused(HEAD BOX "\nAtoms # sphere\n\n1 1 0.2 1 0.1 0.2 0.3 7\n", JAM_E_FORMAT, "line 11: 8 columns");
   expect_refused(HEAD BOX "\nAtoms # sphere\n\n1 1 0.2 0 0.1 0.2 0.3\n", JAM_E_FORMAT, "line 11: the density is '0'");
   expect_refused(HEAD BOX "\nAtoms # full\n\n1 1 1 0.5 1 2 3\n", JAM_E_UNSUPPORTED, "'full' has no diameters");
@@ -196,6 +198,7 @@ static void dumps_that_cannot_be_read(void **state) {
   expect_refused(DUMP NAMES "1 0.1 0 0 1\n", JAM_E_FORMAT, "must stand before ITEM: ATOMS");
   expect_refused("ITEM: TIMESTEP\n1\nITEM: NUMBER OF ENTRIES\n1\n", JAM_E_UNSUPPORTED, "no part of a dump of atoms");
   expect_refused(DUMP BOUNDS, JAM_E_FORMAT, "ends before ITEM: ATOMS");
+  expect_refused(DUMP BOUNDS BOUNDS, JAM_E_FORMAT, "line 9: BOX BOUNDS stand twice in one frame");
 #undef NAMES
 }
 

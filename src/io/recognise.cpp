@@ -122,7 +122,7 @@ constexpr KnownFile table[] = {
     {"LAMMPS data", is_lammps_data, read_lammps, nullptr},
     {"extended XYZ", has_keys, read_xyz, nullptr},
     {"a file of the code of Skoge and Donev", is_skoge_donev, nullptr,
-     "make it plain text: line 1 the dimension, line 2 the number of spheres, line 3 the diameter, then the positions"},
+     "of equal spheres `sed -e 2d -e 5,6d FILE` makes plain text: dimension, number, diameter, then the positions"},
     {"a snapshot of EDMD (.sph)", is_edmd, nullptr, with_keys},
     {"XYZ without keys on line 2", is_basic_xyz, nullptr, with_keys},
     {"plain text", is_plain, read_plain, nullptr},

@@ -283,3 +283,48 @@ def item_names(e):
 def options_init(api):
     """{struct: init function} for the option structs."""
     return {s.name: s.name + "_init" for s in api.structs if any(f.name == s.name + "_init" for f in api.functions)}
+
+
+# Last extent of the arrays of rank 2 and more, "d", "n" or a number: the first extent of the Fortran array. The others
+# are flat, or their last extent (contacts, runs) is known only to the call. Tables end with their columns.
+LAST_EXTENT = {
+    "jam_create": {"positions": "d"},
+    "jam_create_in_cell": {"cell": "d", "positions": "d"},
+    "jam_create_watched": {"positions": "d"},
+    "jam_set_positions": {"positions": "d"},
+    "jam_set_velocities": {"velocities": "d"},
+    "jam_cell_get": {"out": "d"},
+    "jam_cell_set": {"cell": "d", "transform": "d", "rotation": "d"},
+    "jam_strain": {"strain": "d"},
+    "jam_write_page": {"values": "n"},
+    "jam_observed_spheres": {"displacement": "d"},
+    "jam_observed_pairs": {"pair": 2},
+    "jam_isoconf_sums": {"displacement": "d", "square": "d", "distance2": "n", "distance4": "n"},
+    "jam_isoconf_kept": {"out": "d"},
+    "jam_crunch_step_displacements": {"out": "d"},
+    "jam_crunch_step_contacts": {"iout": 2},
+    "jam_crunch_step_vectors": {"out": "d"},
+    "jam_contacts": {"iout": 2},
+    "jam_contact_vectors": {"out": "d"},
+    "jam_modes": {"vector": "d"},
+    "jam_flex": {"out": "d", "strain": "d"},
+    "jam_gaps": {"pair": 2},
+    "jam_sphere_structure": {"c": "d"},
+    "jam_floppy_mode": {"out": "d"},
+    "jam_project": {"vector": "d", "u": "d"},
+    "jam_curvature": {"u": "d"},
+    "jam_elastic_tensor": {"affine": "d", "relaxed": "d"},
+    "jam_compare": {"out": "d"},
+}
+
+
+def last_extent(f, a, api):
+    """Of an array argument, or None. A shape in the comment that the table does not hold is refused."""
+    if a.name == "table":
+        return len(columns_of(f, api).items)
+    held = LAST_EXTENT.get(f.name, {}).get(a.name)
+    for said in re.findall(rf"\b{a.name}(?: \w+)? \(([^()]*, (\w+))\)", f.doc):
+        if said[1] in ("d", "n") or said[1].isdigit():
+            if str(held) != said[1]:
+                raise HeaderError(f"{f.name}: {a.name} ({said[0]}) is not the shape of LAST_EXTENT in model.py")
+    return held

@@ -315,6 +315,8 @@ none. Changes that were not committed do not show in it. Static storage. Threads
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_last_error "Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; \"\" when none.
 The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1"
+%feature("docstring") jam_set_error "Sets the text of jam_last_error() of this thread, NULL: to \"\". For layers over this header that refuse arguments by
+themselves. Long texts are cut. Threads: per thread. @since 0.1"
 %feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_create "Makes a system. Example: examples/c/first.c
@@ -344,9 +346,10 @@ jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_
 JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
-frame of `cell`.
-Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1"
+%feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+Cartesian, in the frame of `cell`.
+Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
+Threads: any. @since 0.1"
 %feature("docstring") jam_cell_get "Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1"
 %feature("docstring") jam_cell_set "Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
 crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point

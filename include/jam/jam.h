@@ -168,6 +168,9 @@ JAM_API const char *jam_stop_string(int32_t reason);
 /* Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
  * The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1 */
 JAM_API const char *jam_last_error(void);
+/* Sets the text of jam_last_error() of this thread, NULL: to "". For layers over this header that refuse arguments by
+ * themselves. Long texts are cut. Threads: per thread. @since 0.1 */
+JAM_API void jam_set_error(const char *text);
 
 /* ------------------------------------------------------------------ the system */
 
@@ -282,9 +285,10 @@ JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
 
 /* ------------------------------------------------------------------ the cell */
 
-/* jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
- * frame of `cell`.
- * Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1 */
+/* jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+ * Cartesian, in the frame of `cell`.
+ * Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
+ * Threads: any. @since 0.1 */
 JAM_API jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len,
                                       const double *positions, size_t positions_len, const double *diameters,
                                       size_t diameters_len, jam_system **out);

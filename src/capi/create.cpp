@@ -98,6 +98,8 @@ jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, s
     take_options(o, full);
     check_dim(full.dim);
     check_matrix_len("cell", cell_len, full.dim);
+    if (full.box != default_create_options().box)
+      fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which name the box alone: leave it at 1", full.box);
     return make_system(full, nullptr, nullptr, out, [&](Notes *notes) {
       return make_packing(full, positions, positions_len, diameters, diameters_len, cell, notes);
     });

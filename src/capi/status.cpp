@@ -164,6 +164,7 @@ const char *jam_stop_string(int32_t reason) {
 }
 
 const char *jam_last_error(void) { return jam::last_error; }
+void jam_set_error(const char *text) { jam::set_last_error(text ? text : ""); }
 const char *jam_version(void) { return JAM_VERSION_STRING; }
 const char *jam_commit(void) { return JAM_COMMIT_STRING; }
 const char *jam_blas_kernel(void) { return jam::blas_kernel(); }

@@ -82,6 +82,8 @@ program fortran_layer
   call expect(jam_write(sys, 'no/such/folder.xyz   ', JAM_FORMAT_AUTO) == JAM_E_IO, 'a file that cannot be written')
   call expect(index(jam_message(), 'no/such/folder.xyz:') > 0, 'its name without blanks: '//jam_message())
 
+  call shapes_and_lengths()
+
   status = jam_copy(sys, other)
   call jam_destroy(sys)
   call jam_destroy(other)
@@ -104,6 +106,73 @@ program fortran_layer
   print '(a)', 'fortran layer: all as expected'
 
 contains
+
+  ! An array the wrong way round holds as many numbers, so its length says nothing.
+  subroutine shapes_and_lengths()
+    type(jam_create_options) :: three
+    type(c_ptr) :: made
+    real(c_double) :: turned(10, 3), right(3, 10), size_one(1), cell(3, 3), turned_vectors(size(normal, 2), d)
+    integer(c_int32_t) :: pair_rows(size(pairs, 2), 2)
+    integer(c_int32_t), allocatable :: row(:), column(:)
+    real(c_double), allocatable :: value(:), hessian(:), gap(:)
+    integer(c_size_t) :: entries, spheres
+    integer :: i
+
+    call jam_defaults(three)
+    three%n = 10
+    size_one = 0.01_c_double
+    do i = 1, 10
+      turned(i, :) = [0.09_c_double*i, modulo(0.37_c_double*i, 1.0_c_double), modulo(0.21_c_double*i, 1.0_c_double)]
+    end do
+    right = transpose(turned)
+    made = c_null_ptr
+    call expect(jam_create(three, turned, size_one, made) == JAM_E_ARGUMENT, 'x(n, 3) is refused')
+    call expect(.not. c_associated(made), 'and nothing is made')
+    call expect(index(jam_message(), 'positions(10, 3)') > 0, 'its shape')
+    call expect(index(jam_message(), 'first extent 3') > 0, 'and the right one')
+    call expect(index(jam_message(), 'transpose') > 0, 'the way out')
+    call expect(jam_create(three, turned, size(turned, kind=c_size_t), size_one, 1_c_size_t, made) == JAM_E_ARGUMENT, &
+                'also with lengths')
+    call expect(jam_create(positions=turned(1:9, :), diameters=size_one, out=made) == JAM_E_ARGUMENT, 'default dim')
+    cell = 0
+    do i = 1, 3
+      cell(i, i) = 1
+    end do
+    call expect(jam_create_in_cell(three, cell, turned, size_one, made) == JAM_E_ARGUMENT, 'in a cell')
+    call expect(jam_create_in_cell(three, cell(:, 1:2), right, size_one, made) == JAM_E_ARGUMENT, 'two vectors')
+    three%box = 2
+    call expect(jam_create_in_cell(three, cell, right, size_one, made) == JAM_E_ARGUMENT, 'box and cell')
+    call expect(index(jam_message(), 'box is 2') > 0, 'both are named: '//jam_message())
+    three%box = 1
+    call expect(jam_create(three, right, size_one, made) == JAM_OK, 'x(3, n)')
+    call expect(jam_set_positions(made, turned) == JAM_E_ARGUMENT, 'positions')
+    call expect(jam_set_velocities(made, turned) == JAM_E_ARGUMENT, 'velocities')
+    call expect(jam_set_positions(made, reshape(right, [30])) == JAM_OK, 'one dimension is C''s order')
+    call expect(jam_set_positions(c_null_ptr, turned) == JAM_E_NULL, 'no system')
+    call jam_destroy(made)
+
+    call expect(jam_contact_vectors(sys, turned_vectors) == JAM_E_ARGUMENT, 'vectors out')
+    call expect(jam_contacts(sys, pair_rows) == JAM_E_ARGUMENT, 'pairs out')
+    call expect(jam_contacts(sys, pair_rows, size(pair_rows, kind=c_size_t), needed) == JAM_E_ARGUMENT, 'in C''s order')
+    call expect(jam_forces(sys, again(1:5), needed) == JAM_E_ARGUMENT, 'a length beyond the end')
+    call expect(index(jam_message(), 'out_len') > 0 .and. index(jam_message(), '5 elements') > 0, jam_message())
+
+    call expect(jam_forces(sys, needed=entries) == JAM_OK .and. entries == size(force), 'only the size')
+    call expect(jam_hessian_map(sys, needed=spheres) == JAM_OK .and. spheres > 0, 'of one array')
+    call expect(jam_hessian(sys, rows=entries) == JAM_OK .and. entries > 0, 'of several')
+    allocate (row(d*spheres + 1), column(entries), value(entries), hessian(entries))
+    call expect(jam_hessian(sys, row_start=row, column=column, value=value) == JAM_OK, 'a Hessian')
+    call expect(row(size(row)) == entries, 'all its rows')
+    call expect(jam_hessian(sys, row_start=row, row_start_len=size(row, kind=c_size_t), column_len=0_c_size_t, &
+                            value=hessian, value_len=entries, rows=needed) == JAM_OK, 'with lengths')
+    call expect(all(hessian == value), 'the same numbers')
+    call expect(jam_gaps(sys, 0.1_c_double, 1, rows=entries) == JAM_OK, 'gaps')
+    allocate (gap(entries))
+    call expect(jam_gaps(sys, 0.1_c_double, 1, gap) == JAM_OK, 'one array of two')
+    call expect(all(gap(2:) >= gap(:entries - 1)), 'ascending')
+    call jam_set_error('of my own')
+    call expect(jam_message() == 'of my own', 'the text of a caller')
+  end subroutine shapes_and_lengths
 
   subroutine expect(truth, name)
     logical, intent(in) :: truth

@@ -22,6 +22,19 @@ static void refused(const jam_create_options *o, const double *x, size_t nx, con
   if (!strstr(jam_last_error(), part)) fail_msg("'%s' does not hold '%s'", jam_last_error(), part);
 }
 
+static void callers_set_the_text_of_an_error(void **state) {
+  char longer[5000];
+  (void)state;
+  jam_set_error("of my own");
+  assert_string_equal(jam_last_error(), "of my own");
+  memset(longer, 'x', sizeof longer - 1);
+  longer[sizeof longer - 1] = '\0';
+  jam_set_error(longer);
+  assert_true(strlen(jam_last_error()) > 100 && strspn(jam_last_error(), "x") == strlen(jam_last_error()));
+  jam_set_error(NULL);
+  assert_string_equal(jam_last_error(), "");
+}
+
 static void bad_options_are_refused(void **state) {
   jam_create_options o = options();
   (void)state;
@@ -249,6 +262,7 @@ static void random_starts_have_no_overlaps(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(bad_options_are_refused),
+                                     cmocka_unit_test(callers_set_the_text_of_an_error),
                                      cmocka_unit_test(shorter_structs_keep_defaults),
                                      cmocka_unit_test(too_dense_starts_are_refused),
                                      cmocka_unit_test(bad_arrays_are_refused),

@@ -70,9 +70,43 @@ function options(::Type{T}, init, given) where {T}
     check(init(o, sizeof(T)))
     for (name, value) in pairs(given)
         hasfield(T, name) || throw(ArgumentError("unknown option $name; there are $(join(fieldnames(T)[2:end], ", "))"))
-        setfield!(o, name, convert(fieldtype(T, name), value))
+        field = fieldtype(T, name)
+        try
+            setfield!(o, name, convert(field, value))
+        catch
+            wanted = field <: Integer ? "a whole number from $(typemin(field)) to $(typemax(field))" : "a number"
+            throw(ArgumentError("$name must be $wanted, not $value"))
+        end
     end
     return o
+end
+
+# Options of another way to make a system, which would be without effect.
+function refuse(given, names, why)
+    for name in names
+        haskey(given, name) && throw(ArgumentError("$name = $(given[name]) would be without effect: $why"))
+    end
+end
+
+# Mistakes that look like valid input: a transposed matrix, a last row of sizes, positions of another box.
+function check_positions(x, diameters, given)
+    d, n = size(x)
+    sizes = diameters isa Number ? fill(diameters, n) : vec(collect(diameters))
+    if (d > JAM_MAX_DIM && 2 <= n <= JAM_MAX_DIM) || (length(sizes) != n && length(sizes) == d)
+        throw(ArgumentError("positions must be a d-by-n matrix, not $d-by-$n: transposed? Pass permutedims(positions)"))
+    end
+    for (name, value) in ((:dim, d), (:n, n))
+        get(given, name, value) == value || throw(ArgumentError("$name is $(given[name]), and positions are $d-by-$n"))
+    end
+    if d > 2 && n > 1 && !haskey(given, :dim) && any(f -> x[d, :] == f .* sizes, (0.5, 1.0, 2.0))
+        throw(ArgumentError("the last row of positions holds the sizes of the spheres: pass positions[1:$(d - 1), :]. " *
+                            "If it is a coordinate, pass dim = $d"))
+    end
+    haskey(given, :box) && return nothing
+    for value in x  # wrapped positions reach out of [0, 1] by rounding only
+        isfinite(value) && !(-1e-6 <= value <= 1 + 1e-6) &&
+            throw(ArgumentError("a position is $value, outside of the default box of side 1: pass box; box = 1 wraps"))
+    end
 end
 
 function create(given, x, sizes)
@@ -94,9 +128,12 @@ System(; diameters = nothing, given...) = create(given, nothing, diameters === n
 """
     System(positions, diameters; box, overlap, seed, model, mk_zeta)
 
-From a d-by-n matrix of positions and n diameters (or one).
+From a d-by-n matrix of positions and n diameters (or one). Positions are wrapped into `box`; without it they must lie
+in [0, 1]. A last row that equals the sizes is refused unless `dim` confirms that it is a coordinate.
 """
 function System(x::AbstractMatrix, diameters; given...)
+    refuse(given, (:packing_fraction,), "the diameters are given")
+    check_positions(x, diameters, given)
     return create((; n = size(x, 2), dim = size(x, 1), given...), dense(x), diameters isa Number ? [Cdouble(diameters)] : dense(diameters))
 end
 
@@ -106,6 +143,7 @@ end
 From a file of any format that `jam_read` knows; `notes` has what was changed or assumed.
 """
 function System(path::AbstractString; given...)
+    refuse(given, (:packing_fraction,), "the file holds it")
     o = options(jam_create_options, jam_create_options_init, given)
     out = Ref{Ptr{Cvoid}}(C_NULL)
     check(jam_read(path, o, out))
@@ -159,13 +197,19 @@ velocities(s::System) = reshape(copy(view_of(s, jam_velocities_view)), Int(info(
 "Copy of the n diameters."
 diameters(s::System) = copy(view_of(s, jam_diameters_view))
 
+function check_shape(s::System, x, name)
+    wanted = (Int(info(s).dim), Int(info(s).n))
+    size(x) == wanted || throw(ArgumentError("$name must be a matrix of $wanted, not $(size(x))"))
+    return dense(x)
+end
+
 function set_positions!(s::System, x::AbstractMatrix)
-    y = dense(x)
+    y = check_shape(s, x, "positions")
     check(jam_set_positions(handle(s), y, length(y)))
     return s
 end
 function set_velocities!(s::System, v::AbstractMatrix)
-    y = dense(v)
+    y = check_shape(s, v, "velocities")
     check(jam_set_velocities(handle(s), y, length(y)))
     return s
 end

@@ -875,6 +875,14 @@ function jam_last_error()
 end
 
 """
+Sets the text of jam_last_error() of this thread, NULL: to "". For layers over this header that refuse arguments by
+themselves. Long texts are cut. Threads: per thread. @since 0.1
+"""
+function jam_set_error(text)
+    return ccall((:jam_set_error, libjam), Cvoid, (Cstring,), text)
+end
+
+"""
 Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
 """
@@ -970,9 +978,10 @@ function jam_scale_diameters(sys, factor)
 end
 
 """
-jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box is ignored. positions: Cartesian, in the
-frame of `cell`.
-Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell. Threads: any. @since 0.1
+jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+Cartesian, in the frame of `cell`.
+Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
+Threads: any. @since 0.1
 """
 function jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out)
     return ccall((:jam_create_in_cell, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)

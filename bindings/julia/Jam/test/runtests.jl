@@ -25,6 +25,27 @@ end
     @test_throws ArgumentError System(dimension = 3)
 end
 
+@testset "arguments that look valid" begin
+    text(f) = try f(); "" catch e; sprint(showerror, e) end
+    x = [0.1 0.6 0.35; 0.2 0.7 0.9; 0.3 0.8 0.15]
+    @test occursin("transposed", text(() -> System(rand(10, 3), 0.01)))
+    @test occursin("transposed", text(() -> System(rand(5, 3), fill(0.01, 5))))
+    @test occursin("last row", text(() -> System([x; 0.1 0.1 0.1], 0.2)))
+    @test info(System([x; 0.1 0.1 0.1], 0.2; dim = 4)).dim == 4
+    @test occursin("pass box", text(() -> System(4x, 0.2)))
+    @test info(System(4x, 0.2; box = 4)).box == 4
+    @test occursin("seed must be a whole number", text(() -> System(x, 0.2; seed = big(2)^64)))
+    @test occursin("box must be a number", text(() -> System(x, 0.2; box = [1, 1, 2])))
+    @test occursin("without effect", text(() -> System(x, 0.2; packing_fraction = 0.1)))
+    s = System(x, 0.2)
+    @test occursin("velocities", text(() -> set_velocities!(s, rand(3, 4))))
+    t = System(n = 4, dim = 2)
+    @test occursin("positions", text(() -> set_positions!(t, rand(4, 2))))
+    file = tempname() * ".dat"
+    write(file, System(x, 0.2; box = 2))
+    @test occursin("without effect", text(() -> System(file; packing_fraction = 0.3)))
+end
+
 @testset "crunch and forces" begin
     s = System(n = 60, dim = 2, seed = 3, diameters = repeat([1.4, 1.0], 30))
     r = crunch!(s)

@@ -30,6 +30,7 @@ install(CODE "
   foreach(name ${pc_files})
     configure_file(\"${PROJECT_SOURCE_DIR}/pkgconfig/\${name}.pc.in\" \"${PROJECT_BINARY_DIR}/\${name}.pc\" @ONLY)
   endforeach()
+  message(STATUS \"pkg-config: PKG_CONFIG_PATH=\${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig\")
 " COMPONENT dev)
 foreach(name ${pc_files})
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)

@@ -2,6 +2,9 @@
 import contextlib
 import doctest
 import importlib
+import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -83,6 +86,21 @@ class Stumbles(unittest.TestCase):
         self.assertEqual(s.contacts.table().dtype.names, ("i", "j", "n1", "n2", "gap", "force"))
         self.assertIn("System", dir(jam))
         self.assertFalse({"Any", "annotations", "dataclass", "IntEnum"} & set(dir(jam)))
+
+
+
+class AnotherPython(unittest.TestCase):
+    def test_the_import_names_the_python_that_it_was_built_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(shutil.copytree(Path(jam.__file__).parent, Path(folder, "jam")))
+            (module,) = copy.glob("_raw.*.so")
+            module.rename(copy / "_raw.cpython-32-none.so")
+            done = subprocess.run(
+                [sys.executable, "-c", "import jam"], cwd=folder, capture_output=True, text=True, env={"PYTHONPATH": folder}
+            )
+        self.assertEqual(done.returncode, 1)
+        for word in ("ImportError", "_raw.cpython-32-none.so", "-DJAM_PYTHON=" + sys.executable):
+            self.assertIn(word, done.stderr)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,9 @@ install)
 pkgconfig)
   export PKG_CONFIG_PATH="$libdir/pkgconfig"
   pkg-config --exists jam || die "pkg-config does not find jam"
+  grep -qx -- "-- pkg-config: PKG_CONFIG_PATH=$libdir/pkgconfig" "$scratch/install.log" ||
+    die "the install does not print the folder of jam.pc"
+  if grep '^Libs' "$libdir/pkgconfig/jam.pc" | grep ' /'; then die "jam.pc names a library by its path"; fi
   ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror "$here/consumer/consumer.c" -o "$scratch/consumer_pc" \
     $(pkg-config --cflags --libs jam)
   LD_LIBRARY_PATH=$libdir "$scratch/consumer_pc"
@@ -37,12 +40,35 @@ cmake)
   cmake --build "$scratch/consumer_cmake" >>"$scratch/consumer_cmake.log"
   "$scratch/consumer_cmake/consumer"
   ;;
+subproject)
+  # A part of another project: its target docs is its own, and without a build type the library is optimised.
+  rm -rf "$scratch/parent" && mkdir "$scratch/parent"
+  cat >"$scratch/parent/CMakeLists.txt" <<EOF
+cmake_minimum_required(VERSION 3.22)
+project(parent LANGUAGES C CXX)
+add_custom_target(docs)
+add_subdirectory($here/../.. jam)
+EOF
+  flags() { grep '"command":.*/src/core/cell.cpp' "$scratch/parent/b/compile_commands.json"; }
+  configure() {
+    rm -rf "$scratch/parent/b"
+    env -u CXXFLAGS -u CFLAGS cmake -S "$scratch/parent" -B "$scratch/parent/b" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+      "$@" >"$scratch/parent/log"
+  }
+  configure
+  flags | grep -q -- ' -O3 ' || die "without a build type libjam is not optimised"
+  grep -q 'no build type' "$scratch/parent/log" || die "the flags are not told"
+  configure -DCMAKE_BUILD_TYPE=Debug
+  if flags | grep -q -- ' -O3 '; then die "the build type of the parent is not kept"; fi
+  configure -DCMAKE_CXX_FLAGS=-O1
+  if flags | grep -q -- ' -O3 '; then die "the flags of the parent are not kept"; fi
+  ;;
 readme)
   # The C example of README.md is true.
   sed -n '/^```c$/,/^```$/p' "$here/../../README.md" | sed '/^```/d' >"$scratch/readme.c"
   test -s "$scratch/readme.c" || die "README.md has no C example"
   export PKG_CONFIG_PATH="$libdir/pkgconfig"
-  ${CC:-cc} -std=c99 -Wall -Werror "$scratch/readme.c" -o "$scratch/readme" $(pkg-config --cflags --libs jam)
+  ${CC:-cc} -std=c99 -Wall -Wextra -Werror "$scratch/readme.c" -o "$scratch/readme" $(pkg-config --cflags --libs jam)
   LD_LIBRARY_PATH=$libdir "$scratch/readme"
   ;;
 symbols)

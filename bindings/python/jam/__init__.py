@@ -13,6 +13,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ._built_for import refuse_another_python
+
+refuse_another_python()
+
 from . import errors as errors, raw as raw
 from ._generated import *  # noqa: F401,F403  enums and report dataclasses
 from ._generated import JAM_ABI, StatusCode as StatusCode

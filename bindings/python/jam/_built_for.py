@@ -1,0 +1,13 @@
+"""Says which Python the compiled part is for, where this is another one: the import would only miss a name."""
+import sys
+from importlib.machinery import EXTENSION_SUFFIXES
+from pathlib import Path
+
+
+def refuse_another_python() -> None:
+    built = [path.name for path in Path(__file__).parent.glob("_raw.*.so")]
+    if built and not any("_raw" + suffix in built for suffix in EXTENSION_SUFFIXES):
+        raise ImportError(
+            f"jam was built for another Python: {', '.join(built)} is no module for {sys.version.split()[0]} of "
+            f"{sys.executable}. Run the one that it was built for, or configure with -DJAM_PYTHON={sys.executable}"
+        )

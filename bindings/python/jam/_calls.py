@@ -18,7 +18,9 @@ _DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint
 
 
 def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
-    """Values as a C-contiguous array of the C type, copied only if needed. Complex numbers and text are refused."""
+    """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused."""
+    if isinstance(values, np.ma.MaskedArray) and (masked := np.count_nonzero(values.mask)):
+        raise ValueError(f"{name}: {masked} values are masked: fill them, or leave these spheres out")
     array = np.asarray(values)
     wanted = np.dtype(_DTYPES[dtype])
     if array.dtype != wanted and not np.can_cast(array.dtype, wanted, "same_kind"):
@@ -80,16 +82,29 @@ def options(struct: str, given: dict[str, Any]) -> Any:
         if value is None:
             continue
         kind = known[name][0]
-        if kind == "float":
-            value = float(value)
-        elif kind in ("int", "bool"):
-            if int(value) != value:
-                raise TypeError(f"{name} must be a whole number, not {value!r}")
-            value = int(value)
+        if kind in ("float", "int", "bool"):
+            value = _number(value, kind, name)
         else:
             value = as_enum(value, kind)
-        setattr(made, name, value)
+        try:
+            setattr(made, name, value)
+        except OverflowError as error:
+            bits = 32 if "int32" in str(error) else 64
+            raise ValueError(f"{name} is {value}, it must lie in -2**{bits - 1} to 2**{bits - 1} - 1") from None
     return made
+
+
+def _number(value: Any, kind: str, name: str) -> float | int:
+    try:
+        if kind == "float":
+            return float(value)
+        whole = int(value)
+    except (TypeError, ValueError, OverflowError):
+        wanted = "a number" if kind == "float" else "a whole number"
+        raise TypeError(f"{name} must be {wanted}, not {value!r}") from None
+    if whole != value:
+        raise TypeError(f"{name} must be a whole number, not {value!r}")
+    return whole
 
 
 def spelled_out(made: Any, struct: str) -> dict[str, Any]:

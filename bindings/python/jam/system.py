@@ -9,8 +9,7 @@ from typing import Any, Mapping
 
 import numpy as np
 
-from . import _calls, errors, raw
-from ._generated import JAM_MAX_DIM
+from . import _calls, _given, errors, raw
 from ._network import Network
 from ._progress import end, reporter
 from ._state import State
@@ -73,7 +72,8 @@ class System(State, Verbs, Network):
         progress : bool or callable, optional
             As of `compress`. A true answer of the callable ends the call with StoppedError, as wall_time does.
         **options
-            box or cell, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity, wall_time, memory_limit.
+            box or cell as of `from_arrays`, model ('euclid' or 'mk'), mk_zeta, masses, non_additivity, wall_time,
+            memory_limit.
 
         Examples
         --------
@@ -92,10 +92,11 @@ class System(State, Verbs, Network):
         cls,
         positions: Any,
         diameters: Any = None,
-        box: float = 1.0,
+        box: Any = None,
         *,
         radii: Any = None,
         cell: Any = None,
+        dim: int | None = None,
         **options: Any,
     ) -> "System":
         """Spheres at given positions.
@@ -103,20 +104,22 @@ class System(State, Verbs, Network):
         Parameters
         ----------
         positions : array_like, shape (n, d)
-            In the unit of `box`; wrapped into [0, box). Any real dtype, order and stride. An array that is not
-            C-contiguous float64 is copied once.
+            In the unit of `box`; wrapped into it. Without box and cell they must lie in [0, 1]. Any real dtype, order
+            and stride. An array that is not C-contiguous float64 is copied once. Masked values are refused.
         diameters : array_like, shape (n,), or float
             One for each sphere, or one for all.
-        box : float
-            Side of the periodic cube.
-        cell : array_like, shape (d, d), optional
-            Instead of box: cell vectors, one a row. Positions are in the frame of these vectors.
+        box : float or array_like, shape (d,), optional
+            Side of the periodic cube, default 1, or d sides of a brick.
+        cell : array_like, shape (d, d) or (d,), optional
+            Instead of box: cell vectors, one a row, or the sides of a brick. Positions are in the frame of these
+            vectors, which must be right-handed.
         radii : array_like, shape (n,), or float, optional
             Instead of diameters.
+        dim : int, optional
+            Confirms d. Without it a last column that equals the sizes is refused: most such arrays hold x, y, z, r.
         **options
             overlap ('refuse', the default, 'shrink': scales all diameters until no pair overlaps, or 'allow': soft
-            spheres), seed, model,
-            mk_zeta, masses, non_additivity.
+            spheres), seed, model, mk_zeta, masses, non_additivity, wall_time, memory_limit.
 
         Examples
         --------
@@ -124,28 +127,19 @@ class System(State, Verbs, Network):
         >>> jam.System.from_arrays([[1.0, 1.0], [3.0, 3.0]], radii=0.5, box=4.0).diameters
         array([1., 1.])
         """
-        x = _calls.as_array(positions, name="positions")
-        if x.ndim != 2:
-            raise ValueError(f"positions must have shape (n, d), not {x.shape}")
-        if len(x) == 0:
-            raise ValueError("positions hold no sphere")
-        if (diameters is None) == (radii is None):
-            raise TypeError("give either diameters or radii")
-        name = "diameters" if radii is None else "radii"
-        sizes = _calls.as_array(diameters if radii is None else radii, name=name)
-        if radii is not None:
-            sizes = 2.0 * sizes
-        turned = x.shape[1] > JAM_MAX_DIM and 2 <= x.shape[0] <= JAM_MAX_DIM
-        if turned or (sizes.size not in (1, len(x)) and sizes.size == x.shape[1]):
-            raise ValueError(f"positions must have shape (n, d), not {x.shape}: transposed? Pass positions.T")
-        if sizes.ndim > 1 or sizes.size not in (1, len(x)):
-            raise ValueError(f"{name} must be one number or have shape ({len(x)},), not {sizes.shape}")
+        x = _given.positions_of(positions, diameters, radii, dim)
+        sizes = _given.sizes_of(diameters, radii, len(x))
+        _given.refuse_start_options(options, ("packing_fraction",), "the diameters are given")
+        if options.get("n") not in (None, len(x)):
+            raise ValueError(f"n is {options['n']}, and there are {len(x)} positions")
+        if box is None and cell is None:
+            _given.refuse_unnamed_box(x)
         options.update(n=len(x), dim=x.shape[1], box=box, cell=cell)
-        return cls._create(options, x.reshape(-1), sizes.reshape(-1))
+        return cls._create(options, x.reshape(-1), sizes)
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], **options: Any) -> "System":
-        """Reads a packing: plain text, extended XYZ, LAMMPS data (atom_style sphere), each also compressed, or GSD.
+        """Reads a packing: plain text, extended XYZ, data and dumps of LAMMPS, tables, each also compressed, or GSD.
 
         The content tells the format, but for GSD (needs python3-gsd), which goes by the ending .gsd. For other formats
         there is jam.files.read_ase.
@@ -155,16 +149,22 @@ class System(State, Verbs, Network):
         path : path-like
             The file. Positions and diameters come back with the bits that were written.
         **options
-            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, and box for a plain file that
-            names none. What the file holds wins.
+            overlap ('refuse' or 'shrink'), seed, model, mk_zeta, masses, non_additivity, frame, and box where the file
+            names none. GSD files take the keywords of jam.files.read_gsd too.
         """
         name = os.fsdecode(path)
-        if name.endswith(".gsd"):
+        if name.lower().endswith(".gsd"):
             from . import other_files
 
             return other_files.read_gsd(name, **options)
-        made = _calls.options("jam_create_options", options)
-        return cls(raw.jam_read(name, made)[1])
+        for unknown in ("diameters", "radii", "cell"):
+            if unknown in options:
+                raise TypeError(
+                    f"{unknown}= goes with GSD files and jam.files.read_ase alone: "
+                    "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
+                )
+        options["box"] = _given.side_of(options.get("box"))
+        return cls(raw.jam_read(name, _calls.options("jam_create_options", options))[1])
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
@@ -173,11 +173,8 @@ class System(State, Verbs, Network):
 
     @classmethod
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
-        cell = options.pop("cell", None)
-        made = _calls.options("jam_create_options", options)
-        vectors = None if cell is None else _calls.as_array(cell, name="cell")
-        if vectors is not None and vectors.shape != (options["dim"],) * 2:
-            raise ValueError(f"cell must have shape ({options['dim']}, {options['dim']}), not {vectors.shape}")
+        box, vectors = _given.cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
+        made = _calls.options("jam_create_options", dict(options, box=box))
         told = reporter(progress)
 
         def on_progress(p: Any) -> bool:

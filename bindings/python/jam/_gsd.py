@@ -1,0 +1,184 @@
+"""Frames of GSD by HOOMD's schema: what stands in a frame itself, what in frame 0, and what libjam keeps beside."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Callable
+
+import numpy as np
+
+from ._types import Array
+
+if TYPE_CHECKING:
+    from .system import System
+
+# Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
+_POSITION, _DIAMETER, _CELL = "jam/position", "jam/diameter", "jam/cell"
+_KEPT = (_POSITION, _DIAMETER, _CELL)
+
+Bad = Callable[[str], Exception]  # the exception for what is no packing
+
+
+@dataclass
+class Doubles:
+    positions: Array
+    diameters: Array
+    cell: Array
+
+
+@dataclass
+class Found:
+    dim: int
+    positions: Array  # (n, 3), float32, around the centre of the cell
+    diameters: Array | None
+    cell: Array  # (3, 3), one vector a row
+    doubles: Doubles | None
+
+
+def frame_of(system: System) -> Any:
+    import gsd.hoomd
+
+    d, cell = system.dim, system.cell
+    frame = gsd.hoomd.Snapshot()
+    frame.configuration.dimensions = d
+    frame.configuration.box = _box(cell)
+    frame.particles.N = system.n
+    frame.particles.position = _centred(system.positions, cell)
+    frame.particles.diameter = system.diameters
+    frame.log = {_POSITION: np.array(system.positions), _DIAMETER: np.array(system.diameters), _CELL: np.array(cell)}
+    return frame
+
+
+def _box(cell: Array) -> Array:
+    """Lx, Ly, Lz and the tilt factors of lower-triangular vectors."""
+    d = len(cell)
+    box = np.zeros(6)
+    box[:d] = np.diag(cell)
+    box[3] = cell[1, 0] / cell[1, 1]
+    if d == 3:
+        box[4:] = cell[2, 0] / cell[2, 2], cell[2, 1] / cell[2, 2]
+    return box
+
+
+def _centred(x: Array, cell: Array) -> Array:
+    """In the cell around the origin, as HOOMD wants them, with z = 0 in d = 2."""
+    s = np.linalg.solve(cell.T, np.asarray(x).T).T - 0.5
+    found = np.zeros((len(x), 3))
+    found[:, : len(cell)] = (s - np.floor(s + 0.5)) @ cell
+    return found
+
+
+def read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
+    """One frame, with its diameters and with libjam's doubles where they are asked for."""
+    one = file[frame]
+    d, n = int(one.configuration.dimensions), int(one.particles.N)
+    if d not in (2, 3):
+        raise bad(f"configuration/dimensions is {d}, it must be 2 or 3")
+    if n == 0:
+        raise bad(f"frame {frame} holds no sphere")
+    if n > 1 and _chunk(file, frame, "particles/position") is None:
+        raise bad(f"frame {frame} has no chunk particles/position")
+    lx, ly, lz, xy, xz, yz = (float(v) for v in one.configuration.box)
+    cell = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])
+    x = np.asarray(one.particles.position)
+    # GSD leaves its default box of side 1 out, so a file without a box holds either that one or none
+    if _chunk(file, frame, "configuration/box") is None and np.abs(x[:, :d]).max() > 0.5 + 1e-6:
+        raise bad("no chunk configuration/box, and the positions reach out of the default box of side 1")
+    kept = _doubles(file, frame, one, bad) if doubles else None
+    return Found(d, x, _diameters(file, frame, one, bad) if sizes and kept is None else None, cell, kept)
+
+
+def _chunk(file: Any, frame: int, name: str) -> Any:
+    """A chunk of this frame, or of frame 0 where this frame has none: the rule of the schema."""
+    for k in (frame, 0):
+        if file.file.chunk_exists(frame=k, name=name):
+            return file.file.read_chunk(frame=k, name=name)
+    return None
+
+
+def _doubles(file: Any, frame: int, one: Any, bad: Bad) -> Doubles | None:
+    """What libjam kept, where it belongs to this frame: its float32 are the rounded doubles.
+
+    GSD hands out frame 0's log for frames without one. Those are left out when they do not fit; a frame's own are
+    refused, for another program changed one of the two.
+    """
+    log = {name: one.log.get(name) for name in _KEPT}
+    if any(value is None for value in log.values()):
+        return None
+    own = any(file.file.chunk_exists(frame=frame, name="log/" + name) for name in _KEPT)
+    kept = Doubles(np.asarray(log[_POSITION]), np.asarray(log[_DIAMETER]).reshape(-1), np.asarray(log[_CELL]))
+    wrong = _difference(kept, one)
+    if wrong and own:
+        raise bad(
+            f"{wrong} of frame {frame} is not what libjam kept of it in log/jam: another program changed the frame. "
+            "doubles=False reads the frame alone",
+        )
+    return None if wrong else kept
+
+
+def _difference(kept: Doubles, one: Any) -> str:
+    d, n = int(one.configuration.dimensions), int(one.particles.N)
+    if kept.positions.shape != (n, d) or kept.diameters.shape != (n,) or kept.cell.shape != (d, d):
+        return "the number of spheres or dimensions"
+    if not np.array_equal(_box(kept.cell).astype(np.float32)[: 6 if d == 3 else 2], one.configuration.box[: 6 if d == 3 else 2]):
+        return "configuration/box"
+    if not np.array_equal(_centred(kept.positions, kept.cell).astype(np.float32)[:, :d], one.particles.position[:, :d]):
+        return "particles/position"
+    if not np.array_equal(kept.diameters.astype(np.float32), one.particles.diameter):
+        return "particles/diameter"
+    return ""
+
+
+def _diameters(file: Any, frame: int, one: Any, bad: Bad) -> Array:
+    """Diameters (n,) from each place of the schema that names some."""
+    found: dict[str, Array] = {}
+    if _chunk(file, frame, "particles/diameter") is not None:
+        found["particles/diameter"] = np.asarray(one.particles.diameter, float)
+    kinds = np.asarray(one.particles.typeid, int)
+    by_type = {
+        "particles/type_shapes": _of_shapes(one, bad) if _chunk(file, frame, "particles/type_shapes") is not None else None,
+        "state/hpmc/sphere/radius": _of_state(file, frame, bad),
+    }
+    for name, values in by_type.items():
+        if values is None:
+            continue
+        if kinds.min() < 0 or kinds.max() >= len(values):
+            raise bad(f"{name} holds {len(values)} types, and particles/typeid reaches {kinds.max()}")
+        found[name] = values[kinds]
+    if not found:
+        raise bad(
+            "no diameters in the file (particles/diameter, particles/type_shapes, state/hpmc/sphere/radius): give "
+            "diameters=, also where they are 1, which GSD does not write",
+        )
+    first, *others = found
+    for name in others:
+        if not np.allclose(found[name], found[first], rtol=1e-6, atol=0.0):
+            i = int(np.argmax(np.abs(found[name] - found[first])))
+            raise bad(
+                f"sphere {i} has the diameter {found[first][i]:g} by {first} and {found[name][i]:g} by {name}: "
+                "give diameters=",
+            )
+    return found[first]
+
+
+def _of_shapes(one: Any, bad: Bad) -> Array | None:
+    """Diameters a type from the shapes of HOOMD; None where no type has a shape."""
+    shapes = list(one.particles.type_shapes)
+    if not any(shapes):
+        return None
+    sizes = np.empty(len(shapes))
+    for k, shape in enumerate(shapes):
+        if shape.get("type") not in ("Sphere", "Disk") or "diameter" not in shape:
+            raise bad(f"particles/type_shapes: type {k} is {shape}, and no sphere with a diameter: give diameters=")
+        sizes[k] = float(shape["diameter"])
+    return sizes
+
+
+def _of_state(file: Any, frame: int, bad: Bad) -> Array | None:
+    """Diameters a type from the state of an HPMC integrator of spheres."""
+    prefix = "state/hpmc/"
+    names = {name for name in file.file.find_matching_chunk_names(prefix)}
+    shapes = {name[len(prefix) :].split("/")[0] for name in names if name.count("/") > 2} - {"integrate"}
+    if shapes - {"sphere"}:
+        raise bad(f"{prefix}: the shapes are {', '.join(sorted(shapes))}, libjam takes spheres: give diameters=")
+    radius = _chunk(file, frame, prefix + "sphere/radius")
+    return None if radius is None else 2.0 * np.asarray(radius, float).reshape(-1)

@@ -1,0 +1,277 @@
+"""Files of other programs: each number comes from where the file names it, or the file is refused with a way out."""
+import importlib.util
+import os
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+import jam
+
+warnings.simplefilter("ignore")
+
+
+def available(name):
+    return importlib.util.find_spec(name) is not None
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        held = tempfile.TemporaryDirectory()
+        self.addCleanup(held.cleanup)
+        self.path = os.path.join(held.name, "f.gsd")
+        self.folder = held.name
+
+    def refused(self, words, call, *args, kind=ValueError, **named):
+        with self.assertRaises(kind) as told:
+            call(*args, **named)
+        for word in words:
+            self.assertIn(word, str(told.exception))
+
+
+@unittest.skipUnless(available("gsd"), "python3-gsd is not installed")
+class Gsd(Folder):
+    """Two types of spheres on a cubic lattice of spacing 2."""
+
+    def frame(self, dim=3):
+        import gsd.hoomd
+
+        g = np.arange(4) * 2.0 - 3.0
+        x = np.stack(np.meshgrid(*[g] * dim, indexing="ij"), -1).reshape(-1, dim)
+        f = gsd.hoomd.Snapshot()
+        f.configuration.dimensions = dim
+        f.configuration.box = [8, 8, 8 if dim == 3 else 1, 0, 0, 0]
+        f.particles.N = len(x)
+        f.particles.position = np.pad(x, ((0, 0), (0, 3 - dim)))
+        f.particles.types = ["A", "B"]
+        f.particles.typeid = np.arange(len(x)) % 2
+        return f
+
+    def write(self, *frames):
+        import gsd.hoomd
+
+        with gsd.hoomd.open(self.path, "wb") as file:
+            file.extend(frames)
+
+    def want(self, n=64):
+        return np.where(np.arange(n) % 2, 0.9, 0.6)
+
+    def test_diameters_by_type(self):
+        f = self.frame()
+        f.particles.type_shapes = [{"type": "Sphere", "diameter": 0.6}, {"type": "Sphere", "diameter": 0.9}]
+        self.write(f)
+        s = jam.System.read(self.path)
+        np.testing.assert_array_equal(s.diameters, self.want())
+        right = np.pi / 6 * (0.6**3 + 0.9**3) * 32 / 8**3
+        self.assertAlmostEqual(s.packing_fraction, right, 14)
+
+    def test_disks_by_type(self):
+        f = self.frame(2)
+        f.particles.type_shapes = [{"type": "Disk", "diameter": 0.6}, {"type": "Disk", "diameter": 0.9}]
+        self.write(f)
+        s = jam.System.read(self.path)
+        self.assertEqual((s.dim, s.n), (2, 16))
+        np.testing.assert_array_equal(s.diameters, self.want(16))
+
+    def test_radii_of_the_state(self):
+        f = self.frame()
+        f.state = {"hpmc/sphere/radius": np.array([0.3, 0.45], "f4")}
+        later = self.frame()  # the state stands in frame 0 alone
+        later.configuration.step = 10
+        self.write(f, later)
+        for k in (0, 1):
+            np.testing.assert_allclose(jam.System.read(self.path, frame=k).diameters, self.want(), rtol=1e-7)
+
+    def test_two_places_that_disagree(self):
+        f = self.frame()
+        f.particles.type_shapes = [{"type": "Sphere", "diameter": 0.6}, {"type": "Sphere", "diameter": 0.9}]
+        f.particles.diameter = np.full(64, 0.6)
+        self.write(f)
+        self.refused(["sphere 1", "type_shapes", "give diameters="], jam.System.read, self.path)
+        np.testing.assert_array_equal(jam.System.read(self.path, diameters=0.6).diameters, 0.6)
+
+    def test_shapes_that_are_no_spheres(self):
+        f = self.frame()
+        f.particles.type_shapes = [{"type": "Ellipsoid", "a": 0.6, "b": 0.3, "c": 0.3}] * 2
+        self.write(f)
+        self.refused(["Ellipsoid", "give diameters="], jam.System.read, self.path)
+
+    def test_without_diameters(self):
+        self.write(self.frame())
+        self.refused(["f.gsd", "no diameters", "give diameters="], jam.System.read, self.path)
+        np.testing.assert_array_equal(jam.System.read(self.path, diameters=1.0).diameters, 1.0)
+        np.testing.assert_array_equal(jam.System.read(self.path, radii=self.want() / 2).diameters, self.want())
+        self.refused(["shape (64,)"], jam.System.read, self.path, diameters=[1.0, 2.0])
+        self.refused(["either"], jam.System.read, self.path, diameters=1.0, radii=0.5, kind=TypeError)
+
+    def test_a_plane_must_be_flat(self):
+        f = self.frame(2)
+        f.particles.diameter = np.full(16, 0.5)
+        f.particles.position[3, 2] = 0.4
+        self.write(f)
+        self.refused(["spheres 0 and 3", "0.4", "plane"], jam.System.read, self.path)
+        f.particles.position[:, 2] = 0.4
+        self.write(f)
+        self.assertEqual(jam.System.read(self.path).dim, 2)
+
+    def test_frames(self):
+        frames = [self.frame() for _ in range(3)]
+        for k, f in enumerate(frames):
+            f.particles.diameter = np.full(64, 0.5 + 0.125 * k)
+        self.write(*frames)
+        for k, size in ((0, 0.5), (2, 0.75), (-1, 0.75), (-3, 0.5)):
+            self.assertEqual(jam.System.read(self.path, frame=k).diameters[0], size)
+        for k in (3, -4):
+            self.refused([f"frame {k}", "holds 3"], jam.System.read, self.path, frame=k, kind=IndexError)
+
+    def test_no_doubles_of_another_frame(self):
+        """GSD hands out frame 0's log for every later frame."""
+        import gsd.hoomd
+
+        s = jam.System.random(n=64, seed=3, packing_fraction=0.3)
+        s.write(self.path)
+        f = self.frame()
+        f.particles.diameter = np.full(64, 0.5)
+        with gsd.hoomd.open(self.path, "rb+") as file:
+            file.append(f)
+        last = jam.System.read(self.path)
+        self.assertEqual((last.box, last.diameters[0]), (8.0, 0.5))
+        self.assertEqual(last.positions[0, 0], 1.0)
+        np.testing.assert_array_equal(jam.System.read(self.path, frame=0).positions, s.positions)
+
+    def test_a_frame_that_was_changed_beside_its_doubles(self):
+        import gsd.hoomd
+
+        s = jam.System.random(n=64, seed=3, packing_fraction=0.1)
+        s.write(self.path)
+        for change in ("position", "diameter", "box"):
+            with gsd.hoomd.open(self.path, "rb") as file:
+                f = file[0]
+            if change == "position":
+                f.particles.position = f.particles.position[::-1].copy()
+            elif change == "diameter":
+                f.particles.diameter = f.particles.diameter * np.float32(0.5)
+            else:
+                f.configuration.box = f.configuration.box * np.float32(2)
+            with gsd.hoomd.open(self.path + change + ".gsd", "wb") as file:
+                file.append(f)
+            self.refused([change, "log/jam", "doubles=False"], jam.System.read, self.path + change + ".gsd")
+            found = jam.System.read(self.path + change + ".gsd", doubles=False)
+            self.assertEqual(found.diameters[0], f.particles.diameter[0])
+
+    def test_what_the_file_holds_is_not_taken_twice(self):
+        f = self.frame()
+        f.particles.diameter = np.full(64, 0.5)
+        self.write(f)
+        for name in ("box", "dim"):
+            self.refused([name, "f.gsd"], jam.System.read, self.path, kind=TypeError, **{name: 3})
+
+    def test_no_gsd(self):
+        with open(self.path, "w") as file:
+            file.write("no gsd\n" * 100)
+        self.refused(["f.gsd", "GSD"], jam.System.read, self.path)
+        f = self.frame()
+        f.particles.N = 0
+        f.particles.position = np.zeros((0, 3))
+        f.particles.typeid = np.zeros(0)
+        self.write(f)
+        self.refused(["no sphere"], jam.System.read, self.path)
+
+    def test_box_that_the_file_does_not_hold(self):
+        f = self.frame()
+        f.particles.diameter = np.full(64, 0.5)
+        f.configuration.box = [1, 1, 1, 0, 0, 0]  # the default of the schema, which GSD leaves out
+        self.write(f)
+        self.refused(["configuration/box"], jam.System.read, self.path)
+
+
+@unittest.skipUnless(available("ase"), "python3-ase is not installed")
+class Ase(Folder):
+    DUMP = (
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+        "ITEM: ATOMS id type radius x y z\n"
+    )
+    ROWS = ("1 1 0.1 0.1 0.2 0.3\n", "2 1 0.1 0.6 0.7 0.8\n", "3 1 0.15 0.35 0.9 0.15\n")
+
+    def file(self, name, **given):
+        import ase
+
+        path = os.path.join(self.folder, name)
+        arrays = given.pop("arrays", {"radius": np.array([0.1, 0.1])})
+        frames = []
+        for x in given.pop("frames"):
+            atoms = ase.Atoms("Ar2", positions=x, pbc=given.get("pbc", True), cell=given["cell"])
+            for key, value in arrays.items():
+                atoms.arrays[key] = value
+            frames.append(atoms)
+        import ase.io
+
+        ase.io.write(path, frames, format="extxyz")
+        return path
+
+    def test_planes(self):
+        flat = [[0.1, 0.2, 0.5], [0.6, 0.7, 0.5]]
+        cell = np.diag([1.0, 1.0, 5.0])
+        s = jam.files.read_ase(self.file("a.xyz", frames=[flat], cell=cell), dim=2)
+        np.testing.assert_allclose(s.positions, np.array(flat)[:, :2], rtol=1e-12)
+        uneven = self.file("b.xyz", frames=[[[0.0, 0.1, 0.2], [0.0, 0.6, 0.7]]], cell=np.diag([5.0, 1.0, 1.0]))
+        self.refused(["b.xyz", "z = 0.2 and 0.7", "plane"], jam.files.read_ase, uneven, dim=2)
+        for k in (0, 1):
+            tilted = cell.copy()
+            tilted[k, 2] = 0.3
+            path = self.file("c.xyz", frames=[flat], cell=tilted)
+            self.refused([f"cell vector {k}", "leaves the plane"], jam.files.read_ase, path, dim=2)
+        self.refused(["dim"], jam.files.read_ase, path, dim=4)
+
+    def test_open_directions(self):
+        flat = [[0.1, 0.2, 0.0], [0.6, 0.7, 0.0]]
+        path = self.file("a.xyz", frames=[flat], cell=np.diag([1.0, 1.0, 5.0]), pbc=[True, True, False])
+        self.refused(["periodic", "dim=2"], jam.files.read_ase, path)
+        self.assertEqual(jam.files.read_ase(path, dim=2).dim, 2)
+        path = self.file("a.xyz", frames=[flat], cell=np.diag([1.0, 1.0, 5.0]), pbc=[True, False, True])
+        self.refused(["periodic"], jam.files.read_ase, path, dim=2)
+
+    def test_frames(self):
+        at = [[[0.1 + 0.01 * k, 0.2, 0.3], [0.6, 0.7, 0.8]] for k in range(3)]
+        path = self.file("a.xyz", frames=at, cell=np.eye(3))
+        for frame, x in ((-1, 0.12), (0, 0.1), (1, 0.11)):
+            self.assertAlmostEqual(jam.files.read_ase(path, frame=frame).positions[0, 0], x, 12)
+        self.refused(["frame 3", "holds 3"], jam.files.read_ase, path, frame=3, kind=IndexError)
+
+    def test_names_of_sizes(self):
+        x = [[[0.1, 0.2, 0.3], [0.6, 0.7, 0.8]]]
+        for name, factor in (("radius", 2), ("Radius", 2), ("diameter", 1), ("Diameters", 1)):
+            path = self.file("a.xyz", frames=x, cell=np.eye(3), arrays={name: np.array([0.1, 0.2])})
+            np.testing.assert_allclose(jam.files.read_ase(path).diameters, np.array([0.1, 0.2]) * factor, rtol=1e-12)
+        both = {"radius": np.array([0.1, 0.2]), "diameter": np.array([0.1, 0.2])}
+        path = self.file("a.xyz", frames=x, cell=np.eye(3), arrays=both)
+        self.refused(["`radius`", "`diameter`", "diameters="], jam.files.read_ase, path)
+        np.testing.assert_array_equal(jam.files.read_ase(path, radii=[0.1, 0.2]).diameters, [0.2, 0.4])
+
+    def dump(self, rows, name="a.dump"):
+        path = os.path.join(self.folder, name)
+        with open(path, "w") as file:
+            file.write(self.DUMP + "".join(rows))
+        return path
+
+    def test_diameters_of_a_sorted_file(self):
+        """ASE sorts the atoms of a dump by id; diameters in the order of its lines would go to others."""
+        path = self.dump([self.ROWS[2], *self.ROWS[:2]])
+        self.refused(["a.dump", "sorts", "ids"], jam.files.read_ase, path, [0.3, 0.2, 0.2])
+        self.assertEqual(jam.files.read_ase(path, 0.1).n, 3)
+        s = jam.files.read_ase(self.dump(self.ROWS), [0.2, 0.2, 0.3])
+        self.assertEqual(s.diameters[np.argmin(np.abs(s.positions[:, 0] - 0.35))], 0.3)
+
+
+class NoReader(Folder):
+    def test_sizes_for_files_that_hold_them(self):
+        path = os.path.join(self.folder, "a.dat")
+        jam.System.random(n=10, dim=2).write(path)
+        for name in ("diameters", "radii", "cell"):
+            self.refused([name, "from_arrays"], jam.System.read, path, kind=TypeError, **{name: 0.1})
+        self.refused(["packing_fraction"], jam.System.read, path, packing_fraction=0.3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -26,6 +26,7 @@ jam_status create(const std::vector<double> &x, double diameter, int32_t overlap
   jam_create_options o;
   jam_create_options_init(&o, sizeof o);
   o.n = static_cast<int64_t>(x.size() / 3), o.overlap = overlap, o.model = model;
+  o.shrink_min = 0.0;  // by any factor
   return jam_create(&o, x.data(), x.size(), &diameter, 1, out);
 }
 

@@ -276,6 +276,7 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
         "seconds_md": out["seconds_md"],
         "seconds_crunch": r.seconds if r else 0.0,
         "version": raw.jam_version(),
+        "commit": raw.jam_commit(),
         "blas_kernel": raw.jam_blas_kernel(),
     }
     return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in made.items()}

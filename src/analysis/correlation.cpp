@@ -4,6 +4,7 @@
 #include <limits>
 #include "analysis/structure.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #ifdef JAM_HAVE_VORO
 #include <voro++/voro++.hh>
 #endif
@@ -34,11 +35,11 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
     // ordered pairs (a, b); an image of a sphere with itself stands once in the list for both directions
     g[bin] += static_cast<double>(is(i, a) && is(j, b)) + static_cast<double>(is(j, a) && is(i, b));
   }
-  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0, p.dim), density = nb / p.cell.volume();
+  const double ball = unit_sphere_volume(p.dim) * math::pow(2.0, p.dim), density = nb / p.cell.volume();
   for (size_t k = 0; k < bins; ++k) {
     const double lo = r_max * unit * static_cast<double>(k) / static_cast<double>(bins),
                  hi = r_max * unit * static_cast<double>(k + 1) / static_cast<double>(bins);
-    const double expected = na * density * ball * (std::pow(hi, p.dim) - std::pow(lo, p.dim));
+    const double expected = na * density * ball * (math::pow(hi, p.dim) - math::pow(lo, p.dim));
     g[k] = expected > 0.0 ? g[k] / expected : 0.0;
   }
   return g;
@@ -94,7 +95,7 @@ double crystal_score(const Packing &p) {
   const std::vector<double> g = pair_correlation(p, nullptr, 0, -1, -1, 2.0, bins);
   double near = 0.0, around = 0.0, weight_near = 0.0, weight_around = 0.0;
   for (size_t k = 0; k < bins; ++k) {
-    const double r = 0.005 * (static_cast<double>(k) + 0.5), shell = std::pow(r, p.dim - 1);
+    const double r = 0.005 * (static_cast<double>(k) + 0.5), shell = math::pow(r, p.dim - 1);
     if (std::fabs(r - std::sqrt(2.0)) < 0.02) near += g[k] * shell, weight_near += shell;
     if (r > 1.2 && r < 1.6) around += g[k] * shell, weight_around += shell;
   }
@@ -107,7 +108,7 @@ std::vector<double> local_fractions(const Packing &p) {
     fail(JAM_E_UNSUPPORTED, "local packing fractions are there for d = 3 only, this system has d = %d", p.dim);
   if (p.model == JAM_MODEL_MK) fail(JAM_E_UNSUPPORTED, "Mari-Kurchan spheres have no cells of their own");
   // In a cell of volume 1: voro++ has absolute tolerances, and ends the process when it loses track of a cell.
-  const int cells = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(p.n()) / 6.0)));
+  const int cells = std::max(1, static_cast<int>(math::pow(static_cast<double>(p.n()) / 6.0, 1.0 / 3.0)));
   const double side = p.cell.side();
   const double *b = p.cell.row(1), *c = p.cell.row(2);
   voro::container_periodic_poly box(p.cell.edge(0) / side, b[0] / side, b[1] / side, c[0] / side, c[1] / side,
@@ -123,7 +124,7 @@ std::vector<double> local_fractions(const Packing &p) {
   if (loop.start()) do {
       if (!box.compute_cell(cell, loop)) continue;
       const auto i = static_cast<size_t>(loop.pid());
-      phi[i] = unit_sphere_volume(3) * std::pow(p.diameter[i] / p.cell.side(), 3) / cell.volume();
+      phi[i] = unit_sphere_volume(3) * math::pow(p.diameter[i] / p.cell.side(), 3) / cell.volume();
     } while (loop.inc());
   for (size_t i = 0; i < p.n(); ++i)
     if (!(phi[i] > 0.0 && phi[i] <= 1.0 + 1e-9)) fail(JAM_E_SOLVER, "the Voronoi cell of sphere %zu was not found", i);

@@ -6,6 +6,7 @@
 #include <functional>
 #include "analysis/spectrum.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "core/rng.hpp"
 
 namespace jam {
@@ -60,7 +61,7 @@ double smallest_eigenvalue(const RigidityMatrix &g, const ContactWeights &w) {
 struct Interval {
   double low, high;
   double theta(double lambda) const {
-    return std::acos(std::max(-1.0, std::min(1.0, (2.0 * lambda - high - low) / (high - low))));
+    return math::acos(std::max(-1.0, std::min(1.0, (2.0 * lambda - high - low) / (high - low))));
   }
 };
 
@@ -91,14 +92,15 @@ void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std:
 // Jackson's damping, which keeps the density positive.
 double jackson(size_t m, size_t moments) {
   const double q = M_PI / static_cast<double>(moments + 1), x = static_cast<double>(m);
-  return ((static_cast<double>(moments) - x + 1.0) * std::cos(q * x) + std::sin(q * x) / std::tan(q)) /
+  return ((static_cast<double>(moments) - x + 1.0) * math::cos(q * x) +
+          math::sin(q * x) * math::cos(q) / math::sin(q)) /
          static_cast<double>(moments + 1);
 }
 
 // mu_0 + 2 sum mu_m cos(m theta), by Clenshaw's recurrence.
 double cosine_sum(const std::vector<double> &mu, double theta) {
   double b1 = 0.0, b2 = 0.0;
-  const double c = 2.0 * std::cos(theta);
+  const double c = 2.0 * math::cos(theta);
   for (size_t m = mu.size() - 1; m >= 1; --m) {
     const double b = 2.0 * mu[m] + c * b1 - b2;
     b2 = b1;
@@ -110,23 +112,23 @@ double cosine_sum(const std::vector<double> &mu, double theta) {
 // sum (mu_m / m) sin(m theta), likewise.
 double sine_sum(const std::vector<double> &mu, double theta) {
   double b1 = 0.0, b2 = 0.0;
-  const double c = 2.0 * std::cos(theta);
+  const double c = 2.0 * math::cos(theta);
   for (size_t m = mu.size() - 1; m >= 1; --m) {
     const double b = mu[m] / static_cast<double>(m) + c * b1 - b2;
     b2 = b1;
     b1 = b;
   }
-  return b1 * std::sin(theta);
+  return b1 * math::sin(theta);
 }
 
 // D(omega) = rho(lambda) 2 |omega|, rho(lambda) = S(theta) / (pi sin theta) 2 / (high - low).
 double density_at(const std::vector<double> &mu, Interval span, double omega) {
   if (span.low == 0.0) {  // sin theta = 2 s c with s = omega / omega_max, so that omega = 0 is no exception
-    const double s = omega / std::sqrt(span.high), half = std::asin(std::min(1.0, s));
-    return cosine_sum(mu, M_PI - 2.0 * half) / M_PI * 2.0 / (std::sqrt(span.high) * std::cos(half));
+    const double s = omega / std::sqrt(span.high), half = math::asin(std::min(1.0, s));
+    return cosine_sum(mu, M_PI - 2.0 * half) / M_PI * 2.0 / (std::sqrt(span.high) * math::cos(half));
   }
   const double theta = span.theta(omega * std::fabs(omega));
-  return cosine_sum(mu, theta) / (M_PI * std::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
+  return cosine_sum(mu, theta) / (M_PI * math::sin(theta)) * 4.0 * std::fabs(omega) / (span.high - span.low);
 }
 
 // Share of the spectrum below omega: the same series, integrated.

@@ -8,13 +8,14 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "jam/jam.h"
 
 namespace jam {
 
 void check_pair_count(const Packing &p, double reach) {
-  const double ball = unit_sphere_volume(p.dim) * std::pow(2.0 * reach / p.cell.side(), p.dim),
+  const double ball = unit_sphere_volume(p.dim) * math::pow(2.0 * reach / p.cell.side(), p.dim),
                n = static_cast<double>(p.n());
   const double pairs = 0.5 * n * n * ball, bytes = pairs * (8.0 * p.dim + 48.0);
   if (bytes > CallScope::memory_limit())

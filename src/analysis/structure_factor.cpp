@@ -5,6 +5,7 @@
 #include "analysis/structure.hpp"
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 
 namespace jam {
 namespace {
@@ -107,8 +108,8 @@ class Sum {
       for (int m = -most_[c]; m <= most_[c]; ++m)
         for (size_t i = 0; i < n_; ++i) {
           const double phase = step * m * s[i * d + c];
-          co_[c][static_cast<size_t>(m + most_[c]) * n_ + i] = std::cos(phase);
-          si_[c][static_cast<size_t>(m + most_[c]) * n_ + i] = std::sin(phase);
+          co_[c][static_cast<size_t>(m + most_[c]) * n_ + i] = math::cos(phase);
+          si_[c][static_cast<size_t>(m + most_[c]) * n_ + i] = math::sin(phase);
         }
     }
   }
@@ -166,7 +167,7 @@ StructureFactor structure_factor(const Packing &p, double q_max, const Cancellat
   if (!(q_max > 0.0 && std::isfinite(q_max)))
     fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
   const double reach = q_max / unit / step;
-  const double vectors = 0.5 * unit_sphere_volume(p.dim) * std::pow(2.0 * reach, p.dim);
+  const double vectors = 0.5 * unit_sphere_volume(p.dim) * math::pow(2.0 * reach, p.dim);
   if (vectors * static_cast<double>(p.n()) > 2e10)
     fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
   Sum sum(p, reach, vectors, cancel_point, lengths_only);

@@ -2,9 +2,11 @@
 
 #include <limits>
 
+#include "core/math.hpp"
+
 namespace jam {
 
-Cell::Cell(int dim, double side) : dim_(dim), side_(side), volume_(std::pow(side, dim)) {
+Cell::Cell(int dim, double side) : dim_(dim), side_(side), volume_(math::pow(side, dim)) {
   for (int c = 0; c < dim; ++c) rows_[c][c] = side;
 }
 
@@ -19,7 +21,7 @@ Cell Cell::from_triangle(int dim, const double *rows) {
     cell.volume_ *= cell.rows_[c][c];
   }
   if (cell.cube_) return Cell(dim, rows[0]);
-  cell.side_ = std::pow(cell.volume_, 1.0 / dim);
+  cell.side_ = math::pow(cell.volume_, 1.0 / dim);
   return cell;
 }
 

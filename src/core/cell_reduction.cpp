@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 
 namespace jam {
 namespace {
@@ -142,7 +143,7 @@ ReducedCell reduce_cell(int dim, const double *rows) {
   if (!(volume > 0.0))
     fail(JAM_E_ARGUMENT, "the cell vectors have the determinant %g, it must be positive: %s", volume,
          volume < 0.0 ? "exchange two of them" : "they are linearly dependent");
-  check_box(std::pow(volume, 1.0 / dim) * largest);
+  check_box(math::pow(volume, 1.0 / dim) * largest);
   Reduction reduction(dim, rows);
   reduction.run();
   ReducedCell out = reduction.result();

@@ -8,6 +8,7 @@
 #include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
@@ -63,7 +64,7 @@ class GrowingCells {
  public:
   GrowingCells(const Packing &p, double cutoff) : p_(p) {
     const double fit = p.cell.height_min() / cutoff,
-                 enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim));
+                 enough = std::ceil(math::pow(static_cast<double>(p.n()), 1.0 / p.dim));
     side_ = std::max<int64_t>(1, static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough)));
     if (side_ < 3) side_ = 1;
     int64_t cells = 1;
@@ -142,9 +143,9 @@ double fitting_factor(const Packing &p) {
   if (other > 0.0) scale = std::max(scale, unlike / p.cell.half_diagonal());
   if (p.model == JAM_MODEL_EUCLID) {
     double volume = 0.0;  // of the spheres, in units of widest^d: no overflow whatever the diameters are
-    for (double s : p.diameter) volume += unit_sphere_volume(p.dim) * std::pow(s / widest, p.dim);
+    for (double s : p.diameter) volume += unit_sphere_volume(p.dim) * math::pow(s / widest, p.dim);
     const double core = 1.0 + std::min(0.0, p.non_additivity);
-    scale = std::max(scale, core * std::pow(volume, 1.0 / p.dim) * widest / p.cell.side());
+    scale = std::max(scale, core * math::pow(volume, 1.0 / p.dim) * widest / p.cell.side());
   }
   return scale > 1.0 + overlap_tolerance ? 1.0 / scale : 1.0;
 }
@@ -239,7 +240,7 @@ void place_at_random(Packing &p) {
     } while (cells.blocked(x, i));
     cells.add(i);
     ++spheres;
-    placed += unit_sphere_volume(d) * std::pow(p.diameter[i] / p.cell.side(), d);
+    placed += unit_sphere_volume(d) * math::pow(p.diameter[i] / p.cell.side(), d);
   }
 }
 
@@ -372,7 +373,7 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
     if (cell) p.cell = reduce_cell(p.dim, cell).cell;
     if (!(o.packing_fraction > 0.0) || !std::isfinite(o.packing_fraction))
       fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
-    const double scale = std::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
+    const double scale = math::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
     check_diameters(p.diameter, p.cell.side());
     if (p.overlap_allowed)

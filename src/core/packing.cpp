@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "core/math.hpp"
+
 namespace jam {
 
 double unit_sphere_volume(int dim) {
-  const double pi = 3.14159265358979323846;
-  return std::pow(pi, 0.5 * dim) * std::pow(0.5, dim) / std::tgamma(1.0 + 0.5 * dim);
+  double volume = 1.0;  // of one dimension, and of none; two more bring pi / 2 d
+  for (int d = 2 + dim % 2; d <= dim; d += 2) volume *= 0.5 * 3.14159265358979323846 / d;
+  return volume;
 }
 
 namespace {
@@ -26,7 +29,8 @@ double sum_over(const std::vector<double> &x, const Term &term) {
 }  // namespace
 
 double packing_fraction(const Packing &p) {
-  return unit_sphere_volume(p.dim) * sum_over(p.diameter, [&](double s) { return std::pow(s / p.cell.side(), p.dim); });
+  return unit_sphere_volume(p.dim) *
+         sum_over(p.diameter, [&](double s) { return math::pow(s / p.cell.side(), p.dim); });
 }
 
 double diameter_mean(const Packing &p) {
@@ -39,7 +43,7 @@ std::vector<double> sphere_masses(const Packing &p) {
   std::vector<double> mass;
   if (p.masses != JAM_MASSES_VOLUME) return mass;
   double sum = 0.0;
-  for (double s : p.diameter) mass.push_back(std::pow(s / p.cell.side(), p.dim)), sum += mass.back();
+  for (double s : p.diameter) mass.push_back(math::pow(s / p.cell.side(), p.dim)), sum += mass.back();
   for (double &m : mass) m *= static_cast<double>(p.n()) / sum;
   return mass;
 }

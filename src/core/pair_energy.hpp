@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/math.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -47,7 +48,7 @@ class PairEnergy {
       case Kind::any:
         break;
     }
-    return f([c, alpha](double x) { return c * std::pow(x, alpha); });
+    return f([c, alpha](double x) { return c * math::pow(x, alpha); });
   }
   double value(double x) const {
     return with_value([x](auto v) { return v(x); });
@@ -79,7 +80,7 @@ class PairEnergy {
       case Kind::any:
         break;
     }
-    return std::pow(x, alpha_ - 1.0);
+    return math::pow(x, alpha_ - 1.0);
   }
   double alpha_ = 2.0, c_ = 0.5, slope_ = 1.0;
   bool relative_ = true;

@@ -9,6 +9,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 
 namespace jam {
@@ -107,8 +108,7 @@ double expected_pairs(const Cutoff &cutoff) {
   if (cutoff.own) reach = std::accumulate(cutoff.own, cutoff.own + p.n(), 0.0) / n;
   const double shrunk = 1.0 + std::min(0.0, p.non_additivity);  // a bound for every pair
   const double radius = reach + cutoff.slope * shrunk * diameter;
-  const double ball = std::pow(M_PI, 0.5 * p.dim) / std::tgamma(0.5 * p.dim + 1.0);
-  return 0.5 * n * n * ball * std::pow(radius / p.cell.side(), p.dim);
+  return 0.5 * n * n * unit_sphere_volume(p.dim) * math::pow(2.0 * radius / p.cell.side(), p.dim);
 }
 
 // Spheres sorted by cell; a cell's members are members[start[cell] .. start[cell + 1]).
@@ -185,7 +185,7 @@ PairList by_cells(const Cutoff &cutoff) {
   const Packing &p = cutoff.p;
   // As many cells as spheres are enough; a side is never shorter than the cutoff.
   const double fit = p.cell.height_min() / cutoff.most(),
-               enough = std::ceil(std::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
+               enough = std::ceil(math::pow(static_cast<double>(p.n()), 1.0 / p.dim)) + 1.0;
   check_list_size(expected_pairs(cutoff), p.dim);
   const auto side = static_cast<int64_t>(std::min(fit * (1.0 - 1e-12), enough));
   // Nearest images are enough from three cells on: two cells in a row would already need a second image.
@@ -250,7 +250,7 @@ ClosestPair closest_pair(const Packing &p) {
   // Spheres that overlap massively have many pairs at their contact distance: the closest are found within a part of
   // it.
   const double many = 100.0 * static_cast<double>(p.n()), expected = expected_pairs({p, 0.0, 1.1});
-  double slope = expected > many ? std::max(1e-30, 1.1 * std::pow(many / expected, 1.0 / p.dim)) : 1.1;
+  double slope = expected > many ? std::max(1e-30, 1.1 * math::pow(many / expected, 1.0 / p.dim)) : 1.1;
   for (bool last = false; !last; slope = std::min(2.0, 2.0 * slope)) {
     last = slope >= 2.0;
     const PairList pairs = find_pairs(p, 0.0, slope);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/math.hpp"
+
 namespace jam {
 
 // Every use of randomness has its own number. Never change one: that would change packings.
@@ -35,7 +37,7 @@ class Rng {
   double normal() {
     const double u = 1.0 - uniform();
     const double v = uniform();
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586476925 * v);
+    return std::sqrt(-2.0 * math::log(u)) * math::cos_of_turns(v);
   }
   uint64_t counter() const { return counter_; }
 

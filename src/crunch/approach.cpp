@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/state.hpp"
 #include "lp/interior_point.hpp"
@@ -77,7 +78,7 @@ void add_history_row(CrunchState &s, double alpha, double unit) {
   for (double &x : moved) x *= alpha * unit;
   HistoryRow &row =
       s.history.moved(s.out.packing, JAM_STEP_LP, s.monitor.seconds(), s.system.factorisations, moved.data());
-  row[JAM_HISTORY_GAIN] = std::expm1(0.5 * std::log1p(alpha * s.answer.g));
+  row[JAM_HISTORY_GAIN] = math::expm1(0.5 * math::log1p(alpha * s.answer.g));
   row[JAM_HISTORY_CONTACTS] = static_cast<double>(s.active.rows.size());
   row[JAM_HISTORY_EXCESS] = static_cast<double>(excess_of(s.active, s.lp.dim));
   row[JAM_HISTORY_RATTLERS] = static_cast<double>(s.lp.n - s.active.stable);

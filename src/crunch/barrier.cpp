@@ -1,4 +1,5 @@
 #include "crunch/barrier.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 
 #include <algorithm>
@@ -103,9 +104,9 @@ double Barrier::merit(const BarrierStep &x, double alpha) const {
     const double ratio = gap_after(x, k, alpha) / ((1.0 + g) * lp.c[k]);
     if (!(ratio > 0.0)) return std::numeric_limits<double>::infinity();
     product *= ratio;
-    if (!(product > 1e-100 && product < 1e100)) sum += std::log(product), product = 1.0;
+    if (!(product > 1e-100 && product < 1e100)) sum += math::log(product), product = 1.0;
   }
-  return -std::log(1.0 + g) - mu * (sum + std::log(product));
+  return -math::log(1.0 + g) - mu * (sum + math::log(product));
 }
 
 // Golden sections. The whole Newton step if that is about as good.

@@ -8,14 +8,15 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "crunch/state.hpp"
 
 namespace jam {
 
-double jammed_fraction(int dim) { return dim == 2 ? 0.84 : 0.64 * std::pow(0.7, dim - 3); }
+double jammed_fraction(int dim) { return dim == 2 ? 0.84 : 0.64 * math::pow(0.7, dim - 3); }
 
 double free_spacing(const Packing &p) {
-  return std::max(0.0, std::pow(packing_fraction(p), -1.0 / p.dim) - std::pow(jammed_fraction(p.dim), -1.0 / p.dim));
+  return std::max(0.0, math::pow(packing_fraction(p), -1.0 / p.dim) - math::pow(jammed_fraction(p.dim), -1.0 / p.dim));
 }
 
 CrunchState::CrunchState(const Packing &start, const jam_crunch_options &options, Monitor &monitor_in,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "crunch/crunch.hpp"
@@ -29,8 +30,8 @@ constexpr double steps_far = 120.0, power_far = 0.8, times_far = 10.0;
 double steps(const Packing &p, const jam_crunch_options &o) {
   const bool near = contact_gap(p) < close_gap;
   const double size = static_cast<double>(p.n()) / 1024.0;
-  const double path = near ? std::max(steps_least, steps_near * std::pow(size, power_near))
-                           : std::max(steps_least, steps_far * std::pow(size, power_far));
+  const double path = near ? std::max(steps_least, steps_near * math::pow(size, power_near))
+                           : std::max(steps_least, steps_far * math::pow(size, power_far));
   if (o.method == JAM_CRUNCH_SEQUENTIAL_LP) return path * (near ? times_near : times_far);
   return near && o.duality_gap > 0.0 ? std::min(path, steps_to_gap) : path;
 }
@@ -86,7 +87,7 @@ std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
 
 // Factor by which the diameters grow before a list gets shorter: this part of the way to jamming.
 double growth(const Packing &p, double part) {
-  return std::pow(std::max(1.0, jammed_fraction(p.dim) / packing_fraction(p)), part / p.dim);
+  return math::pow(std::max(1.0, jammed_fraction(p.dim) / packing_fraction(p)), part / p.dim);
 }
 
 // From a start with few neighbours at least as many of the nearest pairs as a list holds near jamming.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -109,7 +110,7 @@ void Engine<D, Shift>::check_archive() const {
 
 template <int D, bool Shift>
 void Engine<D, Shift>::check_cells() const {
-  double total = std::pow(static_cast<double>(cells_), D);
+  double total = math::pow(static_cast<double>(cells_), D);
   if constexpr (Shift) {
     Archive::check(cells_ == 1 && cells_alone_ == 0 && !lattice_.cube() && !quenched_);
     double looked_cells = 1.0;

@@ -1,6 +1,7 @@
 // The engine without lists, for dilute systems, where lists are short-lived. A sphere meets those of the cells around
 // its own, and leaving its cell is an event.
 #pragma once
+#include "core/math.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -14,8 +15,8 @@ bool Engine<D, Shift>::choose_cells_alone(double sigma) {
   cells_alone_ = 0;
   if (Shift || D > 4 || options_.cells < 0) return false;
   const double most = std::floor((1.0 - 1e-9) / (sigma * (1.0 + margin_)));
-  if (most < 5.0 || (options_.cells == 0 && n_ > crowded[std::min(D, 4)] * std::pow(most, D))) return false;
-  const double side = std::max(5.0, std::min(most, std::floor(std::pow(n_ / fastest, 1.0 / D))));
+  if (most < 5.0 || (options_.cells == 0 && n_ > crowded[std::min(D, 4)] * math::pow(most, D))) return false;
+  const double side = std::max(5.0, std::min(most, std::floor(math::pow(n_ / fastest, 1.0 / D))));
   cells_ = static_cast<int64_t>(side);
   cell_range_ = 1;
   margin_ = std::min(0.2, (1.0 - 1e-9) / (sigma * side) - 1.0);  // the rest of the cell is space for growth

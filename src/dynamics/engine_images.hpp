@@ -1,6 +1,7 @@
 // The engine in a cell that is no cube: cells along the cell vectors find the candidates of a list with their images. A
 // small cube has few spheres, and the Mari-Kurchan model has lists of its own: both look at all partners.
 #pragma once
+#include "core/math.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -13,7 +14,7 @@ void Engine<D, Shift>::choose_image_cells() {
   image_range_.fill(0);
   if (lattice_.cube() || quenched_) return;
   const double reach = 2.0 * rho_max_ * unit * (1.0 + 1e-9);  // places are known to 1e-15 of the cell
-  const double most = std::floor(std::pow(4.0 * n_ + 64.0, 1.0 / D));
+  const double most = std::floor(math::pow(4.0 * n_ + 64.0, 1.0 / D));
   double best = n_;  // images cost twice the pairs of choose_cells
   for (int range = 1; range <= 3; ++range) {
     std::array<int64_t, D> cells, over;

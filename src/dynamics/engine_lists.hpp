@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/call_scope.hpp"
+#include "core/math.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -18,10 +19,10 @@ void Engine<D, Shift>::choose_cells() {
   double best = 0.5 * n_;  // in units of tune_shell
   for (int range = 1; range <= 3; ++range) {
     const auto side =
-        static_cast<int64_t>(std::min(std::floor(range / reach), std::floor(std::pow(4.0 * n_ + 64.0, 1.0 / D))));
+        static_cast<int64_t>(std::min(std::floor(range / reach), std::floor(math::pow(4.0 * n_ + 64.0, 1.0 / D))));
     if (side < 2 * range + 1) continue;
-    const double looked_cells = std::pow(2.0 * range + 1.0, D);
-    const double cost = looked_cells * 0.5 * (1.0 + n_ / std::pow(static_cast<double>(side), D));
+    const double looked_cells = math::pow(2.0 * range + 1.0, D);
+    const double cost = looked_cells * 0.5 * (1.0 + n_ / math::pow(static_cast<double>(side), D));
     if (side * reach > range) continue;
     if (cost < best) best = cost, cells_ = side, cell_range_ = range;
   }
@@ -100,9 +101,9 @@ bool Engine<D, Shift>::tune_shell() {
   for (int32_t m : neighbours_) length += m;
   length /= n_;
   const auto cost = [&, now = shell_](double shell) {
-    const double more = std::pow((1.0 + 2.0 * shell) / (1.0 + 2.0 * now), D);
+    const double more = math::pow((1.0 + 2.0 * shell) / (1.0 + 2.0 * now), D);
     return 2.0 * (14.0 + more * length) +
-           x * std::pow(now / shell, 1.6) * (30.0 + 4.0 * more * length + (Shift ? 1.0 : more) * search_cost_);
+           x * math::pow(now / shell, 1.6) * (30.0 + 4.0 * more * length + (Shift ? 1.0 : more) * search_cost_);
   };
   // A gain below 3 % does not pay for making all lists again.
   double best = 0.97 * cost(shell_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/math.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -66,7 +67,7 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     // A sphere touches its own image, or the largest contact distance reaches the shortest lattice vector.
     full_time_ = (0.5 * scale * lattice_.shortest() / (largest * reach_factor_) - 1.0) / rate_;
     if (o.target_fraction < never) {
-      target_radius_ = static_cast<double>(body_[0].radius) * std::pow(o.target_fraction / fraction, 1.0 / D);
+      target_radius_ = static_cast<double>(body_[0].radius) * math::pow(o.target_fraction / fraction, 1.0 / D);
       fraction_time_ = (target_radius_ / static_cast<double>(body_[0].radius) - 1.0) / rate_;
     }
   }

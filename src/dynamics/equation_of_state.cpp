@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/math.hpp"
 
 namespace jam {
 
@@ -16,11 +17,11 @@ double equation_of_state(int32_t form, int32_t dim, double f, double jammed) {
     fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be below 1", f);
   switch (form) {
     case JAM_EOS_CARNAHAN_STARLING:
-      return (1 + f + f * f - f * f * f) / std::pow(1 - f, 3);
+      return (1 + f + f * f - f * f * f) / math::pow(1 - f, 3);
     case JAM_EOS_PY_VIRIAL:
       return (1 + 2 * f + 3 * f * f) / ((1 - f) * (1 - f));
     case JAM_EOS_PY_COMPRESSIBILITY:
-      return (1 + f + f * f) / std::pow(1 - f, 3);
+      return (1 + f + f * f) / math::pow(1 - f, 3);
     case JAM_EOS_VIRIAL:
       return 1 + f * (4 + f * (10 + f * (18.365 + f * (28.224 + f * (39.82 + f * 53.34)))));
     case JAM_EOS_MK:

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "core/rng.hpp"
 
 namespace jam {
@@ -61,7 +62,7 @@ Isoconfigurational::Isoconfigurational(const Packing &p, bool jammed, const jam_
 
 void Isoconfigurational::take_diameters() {
   if (plan_.options.density_ratio != 1.0) {
-    const double factor = std::pow(plan_.options.density_ratio, 1.0 / plan_.start.dim);
+    const double factor = math::pow(plan_.options.density_ratio, 1.0 / plan_.start.dim);
     for (double &s : plan_.start.diameter) s *= factor;
   }
   plan_.length = diameter_mean(plan_.start) / plan_.start.cell.side();

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "dynamics/isoconfigurational.hpp"
 
 namespace jam {
@@ -103,7 +104,7 @@ void take_moments(const RunPlan &plan, size_t m, RunRecord &record) {
     double r2 = 0.0;
     for (size_t c = 0; c < d; ++c) {
       r2 += x[i * d + c] * x[i * d + c];
-      scattering += std::cos(q * x[i * d + c]);
+      scattering += math::cos(q * x[i * d + c]);
     }
     msd += r2;
     near += r2 < reach * reach;

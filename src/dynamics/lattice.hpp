@@ -32,7 +32,9 @@ struct Units<true> {
       for (int k = c; k < cell.dim(); ++k) width += std::fabs(cell.row(k)[c]) / cell.side();
       widest = std::max(widest, width);
     }
-    return std::exp2(62.0 - std::ceil(std::log2(widest + longest_distance)));
+    int power;  // the next power of two
+    if (std::frexp(widest + longest_distance, &power) == 0.5) --power;
+    return std::ldexp(1.0, 62 - power);
   }
 };
 

@@ -7,6 +7,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 
 namespace jam {
@@ -106,15 +107,15 @@ double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
     const double share =
         tried ? static_cast<double>(mc->counts.moved - before.moved) / static_cast<double>(tried) : 1.0;
     // Acceptance falls about exponentially with the step.
-    const double factor = std::log(std::max(share, 1e-3)) / std::log(o.acceptance);
+    const double factor = math::log(std::max(share, 1e-3)) / math::log(o.acceptance);
     step = std::min(largest,
-                    step * std::min(2.0, std::max(0.3, std::pow(std::max(factor, 1e-3), k < coarse ? -1.0 : -0.5))));
+                    step * std::min(2.0, std::max(0.3, math::pow(std::max(factor, 1e-3), k < coarse ? -1.0 : -0.5))));
     if (step < smallest)
       fail(JAM_E_ARGUMENT, "no step above %g mean diameters is accepted: the spheres are in contact", smallest);
     mc->set_step(step * length);
-    if (k >= coarse) mean_log += std::log(step) / fine;
+    if (k >= coarse) mean_log += math::log(step) / fine;
   }
-  return std::min(largest, std::exp(mean_log));
+  return std::min(largest, math::exp(mean_log));
 }
 
 }  // namespace jam

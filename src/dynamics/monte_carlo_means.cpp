@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math.hpp"
 #include "dynamics/monte_carlo.hpp"
 
 namespace jam {
@@ -39,7 +40,7 @@ double density_at_contact(const std::vector<double> &count, double h_max) {
   for (size_t k = 0; k < count.size(); ++k) {
     if (!(count[k] > 0.0)) continue;
     const double h = (static_cast<double>(k) + 0.5) / static_cast<double>(count.size());
-    const double basis[3] = {1.0, h, h * h}, y = std::log(count[k] / width);
+    const double basis[3] = {1.0, h, h * h}, y = math::log(count[k] / width);
     for (int a = 0; a < 3; ++a) {
       for (int b = 0; b < 3; ++b) m[a][b] += count[k] * basis[a] * basis[b];
       m[a][3] += count[k] * basis[a] * y;
@@ -53,7 +54,7 @@ double density_at_contact(const std::vector<double> &count, double h_max) {
       for (int c = 0; c < 4; ++c) m[b][c] -= factor * m[a][c];
     }
   }
-  return std::exp(m[0][3] / m[0][0]);
+  return math::exp(m[0][3] / m[0][0]);
 }
 
 constexpr size_t parts = 20;  // of a run, for the errors of its means

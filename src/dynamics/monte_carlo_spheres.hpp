@@ -5,6 +5,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "dynamics/monte_carlo.hpp"
 #include "dynamics/monte_carlo_cells.hpp"
@@ -105,8 +106,8 @@ class MonteCarloSpheres : public MonteCarlo {
     ++counts.lists;
     found_.clear();
     const auto cells = static_cast<int64_t>(geometry_.height() / list_range());
-    if (cells >= 4 && std::pow(3.0, D) < n_)
-      find_in_cells(std::min<int64_t>(cells, static_cast<int64_t>(std::pow(2.0 * n_, 1.0 / D)) + 1));
+    if (cells >= 4 && math::pow(3.0, D) < n_)
+      find_in_cells(std::min<int64_t>(cells, static_cast<int64_t>(math::pow(2.0 * n_, 1.0 / D)) + 1));
     else
       for (int32_t i = 0; i < n_; ++i) {
         look_at_limits(i);
@@ -165,9 +166,9 @@ class MonteCarloSpheres : public MonteCarlo {
   void choose_cells() {
     cells_.clear();
     const auto side = static_cast<int64_t>(geometry_.height() / contact_max_);
-    if (hard_ && step_ > longest_step_of_lists * contact_max_ && side >= 4 && std::pow(3.0, D) < n_)
-      cells_.build(x_,
-                   static_cast<size_t>(std::min<int64_t>(side, static_cast<int64_t>(std::pow(2.0 * n_, 1.0 / D)) + 1)));
+    if (hard_ && step_ > longest_step_of_lists * contact_max_ && side >= 4 && math::pow(3.0, D) < n_)
+      cells_.build(
+          x_, static_cast<size_t>(std::min<int64_t>(side, static_cast<int64_t>(math::pow(2.0 * n_, 1.0 / D)) + 1)));
   }
   // Longest distance at which a pair is listed, of all pairs and of this one. With swaps any two spheres can get the
   // largest diameters.

@@ -1,6 +1,7 @@
 // The Metropolis trials: energies, moves and swaps. One file a dimension compiles them, monte_carlo_2d.cpp to
 // monte_carlo_8d.cpp.
 #pragma once
+#include "core/math.hpp"
 #include "core/pair_energy.hpp"
 #include "core/rng.hpp"
 #include "dynamics/monte_carlo_spheres.hpp"
@@ -116,7 +117,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
   }
   bool accept(double energy_change, uint64_t base) const {
     if (energy_change <= 0.0) return true;
-    return Soft && uniform(base, 8) < std::exp(-energy_change * inverse_temperature_);
+    return Soft && uniform(base, 8) < math::exp(-energy_change * inverse_temperature_);
   }
 
   void try_move(int32_t i, uint64_t base) {

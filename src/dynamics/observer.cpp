@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
@@ -112,7 +113,7 @@ Observer::Observer(const Packing &p, const jam_observe_options &o)
   if (o.gap_bins > 0) {
     std::vector<double> edge{0.0};
     for (int32_t k = 0; k < o.gap_bins; ++k)
-      edge.push_back(o.gap_min * std::pow(o.gap_max / o.gap_min, static_cast<double>(k) / (o.gap_bins - 1)));
+      edge.push_back(o.gap_min * math::pow(o.gap_max / o.gap_min, static_cast<double>(k) / (o.gap_bins - 1)));
     gaps_.start(std::move(edge));
   }
   if (o.r_bins > 0) {
@@ -188,17 +189,18 @@ std::vector<double> Observer::sample_gaps(const Packing &p) const {
   }
   std::vector<double> moment(dim_ + 1, 0.0);
   for (double s : p.diameter)
-    for (size_t m = 0; m <= dim_; ++m) moment[m] += std::pow(s / p.cell.side(), static_cast<double>(m)) / n_;
+    for (size_t m = 0; m <= dim_; ++m) moment[m] += math::pow(s / p.cell.side(), static_cast<double>(m)) / n_;
   double mean = 0.0, choose = 1.0;
   for (size_t m = 0; m <= dim_; ++m) {
-    mean += choose * moment[m] * moment[dim_ - m] * std::pow(0.5, static_cast<double>(dim_));
+    mean += choose * moment[m] * moment[dim_ - m] * math::pow(0.5, static_cast<double>(dim_));
     choose *= static_cast<double>(dim_ - m) / static_cast<double>(m + 1);
   }
   const double ideal =
-                   0.5 * n_ * (n_ - 1.0) * mean * unit_sphere_volume(p.dim) * std::pow(2.0, static_cast<double>(dim_)),
+                   0.5 * n_ * (n_ - 1.0) * mean * unit_sphere_volume(p.dim) * math::pow(2.0, static_cast<double>(dim_)),
                d = static_cast<double>(dim_);
   for (size_t k = 0; k < density.size(); ++k)
-    density[k] /= ideal * (std::expm1(d * std::log1p(gaps_.edge[k + 1])) - std::expm1(d * std::log1p(gaps_.edge[k])));
+    density[k] /=
+        ideal * (math::expm1(d * math::log1p(gaps_.edge[k + 1])) - math::expm1(d * math::log1p(gaps_.edge[k])));
   return density;
 }
 
@@ -213,9 +215,9 @@ std::vector<double> Observer::sample_correlation(const Packing &p) const {
     if (bin < density.size()) density[bin] += 1.0;
   }
   const double d = static_cast<double>(dim_);
-  const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * std::pow(2.0 * sigma / p.cell.side(), d);
+  const double ideal = 0.5 * n_ * (n_ - 1.0) * unit_sphere_volume(p.dim) * math::pow(2.0 * sigma / p.cell.side(), d);
   for (size_t k = 0; k < density.size(); ++k)
-    density[k] /= ideal * (std::pow(correlation_.edge[k + 1], d) - std::pow(correlation_.edge[k], d));
+    density[k] /= ideal * (math::pow(correlation_.edge[k + 1], d) - math::pow(correlation_.edge[k], d));
   return density;
 }
 

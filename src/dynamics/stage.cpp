@@ -5,6 +5,7 @@
 
 #include "core/create.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "core/rng.hpp"
 #include "dynamics/pressure.hpp"
 
@@ -73,7 +74,7 @@ Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage),
   const bool scaled = std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12;
   if (growing() && (drawn || !scaled)) scale_velocities(p_);
   growth_ = stage_.growth;
-  if (stage_.relative) growth_ *= diameter_mean(p_) / p_.cell.side() * std::pow(n_, 1.0 / p_.dim);
+  if (stage_.relative) growth_ *= diameter_mean(p_) / p_.cell.side() * math::pow(n_, 1.0 / p_.dim);
   take_limits(stage.limits());
   if (p_.overlap_allowed) refuse_overlaps(p_, 1e-10);
   engine_ = make_engine(p_, options());
@@ -235,10 +236,10 @@ void Stage::slow_down() {
   if (!(stage_.growth_end > 0.0) || !(pressure_ > 1.0)) return;
   if (first_pressure_ == 0.0) first_pressure_ = pressure_;
   if (stage_.pressure <= first_pressure_) return;
-  const double part =
-      std::min(1.0, std::max(0.0, std::log(pressure_ / first_pressure_) / std::log(stage_.pressure / first_pressure_)));
-  double wanted = stage_.growth * std::pow(stage_.growth_end / stage_.growth, part);
-  if (stage_.relative) wanted *= engine_->mean_diameter() * std::pow(n_, 1.0 / p_.dim);
+  const double part = std::min(
+      1.0, std::max(0.0, math::log(pressure_ / first_pressure_) / math::log(stage_.pressure / first_pressure_)));
+  double wanted = stage_.growth * math::pow(stage_.growth_end / stage_.growth, part);
+  if (stage_.relative) wanted *= engine_->mean_diameter() * math::pow(n_, 1.0 / p_.dim);
   if (std::fabs(wanted / engine_->growth() - 1.0) < 0.02) return;  // a change by noise alone
   growth_ = wanted;
   engine_->set_growth(wanted);

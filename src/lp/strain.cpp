@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math.hpp"
+
 namespace jam {
 
 StrainBasis strain_basis(int dim, bool edges, bool tilts) {
@@ -50,7 +52,7 @@ void strain_at_fixed_volume(Packing &p, PairList &pairs, const std::vector<doubl
   const int d = p.dim;
   double volume = 1.0;
   for (int c = 0; c < d; ++c) volume *= 1.0 + strain[c * (d + 1)];
-  const double back = std::pow(volume, -1.0 / d);
+  const double back = math::pow(volume, -1.0 / d);
   const auto deform = [&](double *x) {  // upper-triangular: component a needs those from a on
     for (int a = 0; a < d; ++a) {
       double sum = x[a];

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math.hpp"
+
 namespace jam {
 namespace {
 
@@ -36,7 +38,7 @@ bool CentralPath::step() {
   std::vector<double> df, dw, dx, correction(m, 0.0);
   direction(0.0, correction, df, dw, dx);
   const double reach = std::min(longest(f_, df), longest(w_, dw));
-  const double target = mu_ * std::max(1e-3, std::min(0.95, std::pow(1.0 - reach, 2.0)));
+  const double target = mu_ * std::max(1e-3, std::min(0.95, math::pow(1.0 - reach, 2.0)));
   for (size_t k = 0; k < m; ++k)
     correction[k] = std::max(-10.0 * target, std::min(0.9 * target, -reach * reach * df[k] * dw[k]));
   direction(target, correction, df, dw, dx);

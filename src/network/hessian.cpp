@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include "core/error.hpp"
+#include "core/math.hpp"
 
 namespace jam {
 
@@ -54,7 +55,7 @@ ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const
     for (size_t k = 0; k < g.contacts(); ++k) {
       if (!(g.force[k] > 0.0) && exponent < 0.0)
         fail(JAM_E_STATE, "contact %zu has force %g: its stiffness f^%g is not finite", k, g.force[k], exponent);
-      w.stiffness[k] = std::pow(std::max(g.force[k], 0.0), exponent);
+      w.stiffness[k] = math::pow(std::max(g.force[k], 0.0), exponent);
     }
   if (o.prestress > 0.0) {
     w.transverse.resize(g.contacts());

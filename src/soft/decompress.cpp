@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "soft/decompression.hpp"
 #include "soft/soft_hessian.hpp"
 
@@ -86,7 +87,7 @@ void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
   const std::vector<char> on = stable_contacts(state, contacts);
   SoftHessian hessian;
   if (!hessian.factorise(state, contacts, on, 0.0, factorisations)) {
-    state.scale_diameters(std::exp(growth));
+    state.scale_diameters(math::exp(growth));
     return;
   }
   std::vector<double> u(state.n() * d, 0.0);
@@ -110,12 +111,12 @@ void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
   // The linear answer holds while few contacts change: the part of it that lowers the energy most.
   std::vector<double> force;
   SoftState best = state;
-  best.scale_diameters(std::exp(growth));
+  best.scale_diameters(math::exp(growth));
   double least = best.evaluate(force).energy;
   for (const double part : {0.25, 0.5, 1.0}) {
     SoftState moved = state;
     for (size_t k = 0; k < u.size(); ++k) moved.displacement()[k] += part * u[k];
-    moved.scale_diameters(std::exp(growth));
+    moved.scale_diameters(math::exp(growth));
     const double energy = moved.evaluate(force).energy;
     if (!(energy < least)) continue;
     least = energy, best = moved;
@@ -184,13 +185,13 @@ class Decompression {
   // Smaller diameters and the minimum there. One that has lost its contacts, or was not found, is taken back.
   bool step() {
     ++effort_.steps;
-    const double fall = out_.soft.report.distance * (1.0 - std::pow(factor_, 1.0 / o_.alpha));
+    const double fall = out_.soft.report.distance * (1.0 - math::pow(factor_, 1.0 / o_.alpha));
     if (o_.minimiser == JAM_MINIMISER_NEWTON) {
       centre_rattlers(state_);
       state_.moved();
       follow_growth(state_, -fall, effort_.factorisations);
     } else {
-      state_.scale_diameters(std::exp(-fall));
+      state_.scale_diameters(math::exp(-fall));
     }
     SoftResult now;
     SoftRow row;

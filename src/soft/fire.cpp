@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math.hpp"
 #include "soft/relaxation.hpp"
 
 namespace jam {
@@ -27,7 +28,7 @@ DescentEnd fire(Relaxation &r, double tolerance) {
   // Masses go with the stiffness of a sphere's contacts, so that all spheres of a mixture take the same time step.
   std::vector<double> inverse_mass(state.blocks(), 1.0);
   if (state.energy().relative())
-    for (size_t i = 0; i < state.n(); ++i) inverse_mass[i] = std::pow(state.base().diameter[i] / mean, 2);
+    for (size_t i = 0; i < state.n(); ++i) inverse_mass[i] = math::pow(state.base().diameter[i] / mean, 2);
   std::vector<double> v(size, 0.0);
   double step = first_step, mixing = mixing_start;
   int downhill = 0;

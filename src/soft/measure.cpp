@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math.hpp"
 #include "soft/decompression.hpp"
 
 namespace jam {
@@ -64,7 +65,7 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   r.pressure = sums.virial / (d * state.base().cell.volume());
   r.packing_fraction = packing_fraction(state.base());
   r.distance = sums.distance(state.energy().alpha());
-  r.jammed_fraction = r.packing_fraction * std::pow(1.0 - r.distance, d);
+  r.jammed_fraction = r.packing_fraction * math::pow(1.0 - r.distance, d);
   r.coordination = r.stable > 0 ? 2.0 * count / static_cast<double>(r.stable) : 0.0;
   r.mean_overlap = r.contacts > 0 ? overlap / count : 0.0;
   return out;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/math.hpp"
+
 namespace jam {
 
 FreeCell free_cell_of(int dim, int32_t strain, int64_t components, double pressure) {
@@ -44,9 +46,9 @@ CellStrain strain_of(const FreeCell &cell, const double *amplitude) {
   s.slope = cell.matrices;
   for (size_t k = 0; k < count; ++k)
     for (size_t c = 0; c < block; ++c) s.e[c] += amplitude[k] * cell.matrices[k * block + c];
-  for (int c = 0; c < d; ++c) s.log_volume += std::log1p(s.e[c * (d + 1)]);
+  for (int c = 0; c < d; ++c) s.log_volume += math::log1p(s.e[c * (d + 1)]);
   if (cell.volume) return s;
-  const double less = std::expm1(-s.log_volume / d), lambda = 1.0 + less;
+  const double less = math::expm1(-s.log_volume / d), lambda = 1.0 + less;
   s.log_volume = 0.0;
   for (size_t k = 0; k < count; ++k) {
     double *slope = &s.slope[k * block], trace = 0.0;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/cancellation.hpp"
+#include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
-#include "linalg/double_double.hpp"
 #include "network/rattlers.hpp"
 
 namespace jam {

@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/double_double.hpp"
 #include "core/packing.hpp"
 #include "core/pair_energy.hpp"
 #include "core/pairs.hpp"
-#include "linalg/double_double.hpp"
 #include "soft/soft_cell.hpp"
 
 namespace jam {

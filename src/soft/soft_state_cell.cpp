@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math.hpp"
 #include "soft/soft_state.hpp"
 
 namespace jam {
@@ -29,13 +30,13 @@ void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::ve
   const int d = base_.dim;
   const size_t block = stress.size();
   const double volume = base_.cell.volume(), p_v = cell_.volume ? cell_.pressure * volume : 0.0;
-  sums.work = at_.work + p_v * std::expm1(strain.log_volume);
+  sums.work = at_.work + p_v * math::expm1(strain.log_volume);
   for (size_t k = 0; k < strains(); ++k) {
     const double *slope = &strain.slope[k * block];
     double f = 0.0;
     for (size_t c = 0; c < block; ++c) f += slope[c] * stress[c];
     for (int c = 0; cell_.volume && c < d; ++c)
-      f -= p_v * std::exp(strain.log_volume) * slope[c * (d + 1)] / (1.0 + strain.e[c * (d + 1)]);
+      f -= p_v * math::exp(strain.log_volume) * slope[c * (d + 1)] / (1.0 + strain.e[c * (d + 1)]);
     force[spheres() + k] = f;
     const double most = cell_.volume ? std::max(p_v, sums.virial / d) : sums.virial / d;
     sums.stress = std::max(sums.stress, most > 0.0 ? std::fabs(f) / (amplitude_unit_ * most) : 0.0);
@@ -47,7 +48,7 @@ void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::ve
 std::vector<double> SoftState::fold_strain() {
   const int d = base_.dim;
   const CellStrain s = strain();
-  if (cell_.volume) at_.work += cell_.pressure * base_.cell.volume() * std::expm1(s.log_volume);
+  if (cell_.volume) at_.work += cell_.pressure * base_.cell.volume() * math::expm1(s.log_volume);
   std::vector<double> rows = base_.cell.rows(), rest(rows.size(), 0.0);
   double widest = 0.0;
   for (const double x : rows) widest = std::max(widest, std::fabs(x));

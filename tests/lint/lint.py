@@ -202,6 +202,26 @@ def no_side_effects():
                 problem(path, number, f"mutable state of the process: {line.strip()}")
 
 
+def own_math():
+    """Elementary functions whose bits depend on the C library and on the processor are called in tests alone; what C
+    rounds exactly (sqrt, floor, ldexp, ...) is free."""
+    names = (
+        "log2|log10|log1p|exp|exp2|expm1|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh"
+        "|erf|erfc|tgamma|lgamma|fma"
+    )  # and log, which is a member of Monitor too
+    inexact = rf"(?:(?:std::|__builtin_)(?:log|{names})|(?<![\w.>:])(?:{names}))[fl]?\s*\("
+    random = r"std::(?:normal|lognormal|exponential|gamma|uniform_real|uniform_int)_distribution|std::shuffle"
+    if not re.search(inexact, "x = std::pow(2, 3);") or re.search(inexact, "x = math::pow(2, 3); log(1);"):
+        problem("tests/lint/lint.py", 0, "this rule is broken")
+    for path in files("src/**/*.[ch]pp"):
+        own = re.match(r"src/core/math\.[ch]pp", str(path.relative_to(root)))
+        for number, line in enumerate(without_comments(path.read_text()).splitlines(), 1):
+            for pattern in (inexact, random):
+                found = re.search(pattern, line)
+                if found and not own:
+                    problem(path, number, f"{found.group(0)}...) has other bits elsewhere; core/math.hpp has its own")
+
+
 def plain_words():
     """Text files are ASCII (Python: but for labels) without trailing blanks, and speak of nobody's machine."""
     for path in files(
@@ -306,7 +326,8 @@ def columns():
                 problem(path, number, f"{len(line)} columns, 120 are allowed")
 
 
-RULES = [layers, private_headers, doc_comments, names, file_sizes, no_side_effects, plain_words, sentence_length, columns]
+RULES = [layers, private_headers, doc_comments, names, file_sizes, no_side_effects, own_math]
+RULES += [plain_words, sentence_length, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):
         rule()

@@ -2,9 +2,9 @@
 #include <cmath>
 #include "test.h"
 
+#include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
 #include "core/rng.hpp"
-#include "linalg/double_double.hpp"
 #include "soft/soft_state.hpp"
 #include "unit/random_packing.hpp"
 

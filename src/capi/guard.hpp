@@ -9,6 +9,7 @@
 #include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
+#include "core/floating_point.hpp"
 #include "core/validate.hpp"
 
 namespace jam {
@@ -20,11 +21,19 @@ inline const char *why(const Answer &answer) {
   return answer.text.empty() ? meaning_of(answer.status) : answer.text.c_str();
 }
 
-// Runs f() and maps what it throws to a status and text. f returns jam_status or Answer.
+// Not inlined, so that the compiler moves no computation of f out of the environment that guard sets.
+template <class F>
+[[gnu::noinline]] Answer compute(F &f) {
+  return f();
+}
+
+// Runs f() in libjam's floating-point environment and maps what it throws to a status and text. f returns jam_status
+// or Answer.
 template <class F>
 jam_status guard(F &&f) noexcept {
+  const FloatingPoint own;
   try {
-    const Answer answer = f();
+    const Answer answer = compute(f);
     if (answer.status != JAM_OK) set_last_error(why(answer));
     return answer.status;
   } catch (const Error &e) {

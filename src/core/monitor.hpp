@@ -6,6 +6,8 @@
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
+
+#include "core/floating_point.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -43,6 +45,7 @@ class Monitor {
     p.struct_size = sizeof p;
     p.seconds = t - start_;
     last_report_ = p;
+    const FloatingPoint::OfHost its_own;
     if (progress(&p, progress_user) != 0) cancel();
     return cancelled();
   }
@@ -66,6 +69,7 @@ class Monitor {
     va_start(args, format);
     std::vsnprintf(line, sizeof line, format, args);
     va_end(args);
+    const FloatingPoint::OfHost its_own;
     log_fn(level, line, log_user);
   }
 

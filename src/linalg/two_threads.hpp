@@ -1,12 +1,12 @@
 // Work in two parts, side by side when the host allowed two threads; and long work during which a callback is told.
 #pragma once
 #include <chrono>
-#include <functional>
 #include <future>
 #include <system_error>
 #include <thread>
 
 #include "core/call_scope.hpp"
+#include "core/floating_point.hpp"
 
 namespace jam {
 
@@ -16,7 +16,10 @@ template <class Work>
 void on_two_threads(const Work &work) {
   std::thread other;
   try {
-    other = std::thread([&work] { work(1); });
+    other = std::thread([&work, host = FloatingPoint::host()] {
+      const FloatingPoint of_call(host);
+      work(1);
+    });
   } catch (const std::system_error &) {
     work(1);
   }
@@ -32,7 +35,10 @@ void while_telling(const Work &work) {
   if (!CallScope::can_tell()) return work();
   std::future<void> done;
   try {
-    done = std::async(std::launch::async, std::cref(work));
+    done = std::async(std::launch::async, [&work, host = FloatingPoint::host()] {
+      const FloatingPoint of_call(host);
+      work();
+    });
   } catch (const std::system_error &) {
     return work();
   }

@@ -10,6 +10,8 @@
 #include <immintrin.h>
 #endif
 
+#include "core/byte_order.hpp"
+
 #define JAM_SIMD_INLINE JAM_SIMD_TARGET __attribute__((always_inline)) inline
 #pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses the border of a file
 
@@ -110,10 +112,13 @@ JAM_SIMD_INLINE void transpose(Double4 &a, Double4 &b, Double4 &c, Double4 &d) {
 
 // The upper 32 bits of each lane, those of a first.
 JAM_SIMD_INLINE UnsignedInt8 upper_halves(const Unsigned4 &a, const Unsigned4 &b) {
+  constexpr int u = lowest_byte_first ? 1 : 0;  // the first upper half among the halves in memory
 #if defined(__clang__) || __GNUC__ >= 12
-  return __builtin_shufflevector((UnsignedInt8)a, (UnsignedInt8)b, 1, 3, 5, 7, 9, 11, 13, 15);
+  return __builtin_shufflevector((UnsignedInt8)a, (UnsignedInt8)b, u, u + 2, u + 4, u + 6, u + 8, u + 10, u + 12,
+                                 u + 14);
 #else
-  return __builtin_shuffle((UnsignedInt8)a, (UnsignedInt8)b, UnsignedInt8{1, 3, 5, 7, 9, 11, 13, 15});
+  return __builtin_shuffle((UnsignedInt8)a, (UnsignedInt8)b,
+                           UnsignedInt8{u, u + 2, u + 4, u + 6, u + 8, u + 10, u + 12, u + 14});
 #endif
 }
 

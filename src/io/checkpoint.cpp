@@ -1,4 +1,5 @@
-// Checkpoint: magic, header, arrays, checksum; little endian, as every machine that libjam is built for.
+// Checkpoint: magic, header, arrays, checksum, all as they lie in memory. A machine with the other order of bytes
+// refuses the file.
 #include "io/checkpoint.hpp"
 
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/byte_order.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -131,6 +133,12 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0)
     fail(JAM_E_FORMAT, "%s is no checkpoint of libjam", path);
   std::memcpy(&h, all.data(), sizeof h);
+  const int32_t other_dim = with_bytes_reversed(h.dim);
+  if (other_dim >= 2 && other_dim <= JAM_MAX_DIM)
+    fail(JAM_E_FORMAT,
+         "%s was written on a machine with the other order of bytes: write the packing as text there, that reads "
+         "anywhere",
+         path);
   uint64_t sum = 0;
   std::memcpy(&sum, all.data() + all.size() - 8, 8);
   if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/byte_order.hpp"
 #include "core/error.hpp"
 #include "io/output_file.hpp"
 #include "io/text.hpp"
@@ -46,7 +47,7 @@ void put_numbers(OutputFile &file, const T *values, size_t count) {
   for (size_t k = 0; k < size; k += 3) {
     const size_t have = size - k < 3 ? size - k : 3;
     unsigned word = 0;
-    for (size_t b = 0; b < 3; ++b) word = word << 8 | (b < have ? bytes[k + b] : 0u);
+    for (size_t b = 0; b < 3; ++b) word = word << 8 | (b < have ? bytes[byte_in_memory<T>(k + b)] : 0u);
     for (size_t b = 0; b < 4; ++b) out += b <= have ? digit[word >> (18 - 6 * b) & 63u] : '=';
     file.flush_if_full();
   }

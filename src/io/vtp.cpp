@@ -1,14 +1,16 @@
 #include "io/vtp.hpp"
 
-#include <cstring>
 #include <numeric>
+
+#include "core/byte_order.hpp"
 
 namespace jam {
 
 template <class T>
 VtpFile::Array VtpFile::array(const char *name, const std::vector<T> &values, int components) {
   Array made{name, std::is_integral<T>::value, components, std::string(values.size() * sizeof(T), '\0')};
-  if (!values.empty()) std::memcpy(&made.bytes[0], values.data(), made.bytes.size());
+  const char *memory = reinterpret_cast<const char *>(values.data());
+  for (size_t k = 0; k < made.bytes.size(); ++k) made.bytes[k] = memory[byte_in_memory<T>(k)];
   return made;
 }
 
@@ -61,10 +63,7 @@ void VtpFile::write(OutputFile &file) const {
   for (const Array &a : cell_data_) announce(a);
   out += "</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
   for (const Array *a : order) {
-    const uint64_t size = a->bytes.size();
-    char head[sizeof size];
-    std::memcpy(head, &size, sizeof size);
-    out.append(head, sizeof head);
+    out += array("", std::vector<int64_t>{static_cast<int64_t>(a->bytes.size())}, 1).bytes;
     out += a->bytes;
     file.flush_if_full();
   }

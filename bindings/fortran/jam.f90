@@ -1143,7 +1143,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_abi_version
 
-    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1
+    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another library is loaded before it and
+    ! computes in its place: the file of that library. Static storage. Threads: any. @since 0.1
     function jam_blas_kernel() &
         bind(c, name="jam_blas_kernel") result(status)
       import
@@ -3224,7 +3225,7 @@ contains
   end function jam_checkpoint_write
 
   ! Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-  ! damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+  ! damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
   function jam_checkpoint_read(path, out) result(status)
     character(*), intent(in) :: path
     type(c_ptr), intent(out) :: out

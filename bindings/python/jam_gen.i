@@ -310,7 +310,8 @@ that they touch, N' their number. @since 0.1"
 %feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" where the build knew
 none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
-%feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". Static storage. Threads: any. @since 0.1"
+%feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". If another library is loaded before it and
+computes in its place: the file of that library. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_last_error "Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; \"\" when none.
@@ -424,7 +425,7 @@ another name and then renamed. Dynamics that go on from it make the same bits as
 begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
 Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
+damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
 dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress

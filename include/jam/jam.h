@@ -52,11 +52,14 @@
  * - The same seed, build, options and processor give the same packing bit for bit on one
  *   thread. On another processor OpenBLAS may choose another kernel (jam_blas_kernel), whose
  *   sums round otherwise. Then a crunch can end at another jamming point. The variable
- *   OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo do not
- *   depend on it.
+ *   OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo give the
+ *   same bits on every processor.
  * - While a call factorises a matrix, OpenBLAS has one thread in the whole process. Its number
  *   of before is put back afterwards. Host threads that use OpenBLAS meanwhile run on one
  *   thread each.
+ * - Calls compute in the floating-point environment that C programs start with. The host's
+ *   (rounding, traps, flags, denormal numbers) is back after each call, and in callbacks.
+ * - A thread that calls libjam needs a stack of 256 kB, and what its callbacks use.
  *
  * Trust
  * - Files, checkpoints, arrays and options are checked before use. None of them can do more
@@ -158,8 +161,8 @@ JAM_API const char *jam_version(void);
 JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
 JAM_API int32_t jam_abi_version(void);
-/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1
- */
+/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another library is loaded before it and
+ * computes in its place: the file of that library. Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_blas_kernel(void);
 /* One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_status_string(jam_status code);
@@ -520,7 +523,7 @@ JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, 
  * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
 /* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
- * damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
+ * damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
 
 /* What jam_observe records. @since 0.1 */

@@ -48,18 +48,22 @@ struct Blas<float> {
   static constexpr auto trsv = strsv_;
 };
 
-// Name of the kernel in use: the bits of sums depend on it.
+// Name of the kernel in use: the bits of sums depend on it. The file of the library where it is not OpenBLAS.
 const char *blas_kernel();
 
 // While at least one lives, OpenBLAS runs single-threaded whatever the host set: blocks are small, libjam brings its
 // own threads, and the bits must not depend on the host. OpenBLAS keeps that number per process, so this is the one
 // place where libjam touches process-wide state; the last one out puts the host's number back.
+// threads: of libjam that call BLAS side by side. Throws std::bad_alloc where OpenBLAS would find no memory for them.
 class BlasSingleThread {
  public:
-  BlasSingleThread();
+  explicit BlasSingleThread(int threads = 1);
   ~BlasSingleThread();
   BlasSingleThread(const BlasSingleThread &) = delete;
   BlasSingleThread &operator=(const BlasSingleThread &) = delete;
+
+ private:
+  const int more_;  // than guards around this one have counted
 };
 
 }  // namespace jam

@@ -141,7 +141,7 @@ void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *dia
 }
 
 int BlockCholesky::factorise(const double *diag, const double *off, Precision precision) {
-  const BlasSingleThread alone;
+  const BlasSingleThread alone(threads_);
   precision_ = precision;
   return precision == Precision::single ? factorise_as<float>(diag, off) : factorise_as<double>(diag, off);
 }
@@ -241,7 +241,7 @@ void BlockCholesky::solve_as(double *x, int nrhs) const {
 }
 
 void BlockCholesky::solve_many(double *x, int nrhs) const {
-  const BlasSingleThread alone;
+  const BlasSingleThread alone(threads_);
   precision_ == Precision::single ? solve_as<float>(x, nrhs) : solve_as<double>(x, nrhs);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/blas.hpp"
 #include "lp/packing_lp.hpp"
 
 namespace jam {
@@ -114,6 +115,7 @@ class PackingModel {
   bool usable = false;
 
  private:
+  const BlasSingleThread single_;  // Clp's dense part calls LAPACK
   const PackingLp &lp_;
   const double scale_;
   CoinMessageHandler silent_;

@@ -846,7 +846,8 @@ function jam_abi_version()
 end
 
 """
-Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". Static storage. Threads: any. @since 0.1
+Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another library is loaded before it and
+computes in its place: the file of that library. Static storage. Threads: any. @since 0.1
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())
@@ -1170,7 +1171,7 @@ end
 
 """
 Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-damaged), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_read(path, out)
     return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)

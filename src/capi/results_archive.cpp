@@ -81,11 +81,11 @@ void check_history(const std::vector<HistoryRow> &history) {
 
 // The parts of a checkpoint that wait: bytes of their own, empty where there is nothing.
 struct Waiting {
-  std::string crunch, paused, runs;
+  std::string crunch, paused, runs, notes;
   int64_t sweeps = 0;
   bool has_results = false;
   void archive(Archive &a) {
-    jam::archive(a, crunch), jam::archive(a, paused), jam::archive(a, runs);
+    jam::archive(a, crunch), jam::archive(a, paused), jam::archive(a, runs), jam::archive(a, notes);
     a(sweeps), a(has_results);
   }
 };
@@ -123,6 +123,7 @@ std::string archive_beside(const SystemState &s, const Moving &moving) {
     w.paused = write_dynamics(moving.dynamics ? *moving.dynamics : *s.paused);
   if (s.runs) w.runs = write_dynamics(*s.runs);
   w.sweeps = s.sweeps;
+  w.notes = s.notes.text();
   w.has_results = !moves && (s.has_report || s.has_history || !s.soft_history.empty());
   Archive a;
   w.archive(a);
@@ -142,6 +143,7 @@ void read_beside(SystemState &s, std::string bytes) {
   if (w.has_results) s.results().archive(a, s.packing);
   a.end();
   s.sweeps = w.sweeps;
+  s.notes = Notes(std::move(w.notes));
   if (!w.crunch.empty()) s.crunch_paused = CrunchStage::of(w.crunch);
   if (!w.paused.empty()) s.paused = read_dynamics(s.packing, std::move(w.paused));
   if (w.runs.empty()) return;

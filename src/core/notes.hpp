@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 namespace jam {
 
@@ -10,6 +11,8 @@ namespace jam {
 class Notes {
  public:
   static constexpr const char *warning = "warning: ";
+  Notes() = default;
+  explicit Notes(std::string text) : text_(std::move(text)) {}
   __attribute__((format(printf, 2, 3))) void say(const char *format, ...) {
     va_list args;
     va_start(args, format);

@@ -278,6 +278,27 @@ static void observed_data_are_copied(void **state) {
   jam_destroy(sys);
 }
 
+/* What reading assumed is known of a copy and of a checkpoint, too. */
+static void notes_are_kept(void **state) {
+  const double x[4] = {0.5, 0.5, 0.5000001, 0.5}, sigma = 2e-7;
+  jam_create_options o;
+  jam_system *sys = NULL, *copy = NULL, *again = NULL;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = 2, o.n = 2, o.overlap = JAM_OVERLAP_SHRINK;
+  assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_OK);
+  assert_true(strlen(jam_notes(sys)) > 0);
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_string_equal(jam_notes(copy), jam_notes(sys));
+  assert_string_equal(jam_notes(again), jam_notes(sys));
+  jam_destroy(again);
+  jam_destroy(copy);
+  jam_destroy(sys);
+  remove(path);
+}
+
 /* Monte Carlo from a checkpoint draws the numbers that the handle itself would draw. */
 static void streams_go_on_after_a_checkpoint(void **state) {
   jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *again = NULL;
@@ -309,6 +330,7 @@ int main(void) {
       cmocka_unit_test(snapshots_have_no_old_results),
       cmocka_unit_test(observed_data_are_copied),
       cmocka_unit_test(streams_go_on_after_a_checkpoint),
+      cmocka_unit_test(notes_are_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

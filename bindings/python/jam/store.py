@@ -31,6 +31,7 @@ import time
 from dataclasses import fields, is_dataclass
 from enum import IntEnum
 from pathlib import Path
+from tempfile import gettempdir
 from typing import Any, Mapping
 
 import h5py
@@ -155,6 +156,18 @@ def _h5md(file: Any, system: System) -> None:
     edges["step"], edges["time"] = position["step"], position["time"]
 
 
+_MENDED = "Nothing that was finished is lost: mend this and run again"
+
+
+def _state(system: System) -> tuple[bytes, list[Any]]:
+    """The bytes of a checkpoint, which go through a file, and the calls."""
+    try:
+        found: tuple[bytes, list[Any]] = system.__reduce__()[1][:2]
+    except OSError as error:
+        raise StoreError(error.errno or 5, f"the state cannot be written below {gettempdir()}: {error}. {_MENDED}") from error
+    return found
+
+
 def image(
     system: System,
     *,
@@ -183,7 +196,7 @@ def image(
         group.attrs.update({"schema": SCHEMA, "seed": system.seed, "protocol": protocol_id, **provenance()})
         group.attrs["written"] = time.time()
         group.attrs.update(times or {})
-        state, calls = system.__reduce__()[1][:2]
+        state, calls = _state(system)
         carried = system._results()
         _put(group, "state", np.frombuffer(state, np.uint8))
         _put(group, "diameters", system.diameters)
@@ -213,11 +226,7 @@ def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLi
         with replacing(path, parts=parts) as file:
             file.write(data)
     except OSError as error:
-        raise StoreError(
-            error.errno,
-            f"{path} cannot be written: {error.strerror}. Nothing that was finished is lost: "
-            "mend this and run again",
-        ) from error
+        raise StoreError(error.errno, f"{path} cannot be written: {error.strerror}. {_MENDED}") from error
 
 
 def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:
@@ -363,12 +372,22 @@ def load(
         except errors.JamError as error:
             if isinstance(error, MemoryError):
                 raise
-            raise damaged(path, f"jam/state: {error}") from error
+            raise _unfit(path, f"jam/state: {error}", unverified) from error
         if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, jam["diameters"])):
-            raise damaged(path, "positions or diameters are not those of jam/state")
+            raise _unfit(path, "positions or diameters are not those of jam/state", unverified)
         if not same:
-            raise damaged(path, "contacts are not those of jam/state")
+            raise _unfit(path, "contacts are not those of jam/state", unverified)
         return made
+
+
+def _unfit(path: Any, what: str, unverified: bool) -> StoreError:
+    """The error for a file whose parts do not fit each other."""
+    if not unverified:
+        return damaged(path, what)
+    return StoreError(
+        22,
+        f"{path}: {what}. h5py reads its arrays, and System.from_arrays takes positions, diameters and cell vectors",
+    )
 
 
 def _read(node: Any) -> Any:

@@ -308,9 +308,9 @@ module jam
     integer(c_int32_t) :: reserved = 0
     ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same
     real(c_double) :: non_additivity = 0
-    ! seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT
+    ! seconds to read a file, for a random start and the search for overlaps, > 0, default infinity: then JAM_LIMIT
     real(c_double) :: wall_time = 0
-    ! as jam_set_memory_limit; default 0: half the machine's memory
+    ! as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     real(c_double) :: memory_limit = 0
     ! of a file with several packings, from 0, or from the end where negative; default -1, the last
     integer(c_int64_t) :: frame = 0
@@ -1255,7 +1255,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_scale_diameters
 
-    ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
+    ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
+    ! long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
+    ! on its handle do not. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
     function jam_set_progress(sys, callback, user) &
         bind(c, name="jam_set_progress") result(status)
@@ -1278,8 +1280,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_log
 
-    ! Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
-    ! stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1
+    ! Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
+    ! stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
+    ! 0.1
     function jam_cancel(sys) &
         bind(c, name="jam_cancel") result(status)
       import
@@ -1287,10 +1290,11 @@ module jam
       integer(c_int32_t) :: status
     end function jam_cancel
 
-    ! Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
-    ! that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
-    ! memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
-    ! 0.1
+    ! Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
+    ! no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
+    ! jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
+    ! machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
+    ! JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
     function jam_set_memory_limit(sys, bytes) &
         bind(c, name="jam_set_memory_limit") result(status)
       import
@@ -1734,6 +1738,41 @@ module jam
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function c_jam_create_watched
+    function c_jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, &
+      callback, user, out) &
+        bind(c, name="jam_create_in_cell_watched") result(status)
+      import
+      type(jam_create_options), intent(in), optional :: o
+      type(c_ptr), value :: cell
+      integer(c_size_t), value :: cell_len
+      type(c_ptr), value :: positions
+      integer(c_size_t), value :: positions_len
+      type(c_ptr), value :: diameters
+      integer(c_size_t), value :: diameters_len
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_create_in_cell_watched
+    function c_jam_read_watched(path, o, callback, user, out) &
+        bind(c, name="jam_read_watched") result(status)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      type(jam_create_options), intent(in), optional :: o
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_read_watched
+    function c_jam_checkpoint_read_watched(path, callback, user, out) &
+        bind(c, name="jam_checkpoint_read_watched") result(status)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(out) :: out
+      integer(c_int32_t) :: status
+    end function c_jam_checkpoint_read_watched
     function c_jam_read(path, o, out) &
         bind(c, name="jam_read") result(status)
       import
@@ -2317,6 +2356,15 @@ module jam
     module procedure l_jam_create_watched
   end interface jam_create_watched
 
+  ! jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
+  ! JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
+  ! where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
+  ! jam_create_in_cell. Threads: any. @since 0.1
+  interface jam_create_in_cell_watched
+    module procedure f_jam_create_in_cell_watched
+    module procedure l_jam_create_in_cell_watched
+  end interface jam_create_in_cell_watched
+
   ! Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
   ! length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
   interface jam_observed_spheres
@@ -2479,6 +2527,9 @@ module jam
   private :: c_jam_cell_set
   private :: c_jam_strain
   private :: c_jam_create_watched
+  private :: c_jam_create_in_cell_watched
+  private :: c_jam_read_watched
+  private :: c_jam_checkpoint_read_watched
   private :: c_jam_read
   private :: c_jam_write
   private :: c_jam_write_contacts
@@ -2537,6 +2588,8 @@ module jam
   private :: l_jam_cell_set
   private :: f_jam_create_watched
   private :: l_jam_create_watched
+  private :: f_jam_create_in_cell_watched
+  private :: l_jam_create_in_cell_watched
   private :: f_jam_observed_spheres
   private :: l_jam_observed_spheres
   private :: f_jam_observed_pairs
@@ -3138,6 +3191,132 @@ contains
       user, out)
   end function l_jam_create_watched
 
+  function f_jam_create_in_cell_watched(o, cell, positions, diameters, callback, user, out) result(status)
+    type(jam_create_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: cell(..)
+    real(c_double), intent(in), target, contiguous, optional :: positions(..)
+    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in) :: user
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_cell
+    integer(c_size_t) :: count_cell
+    type(c_ptr) :: at_positions
+    integer(c_size_t) :: count_positions
+    type(c_ptr) :: at_diameters
+    integer(c_size_t) :: count_diameters
+    at_cell = c_null_ptr
+    count_cell = 0
+    if (present(cell)) then
+      at_cell = c_loc(cell)
+      count_cell = size(cell, kind=c_size_t)
+    end if
+    if (present(cell)) then
+      status = checked('cell', shape(cell, kind=c_size_t), 0_c_size_t, count_cell)
+      if (status /= JAM_OK) return
+    end if
+    at_positions = c_null_ptr
+    count_positions = 0
+    if (present(positions)) then
+      at_positions = c_loc(positions)
+      count_positions = size(positions, kind=c_size_t)
+    end if
+    if (present(positions)) then
+      status = checked('positions', shape(positions, kind=c_size_t), 0_c_size_t, count_positions)
+      if (status /= JAM_OK) return
+    end if
+    at_diameters = c_null_ptr
+    count_diameters = 0
+    if (present(diameters)) then
+      at_diameters = c_loc(diameters)
+      count_diameters = size(diameters, kind=c_size_t)
+    end if
+    if (present(diameters)) then
+      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_create_in_cell_watched(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
+      count_diameters, callback, user, out)
+  end function f_jam_create_in_cell_watched
+
+  function l_jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, &
+    callback, user, out) result(status)
+    type(jam_create_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: cell(..)
+    integer(c_size_t), intent(in) :: cell_len
+    real(c_double), intent(in), target, contiguous, optional :: positions(..)
+    integer(c_size_t), intent(in) :: positions_len
+    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
+    integer(c_size_t), intent(in) :: diameters_len
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in) :: user
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_cell
+    integer(c_size_t) :: count_cell
+    type(c_ptr) :: at_positions
+    integer(c_size_t) :: count_positions
+    type(c_ptr) :: at_diameters
+    integer(c_size_t) :: count_diameters
+    at_cell = c_null_ptr
+    count_cell = 0
+    if (present(cell)) then
+      at_cell = c_loc(cell)
+      count_cell = size(cell, kind=c_size_t)
+    end if
+    count_cell = cell_len
+    if (present(cell)) then
+      status = checked('cell', shape(cell, kind=c_size_t), 0_c_size_t, count_cell)
+      if (status /= JAM_OK) return
+    end if
+    at_positions = c_null_ptr
+    count_positions = 0
+    if (present(positions)) then
+      at_positions = c_loc(positions)
+      count_positions = size(positions, kind=c_size_t)
+    end if
+    count_positions = positions_len
+    if (present(positions)) then
+      status = checked('positions', shape(positions, kind=c_size_t), 0_c_size_t, count_positions)
+      if (status /= JAM_OK) return
+    end if
+    at_diameters = c_null_ptr
+    count_diameters = 0
+    if (present(diameters)) then
+      at_diameters = c_loc(diameters)
+      count_diameters = size(diameters, kind=c_size_t)
+    end if
+    count_diameters = diameters_len
+    if (present(diameters)) then
+      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_create_in_cell_watched(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
+      count_diameters, callback, user, out)
+  end function l_jam_create_in_cell_watched
+
+  ! See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1
+  function jam_read_watched(path, o, callback, user, out) result(status)
+    character(*), intent(in) :: path
+    type(jam_create_options), intent(in), optional :: o
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in) :: user
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    status = c_jam_read_watched(jam_c_string(path), o, callback, user, out)
+  end function jam_read_watched
+
+  ! See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1
+  function jam_checkpoint_read_watched(path, callback, user, out) result(status)
+    character(*), intent(in) :: path
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in) :: user
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    status = c_jam_checkpoint_read_watched(jam_c_string(path), callback, user, out)
+  end function jam_checkpoint_read_watched
+
   ! Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
   ! which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
   ! where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
@@ -3154,11 +3333,11 @@ contains
   end function jam_read
 
   ! Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-  ! under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
-  ! JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
-  ! jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
-  ! JAM_E_UNSUPPORTED.
-  ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+  ! under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
+  ! of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
+  ! the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+  ! non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
+  ! JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
   function jam_write(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path

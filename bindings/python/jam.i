@@ -183,12 +183,28 @@ void set_error_factory(PyObject *callable) {
 
 %include "jam_gen.i"
 %ignore jam_create_watched;
+%ignore jam_create_in_cell_watched;
+%ignore jam_read_watched;
+%ignore jam_checkpoint_read_watched;
 %inline %{
 /* jam_create with callable(progress), or None: Ctrl-C alone is looked at. */
 jam_status create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
                           const double *diameters, size_t diameters_len, PyObject *callable, jam_system **out) {
   return jam_create_watched(o, positions, positions_len, diameters, diameters_len, jam_on_progress,
                             callable == Py_None ? NULL : (void *)callable, out);
+}
+/* The same of the other calls that make a system. */
+jam_status create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
+                                  const double *positions, size_t positions_len, const double *diameters,
+                                  size_t diameters_len, PyObject *callable, jam_system **out) {
+  return jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len,
+                                    jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
+}
+jam_status read_watched(const char *path, const jam_create_options *o, PyObject *callable, jam_system **out) {
+  return jam_read_watched(path, o, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
+}
+jam_status checkpoint_read_watched(const char *path, PyObject *callable, jam_system **out) {
+  return jam_checkpoint_read_watched(path, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
 }
 %}
 %include "jam/jam.h"

@@ -362,19 +362,29 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
 Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
 Threads: alone. @since 0.1"
-%feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
+%feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
+long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
+on its handle do not. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_create_watched "jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
 A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
 Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1"
+%feature("docstring") jam_create_in_cell_watched "jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
+JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
+where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
+jam_create_in_cell. Threads: any. @since 0.1"
+%feature("docstring") jam_read_watched "See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1"
+%feature("docstring") jam_checkpoint_read_watched "See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1"
 %feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_cancel "Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
-stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_set_memory_limit "Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
-that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
-memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+%feature("docstring") jam_cancel "Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
+stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
 0.1"
+%feature("docstring") jam_set_memory_limit "Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
+no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
+jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
+machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
+JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_read "Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
 which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
 where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
@@ -386,11 +396,11 @@ JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and t
 sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
 Valid as long as the handle; \"\" for NULL and for checkpoints. Threads: const. @since 0.1"
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
-JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
-jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
-JAM_E_UNSUPPORTED.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
+under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
+of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
+the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
+JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_write_page "Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,

@@ -40,6 +40,8 @@
  * - Status: 0 done; > 0 stopped early or not the answer hoped for, the state is valid and
  *   kept; < 0 failed, the state is as before the call unless said otherwise. jam_last_error()
  *   says why in a sentence, also for a status above 0. Outputs are written only when the status is >= 0.
+ * - Every call on a system, and every one that makes a system, may end with JAM_CANCELLED:
+ *   setters and const calls then have changed and written nothing.
  * - Option structs begin with struct_size. Fill them with jam_X_options_init(&o, sizeof o),
  *   then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
@@ -216,8 +218,9 @@ typedef struct jam_create_options {
   int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
                           * default 0. With a file that has one: 0, or the same */
-  double wall_time; /* seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT */
-  double memory_limit; /* as jam_set_memory_limit; default 0: half the machine's memory */
+  double wall_time;    /* seconds to read a file, for a random start and the search for overlaps, > 0, default infinity:
+                        * then JAM_LIMIT */
+  double memory_limit; /* as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory */
   int64_t frame;     /* of a file with several packings, from 0, or from the end where negative; default -1, the last */
   double shrink_min; /* least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near
                       * duplicates and wrong units are refused */
@@ -319,7 +322,7 @@ typedef enum jam_phase {
   JAM_PHASE_COMPRESS = 2,           /* molecular dynamics with growth */
   JAM_PHASE_CRUNCH = 3,             /* one LP or re-linearised Newton step done */
   JAM_PHASE_POLISH = 4,             /* refinement of the final network */
-  JAM_PHASE_ANALYSE = 5,            /* long analysis calls */
+  JAM_PHASE_ANALYSE = 5,            /* long analysis calls, and setters that search for overlaps */
   JAM_PHASE_RELAX = 6,              /* minimising the energy of soft spheres */
   JAM_PHASE_DECOMPRESS = 7,         /* soft spheres on their way down to jamming; steps: decompressions so far */
   JAM_PHASE_MONTE_CARLO = 8,        /* Metropolis sweeps */
@@ -347,7 +350,9 @@ typedef struct jam_progress {
  * valid state. It must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves
  * the stage as it runs) and const getters. These show the state before the call, or the last snapshot. @since 0.1 */
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
-/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
+/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
+ * long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
+ * on its handle do not. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user);
 /* jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
@@ -356,6 +361,21 @@ JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, v
 JAM_API jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
                                       const double *diameters, size_t diameters_len, jam_progress_fn callback,
                                       void *user, jam_system **out);
+
+/* jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
+ * JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
+ * where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
+ * jam_create_in_cell. Threads: any. @since 0.1 */
+JAM_API jam_status jam_create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
+                                              const double *positions, size_t positions_len, const double *diameters,
+                                              size_t diameters_len, jam_progress_fn callback, void *user,
+                                              jam_system **out);
+/* See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1 */
+JAM_API jam_status jam_read_watched(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
+                                    jam_system **out);
+/* See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1 */
+JAM_API jam_status jam_checkpoint_read_watched(const char *path, jam_progress_fn callback, void *user,
+                                               jam_system **out);
 
 /* Log levels. @since 0.1 */
 typedef enum jam_log_level {
@@ -370,13 +390,15 @@ typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
 /* Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
-/* Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
- * stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1 */
-JAM_API jam_status jam_cancel(jam_system *sys);
-/* Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
- * that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
- * memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
+/* Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
+ * stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
  * 0.1 */
+JAM_API jam_status jam_cancel(jam_system *sys);
+/* Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
+ * no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
+ * jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
+ * machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
+ * JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
 /* ------------------------------------------------------------------ files */
@@ -408,11 +430,11 @@ JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_s
  * Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1 */
 JAM_API const char *jam_notes(const jam_system *sys);
 /* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
- * under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
- * JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
- * jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
- * JAM_E_UNSUPPORTED.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
+ * under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
+ * of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
+ * the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+ * non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
+ * JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 
 /* Formats of contact networks. @since 0.1 */

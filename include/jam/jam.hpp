@@ -46,6 +46,11 @@ inline jam_status check(jam_status status) {
   return status;
 }
 
+// The same for a call that returns what it found, or only changes something: one that was cancelled has done neither.
+inline void check_done(jam_status status) {
+  if (check(status) == JAM_CANCELLED) throw Error(status);
+}
+
 // Read-only view of (rows, columns) numbers: as std::span, with rows. Good as long as its System lives.
 class View {
  public:
@@ -87,9 +92,9 @@ inline jam_crunch_options crunch_options() { return options(jam_crunch_options_i
 template <class T, class F>
 std::vector<T> fetch(F &&f) {
   std::size_t needed = 0;
-  check(f(static_cast<T *>(nullptr), std::size_t{0}, &needed));
+  check_done(f(static_cast<T *>(nullptr), std::size_t{0}, &needed));
   std::vector<T> out(needed);
-  if (needed) check(f(out.data(), out.size(), &needed));
+  if (needed) check_done(f(out.data(), out.size(), &needed));
   return out;
 }
 
@@ -139,7 +144,7 @@ class System {
     made.adopt([&](jam_system **out) { return jam_checkpoint_read(path.c_str(), out); });
     return made;
   }
-  void checkpoint(const std::string &path) const { check(jam_checkpoint_write(get(), path.c_str())); }
+  void checkpoint(const std::string &path) const { done(jam_checkpoint_write(get(), path.c_str())); }
   System copy() const {
     System made;
     made.adopt([&](jam_system **out) { return jam_copy(get(), out); });
@@ -158,11 +163,11 @@ class System {
   View positions() const { return view(jam_positions_view, static_cast<std::size_t>(info().dim)); }
   View velocities() const { return view(jam_velocities_view, static_cast<std::size_t>(info().dim)); }
   View diameters() const { return view(jam_diameters_view, 1); }
-  void set_positions(const std::vector<double> &x) { check(jam_set_positions(get(), x.data(), x.size())); }
-  void set_velocities(const std::vector<double> &v) { check(jam_set_velocities(get(), v.data(), v.size())); }
-  void scale_diameters(double factor) { check(jam_scale_diameters(get(), factor)); }
+  void set_positions(const std::vector<double> &x) { done(jam_set_positions(get(), x.data(), x.size())); }
+  void set_velocities(const std::vector<double> &v) { done(jam_set_velocities(get(), v.data(), v.size())); }
+  void scale_diameters(double factor) { done(jam_scale_diameters(get(), factor)); }
   void write(const std::string &path, jam_format format = JAM_FORMAT_AUTO) const {
-    check(jam_write(get(), path.c_str(), format));
+    done(jam_write(get(), path.c_str(), format));
   }
 
   // Verbs. Without options: the library's defaults (compress: the two-stage protocol).
@@ -209,8 +214,11 @@ class System {
   // Any other count-then-fill call of the header: sys.array<int32_t>(jam_hessian_map).
   template <class T, class F>
   std::vector<T> array(F function) const {
-    return fetch<T>(
-        [&](T *out, std::size_t length, std::size_t *needed) { return function(get(), out, length, needed); });
+    return fetch<T>([&](T *out, std::size_t length, std::size_t *needed) {
+      const jam_status status = function(get(), out, length, needed);
+      rethrow();
+      return status;
+    });
   }
 
  private:
@@ -251,7 +259,8 @@ class System {
   template <class F>
   void adopt(F &&make) {
     jam_system *made = nullptr;
-    check(make(&made));
+    const jam_status status = check(make(&made));
+    if (!made) throw Error(status);
     handle_.reset(made);
   }
   template <class F>
@@ -265,9 +274,17 @@ class System {
   R verb(F function, const O *o) {
     R made = report<R>();
     const jam_status status = function(get(), o, &made);
-    if (callbacks_ && callbacks_->thrown) std::rethrow_exception(std::exchange(callbacks_->thrown, nullptr));
+    rethrow();
     status_ = check(status);
     return made;
+  }
+  // What the callback of the last call threw.
+  void rethrow() const {
+    if (callbacks_ && callbacks_->thrown) std::rethrow_exception(std::exchange(callbacks_->thrown, nullptr));
+  }
+  void done(jam_status status) const {
+    rethrow();
+    check_done(status);
   }
 
   std::unique_ptr<Callbacks> callbacks_;  // before handle_: outlives it

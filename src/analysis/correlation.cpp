@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include "analysis/structure.hpp"
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #ifdef JAM_HAVE_VORO
@@ -28,7 +29,9 @@ std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size
   }
   std::vector<double> g(bins, 0.0), r(p.dim);
   const PairList all = find_pairs(p, r_max * unit, 0.0);
+  SparseLook sparse_look;
   for (size_t k = 0; k < all.size(); ++k) {
+    sparse_look();
     const double x = std::sqrt(pair_vector(p, all, k, r.data())) / (r_max * unit);
     const auto bin = std::min<size_t>(bins - 1, static_cast<size_t>(x * static_cast<double>(bins)));
     const int32_t i = all.i[k], j = all.j[k];
@@ -69,7 +72,9 @@ std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
   const PairList all = find_pairs(p, 0.0, cutoff);
   std::vector<std::vector<double>> of(p.n());
   std::vector<double> r(d);
+  SparseLook sparse_look;
   for (size_t k = 0; k < all.size(); ++k) {
+    sparse_look();
     const double length = std::sqrt(pair_vector(p, all, k, r.data()));
     for (int c = 0; c < d; ++c) of[all.i[k]].push_back(r[c] / length);
     for (int c = 0; c < d; ++c) of[all.j[k]].push_back(-r[c] / length);
@@ -79,12 +84,14 @@ std::vector<double> bond_order(const Packing &p, int l, double cutoff) {
     const size_t z = of[i].size() / d;
     if (z == 0) continue;
     double sum = static_cast<double>(z);
-    for (size_t x = 0; x < z; ++x)
+    for (size_t x = 0; x < z; ++x) {
+      CallScope::look();
       for (size_t y = x + 1; y < z; ++y) {
         double dot = 0.0;
         for (int c = 0; c < d; ++c) dot += of[i][x * d + c] * of[i][y * d + c];
         sum += 2.0 * zonal(d, l, std::max(-1.0, std::min(1.0, dot)));
       }
+    }
     q[i] = std::sqrt(std::max(0.0, sum)) / static_cast<double>(z);
   }
   return q;
@@ -122,6 +129,7 @@ std::vector<double> local_fractions(const Packing &p) {
   voro::c_loop_all_periodic loop(box);
   voro::voronoicell cell;
   if (loop.start()) do {
+      CallScope::look();
       if (!box.compute_cell(cell, loop)) continue;
       const auto i = static_cast<size_t>(loop.pid());
       phi[i] = unit_sphere_volume(3) * math::pow(p.diameter[i] / p.cell.side(), 3) / cell.volume();

@@ -29,7 +29,9 @@ PairList pairs_without_contacts(const Packing &p, const ContactNetwork *net, dou
   PairList out;
   std::optional<ContactLookup> contacts;
   if (net) contacts.emplace(p, *net);
+  SparseLook sparse_look;
   for (size_t k = 0; k < all.size(); ++k) {
+    sparse_look();
     const int32_t i = all.i[k], j = all.j[k];
     if (net && stable_only && (net->coordination[i] == 0 || net->coordination[j] == 0)) continue;
     if (contacts && contacts->holds(all, k)) continue;
@@ -46,11 +48,18 @@ Gaps find_gaps(const Packing &p, const ContactNetwork *net, double h_max, bool s
   const PairList all = pairs_without_contacts(p, net, h_max, stable_only);
   std::vector<double> r(p.dim);
   std::vector<std::pair<double, size_t>> found(all.size());
-  for (size_t k = 0; k < all.size(); ++k)
+  SparseLook sparse_look;
+  for (size_t k = 0; k < all.size(); ++k) {
+    sparse_look();
     found[k] = {std::sqrt(pair_vector(p, all, k, r.data())) / contact_distance(p, all.i[k], all.j[k]) - 1.0, k};
-  std::sort(found.begin(), found.end());
+  }
+  std::sort(found.begin(), found.end(), [&](const auto &a, const auto &b) {
+    sparse_look();
+    return a < b;
+  });
   Gaps out;
   for (const auto &[h, k] : found) {
+    sparse_look();
     out.gap.push_back(h);
     out.pair.push_back(all.i[k]);
     out.pair.push_back(all.j[k]);

@@ -63,8 +63,10 @@ jam_status jam_project(const jam_system *sys, const double *vector, size_t vecto
     if (vector_len % std::max<size_t>(n, 1) != 0)
       fail(JAM_E_ARGUMENT, "vector_len is %zu, no multiple of d N' = %zu", vector_len, n);
     std::vector<double> c(n ? vector_len / n : 0, 0.0);
-    for (size_t m = 0; m < c.size(); ++m)
+    for (size_t m = 0; m < c.size(); ++m) {
+      CallScope::look();
       for (size_t k = 0; k < n; ++k) c[m] += vector[m * n + k] * u[k];
+    }
     return give_array(c.data(), c.size(), out, out_len, needed);
   });
 }

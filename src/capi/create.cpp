@@ -83,14 +83,21 @@ jam_status jam_create_watched(const jam_create_options *o, const double *positio
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
-    return make_system(full, callback, user, out, [&](Notes *notes) {
-      return make_packing(full, positions, positions_len, diameters, diameters_len, nullptr, notes);
+    return make_system(full, callback, user, out, [&](jam_system &sys) {
+      sys.packing = make_packing(full, positions, positions_len, diameters, diameters_len, nullptr, &sys.notes);
     });
   });
 }
 
 jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len, const double *positions,
                               size_t positions_len, const double *diameters, size_t diameters_len, jam_system **out) {
+  return jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, nullptr,
+                                    nullptr, out);
+}
+
+jam_status jam_create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
+                                      const double *positions, size_t positions_len, const double *diameters,
+                                      size_t diameters_len, jam_progress_fn callback, void *user, jam_system **out) {
   return guard([&]() -> Answer {
     need(out, "out");
     need(cell, "cell");
@@ -100,19 +107,19 @@ jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, s
     check_matrix_len("cell", cell_len, full.dim);
     if (full.box != default_create_options().box)
       fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which name the box alone: leave it at 1", full.box);
-    return make_system(full, nullptr, nullptr, out, [&](Notes *notes) {
-      return make_packing(full, positions, positions_len, diameters, diameters_len, cell, notes);
+    return make_system(full, callback, user, out, [&](jam_system &sys) {
+      sys.packing = make_packing(full, positions, positions_len, diameters, diameters_len, cell, &sys.notes);
     });
   });
 }
 
 jam_status jam_copy(const jam_system *src, jam_system **out) {
-  return guard([&]() -> jam_status {
-    const Reading reading(src, "src");
+  const auto copy = [&]() -> jam_status {
     need(out, "out");
     *out = std::make_unique<jam_system>(*static_cast<const SystemState *>(src)).release();
     return JAM_OK;
-  });
+  };
+  return guard_const(src, copy, "src");
 }
 
 void jam_destroy(jam_system *sys) { delete sys; }

@@ -70,13 +70,29 @@ class Reading {
   CallGate *gate_ = nullptr;
 };
 
+// The work of a short call. Most take no time, some take hours for large systems: a cancel and the callback of the
+// handle end them too. f throws Cancelled before it has changed or written anything. A call that the callback makes
+// does not call it again.
+template <class F>
+Answer run_short(const jam_system *sys, F &&f) {
+  const bool inside = CallScope::inside(sys->monitor);
+  Monitor monitor;
+  monitor.begin_beside(sys->monitor, !inside);
+  const LeavingScope scope(sys->memory_limit, &monitor);
+  try {
+    return f();
+  } catch (const Cancelled &) {
+    if (!inside) monitor.end_beside(sys->monitor);
+    return {JAM_CANCELLED, "jam_cancel or the callback stopped the call: nothing was changed or written"};
+  }
+}
+
 // A const call on a handle: checks the handle inside the try.
 template <class F>
-jam_status guard_const(const jam_system *sys, F &&f) noexcept {
+jam_status guard_const(const jam_system *sys, F &&f, const char *name = "sys") noexcept {
   return guard([&] {
-    const Reading reading(sys);
-    const CallScope scope(sys->memory_limit);
-    return f();
+    const Reading reading(sys, name);
+    return run_short(sys, f);
   });
 }
 
@@ -110,8 +126,7 @@ template <class F>
 jam_status guard_set(jam_system *sys, F &&f) noexcept {
   return guard([&] {
     const Busy busy(sys);
-    const CallScope scope(sys->memory_limit);
-    const auto answer = f();
+    const Answer answer = run_short(sys, f);
     check_state_left(sys);
     return answer;
   });

@@ -49,18 +49,24 @@ void settle_options(const char *path, const FileContent &file, jam_create_option
 extern "C" {
 
 jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out) {
+  return jam_read_watched(path, o, nullptr, nullptr, out);
+}
+
+jam_status jam_read_watched(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
+                            jam_system **out) {
   return guard([&]() -> Answer {
     need(path, "path");
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
-    FileContent file = read_file(path, {full.dim, full.box, full.frame});
-    settle_options(path, file, full);
-    return make_system(full, nullptr, nullptr, out, [&](Notes *notes) {
-      *notes = file.notes;
+    check_create_limits(full);
+    return make_system(full, callback, user, out, [&](jam_system &sys) {
+      const FileContent file = read_file(path, {full.dim, full.box, full.frame});
+      settle_options(path, file, full);
+      sys.notes = file.notes;
       try {
-        return make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
-                            file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), notes);
+        sys.packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
+                                   file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), &sys.notes);
       } catch (const Error &e) {
         refuse(path, e, file.notes);
       }

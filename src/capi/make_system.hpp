@@ -1,4 +1,4 @@
-// A new handle whose packing make(notes) gives, within the limits of the options.
+// A new handle that make(sys) fills, within the limits of the options.
 #pragma once
 #include <memory>
 
@@ -15,9 +15,13 @@ Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *
   monitor.wall_time = o.wall_time;
   monitor.progress = callback;
   monitor.progress_user = user;
+  jam_progress begun{};
+  begun.phase = JAM_PHASE_CREATE;
+  begun.pressure = begun.gain = begun.max_step = begun.fraction = std::numeric_limits<double>::quiet_NaN();
+  monitor.expect(begun);
   const LeavingScope scope(sys->memory_limit, &monitor);
   try {
-    sys->packing = make(&sys->notes);
+    make(*sys);
   } catch (const Cancelled &) {
     *out = nullptr;
     if (monitor.cancelled()) return {JAM_CANCELLED, "the callback stopped the call before there was a system"};

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "capi/guard.hpp"
+#include "capi/make_system.hpp"
 #include "core/create.hpp"
 #include "dynamics/equation_of_state.hpp"
 #include "dynamics/stage.hpp"
@@ -162,17 +163,19 @@ jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
 }
 
 jam_status jam_checkpoint_read(const char *path, jam_system **out) {
-  return guard([&]() -> jam_status {
+  return jam_checkpoint_read_watched(path, nullptr, nullptr, out);
+}
+
+jam_status jam_checkpoint_read_watched(const char *path, jam_progress_fn callback, void *user, jam_system **out) {
+  return guard([&]() -> Answer {
     need(path, "path");
     need(out, "out");
-    auto sys = std::make_unique<jam_system>();
-    std::string beside;
-    sys->packing = read_checkpoint(path, beside);
-    settle_overlaps(sys->packing, sys->packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
-    sys->note_diameters();
-    read_beside(*sys, std::move(beside));
-    *out = sys.release();
-    return JAM_OK;
+    return make_system(default_create_options(), callback, user, out, [&](jam_system &sys) {
+      std::string beside;
+      sys.packing = read_checkpoint(path, beside);
+      settle_overlaps(sys.packing, sys.packing.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+      read_beside(sys, std::move(beside));
+    });
   });
 }
 

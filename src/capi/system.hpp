@@ -73,7 +73,7 @@ struct jam_system : jam::SystemState {
   // Of the call that runs now; a copy has none of it.
   const jam::History *crunching = nullptr;  // of the crunch that runs
   const jam::Dynamics *live = nullptr;      // runs now, while callbacks are called
-  jam::Monitor monitor;
+  mutable jam::Monitor monitor;             // const calls note there which cancels they have answered
   mutable jam::CallGate gate;
 
   // Copies positions, diameters and velocities into the view buffers, whose addresses stay. Never throws.

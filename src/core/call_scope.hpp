@@ -15,7 +15,7 @@ inline double default_memory_limit() {
   return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// Made at the boundary for each call; calls that callbacks make nest.
+// Made at the boundary for each call; calls that callbacks make nest. look() is how work learns that it must stop.
 class CallScope {
  public:
   // With a monitor look() tells its callback, so that Ctrl-C is heard; the work goes on until it asks the monitor.
@@ -36,13 +36,11 @@ class CallScope {
   static void look() {
     ask([](Monitor &monitor) { return monitor.look(); });
   }
-  // The same where the work cannot be left: the callback is told, and a cancellation waits for the next look().
-  static void tell() {
-    const CallScope *const scope = current();
-    if (!scope || !scope->monitor_) return;
-    std::unique_lock<std::mutex> lock;
-    if (scope->quiet_) lock = std::unique_lock<std::mutex>(*scope->quiet_);
-    scope->monitor_->look();
+  // A call on this handle runs on this thread: the one that asks is made by its callback.
+  static bool inside(const Monitor &handle) {
+    for (const CallScope *scope = current(); scope; scope = scope->before_)
+      if (scope->monitor_ && (scope->monitor_ == &handle || scope->monitor_->beside(handle))) return true;
+    return false;
   }
   static bool can_tell() { return current() && current()->monitor_ && current()->monitor_->progress; }
   // look() with a record of its own.
@@ -77,6 +75,17 @@ class CallScope {
   std::mutex *quiet_;
   bool leaves_;
   CallScope *before_;
+};
+
+// look() in loops of short steps: at every 2^16th.
+class SparseLook {
+ public:
+  void operator()() {
+    if (++steps_ % 65536 == 0) CallScope::look();
+  }
+
+ private:
+  uint32_t steps_ = 0;
 };
 
 // Work that look() may leave by Cancelled. Whoever makes one catches it, or is done when it is thrown.

@@ -29,8 +29,7 @@ void check_options(const jam_create_options &o) {
     fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
   if (!(o.shrink_min >= 0.0 && o.shrink_min <= 1.0))
     fail(JAM_E_ARGUMENT, "shrink_min is %g, supported are 0..1", o.shrink_min);
-  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
-  if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
+  check_create_limits(o);
   if (o.model == JAM_MODEL_MK && !is_mk_zeta(o.mk_zeta))
     fail(JAM_E_ARGUMENT, "mk_zeta is %g, supported are 0..%g and infinity", o.mk_zeta, limits::mk_zeta_max);
 }
@@ -195,6 +194,11 @@ static void check_below_saturation(const Packing &p) {
          packing_fraction(p), saturation[p.dim - 2], p.dim);
 }
 
+void check_create_limits(const jam_create_options &o) {
+  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+  if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
+}
+
 static void report_placed(double fraction, int64_t spheres, size_t all) {
   jam_progress q{};
   q.phase = JAM_PHASE_CREATE;
@@ -235,6 +239,8 @@ void place_at_random(Packing &p) {
       if (++tries > most_tries || ++total > most_total)
         fail(JAM_E_UNPLACEABLE, "random sequential addition reached packing fraction %.6f of the requested %.6f",
              placed, packing_fraction(p));
+      // A try takes long where one large sphere leaves few cells, and each of them holds many small ones.
+      if (total % 16 == 0) CallScope::look();
       if (total % 4096 == 0) report_placed(placed, spheres, n);
       random_point(p.cell, rng, x);
     } while (cells.blocked(x, i));

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 
@@ -16,11 +17,14 @@ inline double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// One per handle. cancel() is safe from signal handlers: it only sets a lock-free flag.
+// One per handle, and one for each short call beside it. cancel() is safe from signal handlers: it only adds to a
+// lock-free number.
 class Monitor {
  public:
-  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  void cancel() { asked_.fetch_add(1, std::memory_order_relaxed); }
+  bool cancelled() const {
+    return asked() != answered_.load(std::memory_order_relaxed) || (of_ && of_->asked() != at_);
+  }
   // Called by capi at the start of a verb; a cancel that came before still stops that verb.
   void begin() {
     start_ = now_seconds();
@@ -30,7 +34,21 @@ class Monitor {
     last_report_.phase = JAM_PHASE_ANALYSE;
   }
   // Called by capi at the end of a verb.
-  void end() { cancelled_.store(false, std::memory_order_relaxed); }
+  void end() { answered_.store(asked(), std::memory_order_relaxed); }
+  // The same for a short call on `handle`, several of which may run at once. It hears the cancels that come while it
+  // runs; one that came before waits for the next verb. calls_back: the handle's callback is told.
+  void begin_beside(const Monitor &handle, bool calls_back) {
+    begin();
+    of_ = &handle;
+    at_ = handle.asked();
+    if (calls_back) progress = handle.progress, progress_user = handle.progress_user;
+  }
+  // A cancel that ended this short call is answered with it, and no longer waits for the next verb.
+  void end_beside(Monitor &handle) const {
+    if (handle.asked() != at_) handle.end();
+  }
+  // This short call is one on that handle.
+  bool beside(const Monitor &handle) const { return of_ == &handle; }
   double seconds() const { return now_seconds() - start_; }
   // The call must stop, by the flag or by its limit.
   bool interrupted() const { return cancelled() || seconds() > wall_time; }
@@ -81,7 +99,10 @@ class Monitor {
   int log_level = JAM_LOG_NONE;
 
  private:
-  std::atomic<bool> cancelled_{false};
+  uint32_t asked() const { return asked_.load(std::memory_order_relaxed); }
+  std::atomic<uint32_t> asked_{0}, answered_{0};  // cancels so far, and those that a call has ended for
+  const Monitor *of_ = nullptr;                   // of the handle, for a short call
+  uint32_t at_ = 0;                               // its cancels when the call began
   double start_ = 0.0, last_ = 0.0;
   jam_progress last_report_{};
 };

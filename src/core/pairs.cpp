@@ -120,7 +120,9 @@ class CellGrid {
     start_.assign(static_cast<size_t>(cells) + 1, 0);
     const int32_t n = static_cast<int32_t>(p.n());
     home_.resize(n);
+    SparseLook sparse_look;
     for (int32_t i = 0; i < n; ++i) {
+      sparse_look();
       int64_t cell = 0;
       Cell::Vector s{};
       p.cell.fraction(&p.position[static_cast<size_t>(i) * dim_], s.data());
@@ -171,11 +173,15 @@ PairList by_brute_force(const Cutoff &cutoff) {
   check_list_size(expected_pairs(cutoff), p.dim);
   PairList list;
   std::vector<Candidate> found;
+  SparseLook sparse_look;
   const ImageScan images(p);
   const int32_t n = static_cast<int32_t>(p.n());
   for (int32_t i = 0; i < n; ++i) {
     CallScope::look();
-    for (int32_t j = i; j < n; ++j) images.scan(i, j, cutoff.of(i, j), found);
+    for (int32_t j = i; j < n; ++j) {
+      sparse_look();
+      images.scan(i, j, cutoff.of(i, j), found);
+    }
     append_sorted(list, i, p.dim, found);
   }
   return list;
@@ -196,7 +202,7 @@ PairList by_cells(const Cutoff &cutoff) {
   Candidate now{};
   const int d = p.dim;
   for (int32_t i = 0; i < static_cast<int32_t>(p.n()); ++i) {
-    if (i % 1024 == 0) CallScope::look();
+    if (i % 16 == 0) CallScope::look();  // one large sphere leaves few cells, each with many small ones
     const double *a = &p.position[static_cast<size_t>(i) * d];
     grid.around(i, [&](int32_t j) {
       if (j <= i) return;
@@ -256,7 +262,9 @@ ClosestPair closest_pair(const Packing &p) {
     const PairList pairs = find_pairs(p, 0.0, slope);
     ClosestPair best{std::numeric_limits<double>::infinity(), -1, -1};
     double r[JAM_MAX_DIM];
+    SparseLook sparse_look;
     for (size_t k = 0; k < pairs.size(); ++k) {
+      sparse_look();
       const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
       const double gap = std::sqrt(pair_vector(p, pairs, k, r)) / sigma - 1.0;
       if (gap < best.gap) best = {gap, pairs.i[k], pairs.j[k]};

@@ -16,6 +16,7 @@ enum class Stream : uint64_t {
   analysis_start = 4,
   run_velocities = 21,  // isoconfigurational runs
   monte_carlo = 22,
+  coincident = 23,  // directions in which soft spheres at one centre part
 };
 
 // Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.

@@ -111,14 +111,19 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
 
 }  // namespace
 
-void build_lp(CrunchState &s, double reach) {
+double build_lp(CrunchState &s, double reach) {
   s.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
   if (s.strain.count() > 0) shorten_cell(s.out.packing);
   PairList pairs = find_pairs(s.out.packing, reach, 1.0);
+  // A few spheres, or very unequal ones, may be farther apart than their bound lets them move. Something must bound
+  // their growth: the nearest pair, at last a sphere and its own image.
+  for (; pairs.size() == 0 && s.o.neighbour_radius == 0.0; reach *= 2.0)
+    pairs = find_pairs(s.out.packing, 2.0 * reach, 1.0);
   if (pairs.size() == 0) fail(JAM_E_ARGUMENT, "no pair within the neighbour radius %g", s.o.neighbour_radius);
   s.pairs = std::move(pairs);
   s.lp = make_lp(s.out.packing, s.pairs, diameter_mean(s.out.packing), s.strain);
   s.lp.bound = s.bound;
+  return reach;
 }
 
 double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t) {
@@ -153,8 +158,7 @@ LpStep make_step(CrunchState &s, double reach) {
 }
 
 Phase approach(CrunchState &s) {
-  const double reach = lp_reach(s.out.packing, s.o, s.tuning, s.bound);
-  build_lp(s, reach);
+  const double reach = build_lp(s, lp_reach(s.out.packing, s.o, s.tuning, s.bound));
   if (!solve(s)) return s.interrupted(), Phase::done;
   s.multipliers = {s.pairs, s.answer.y};
   const LpStep step = make_step(s, reach);

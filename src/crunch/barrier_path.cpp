@@ -202,6 +202,7 @@ class BarrierPath {
     const double length = b_.longest_move(main_) * b_.unit, widest = contact_distance_max(p_),
                  growth = std::max(0.0, 0.5 * main_.g) * widest + b_.strain_norm(main_) * (reach_ + widest);
     alpha_p_ = std::min(alpha, 0.9 * (reach_ - 2.0 * travelled_ - grown_) / (2.0 * length + growth));
+    if (b_.lp.strains > 0) alpha_p_ *= strain_part(p_.dim, b_.strain_of(main_, alpha_p_));
     alpha_d_ = b_.longest_dual(main_);
     for (size_t k = 0; k < b_.y.size(); ++k) b_.y[k] += alpha_d_ * main_.y[k];
     if (b_.lp.strains > 0) strain_at_fixed_volume(p_, b_.pairs, b_.strain_of(main_, alpha_p_));

@@ -61,7 +61,7 @@ static Phase first_phase(CrunchState &s) {
   return from.path.mu > 0.0 ? Phase::barrier_path : Phase::approach;
 }
 
-// Searches for pairs may throw Cancelled here.
+// Searches for pairs and factorisations may throw Cancelled here.
 static void run_phases(CrunchState &s) {
   jam_progress begun{};
   begun.phase = JAM_PHASE_CRUNCH;
@@ -90,6 +90,20 @@ static void run_phases(CrunchState &s) {
   }
 }
 
+// What is known before the first factorisation: the log says it, and what exceeds the memory of the call is refused.
+// Small systems fit at any density.
+static void look_ahead(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
+  const bool logs = monitor.log_fn && monitor.log_level >= JAM_LOG_INFO;
+  const double unknowns = static_cast<double>(start.position.size()), full_matrix = 8.0 * unknowns * unknowns;
+  if (!logs && full_matrix < CallScope::memory_limit()) return;
+  const jam_estimate e = estimate(start, o);
+  if (logs)
+    monitor.log(JAM_LOG_INFO,
+                "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
+                e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
+  CallScope::need_memory(e.bytes, "the linear programs of this packing, by jam_crunch_estimate,");
+}
+
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
                     const CrunchHooks *hooks) {
   check_options(start, o);
@@ -97,16 +111,18 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   History own_history;
   const CrunchHooks no_hooks;
   CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);
-  if (monitor.log_fn && monitor.log_level >= JAM_LOG_INFO) {
-    const jam_estimate e = estimate(start, o);
-    monitor.log(JAM_LOG_INFO,
-                "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
-                e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
+  try {
+    const LeavingScope scope(CallScope::memory_limit(), &monitor);
+    look_ahead(start, o, monitor);
+  } catch (const Cancelled &) {
+    s.interrupted();
+    finish_failed(s);
+    return std::move(s.out);
   }
   try {
     run_phases(s);
     finish(s);
-  } catch (const Cancelled &) {  // in a search for pairs
+  } catch (const Cancelled &) {  // in a search for pairs, or a factorisation
     s.interrupted();
     finish_failed(s);
   } catch (const Error &e) {

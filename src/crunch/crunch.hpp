@@ -36,7 +36,8 @@ struct CrunchHooks {
 // options.cpp: throws for options that make no sense and for packings that cannot be crunched.
 void check_options(const Packing &p, const jam_crunch_options &o);
 
-// Throws for bad options, else never: the result carries the status. history may be NULL. It ends with the steps of the
+// Throws for bad options, and where the estimate exceeds the memory of the call, else never: the result carries the
+// status. history may be NULL. It ends with the steps of the
 // attempt that is returned; its stage says where a stopped crunch begins, and where this one stopped.
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr,
                     const CrunchHooks *hooks = nullptr);

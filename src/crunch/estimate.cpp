@@ -10,6 +10,7 @@
 #include "crunch/neighbour_selection.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/block_cholesky.hpp"
+#include "lp/newton_system.hpp"
 #include "lp/working_set.hpp"
 
 namespace jam {
@@ -44,15 +45,9 @@ struct Part {
   double rows = 0.0, edges = 0.0;
   BlockCholesky::Sizes sizes{};
 
-  // Numbers of the factor in doubles: crunches of all sizes end in doubles. Blocks before elimination; a dozen vectors
-  // and the rows themselves for each pair, 45 for each unknown; three pair lists; tables of the symbolic part
-  // (an index for each block of the factor among them).
   double factor_bytes() const { return 8.0 * static_cast<double>(sizes.factor + sizes.fronts); }
   double bytes(double d, double n) const {
-    const double blocks = 8.0 * d * d * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * d) + n * d * 45.0);
-    const double lists = 3.0 * rows * (8.0 + 8.0 * d),
-                 tables = 80.0 * (n + edges) + 8.0 * static_cast<double>(sizes.factor) / (d * d);
-    return factor_bytes() + blocks + vectors + lists + tables;
+    return NewtonSystem::bytes(d, n, rows, edges, static_cast<double>(sizes.factor), static_cast<double>(sizes.fronts));
   }
   // Fronts run at about half the rate of one large product; the rest of a step goes over all pairs and the factor a few
   // times.

@@ -33,8 +33,7 @@ Phase exact_vertex(CrunchState &s) {
   s.exact = true;
   s.bound = std::min(s.bound, t.narrow_bound);
   for (int k = 0; k < t.max_narrow_lps; ++k) {
-    const double reach = t.reach_per_bound * s.bound * unit;
-    build_lp(s, reach);
+    const double reach = build_lp(s, t.reach_per_bound * s.bound * unit);
     last.basis_rows = carry_over(before, last.basis_rows, s.pairs);
     s.answer = solve_lp_clp(s.lp, clp_tolerance, &s.monitor, &last);
     if (s.hooks.answer) s.hooks.answer(s.answer, JAM_LP_CLP);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <new>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/polish.hpp"
@@ -52,7 +53,11 @@ bool last_digits(CrunchState &s) {
   if (s.hooks.before_polish) s.hooks.before_polish(s.out.packing, s.out.contacts);
   Tuning tuning = s.tuning;
   if (s.strain.count() > 0) tuning.max_excess = 0;  // a strain may close what motions leave open
-  const PolishEnd end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
+  PolishEnd end = PolishEnd::interrupted;
+  try {
+    end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
+  } catch (const Cancelled &) {  // it works on copies: the contacts of the last LP stay
+  }
   s.pairs.clear();  // polish left another graph in the system
   if (end == PolishEnd::interrupted) return s.interrupted(), false;
   s.polished = end == PolishEnd::done;
@@ -100,10 +105,22 @@ void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
   if (std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
 }
 
+// The test of the packing as it is. False when the call was interrupted: then its contacts stay untested.
+bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
+  try {
+    verdict = test_packing(s.out.packing, &s.out.contacts, kind);
+  } catch (const Cancelled &) {
+    s.interrupted();
+    return false;
+  }
+  log_verdict(s, verdict);
+  return true;
+}
+
 // In a free cell the strict test says whether its strains are at rest, and its one stress balances on the cell too.
 Phase judge_strictly(CrunchState &s) {
-  const PackingVerdict strict = test_packing(s.out.packing, &s.out.contacts, Jamming::strict);
-  log_verdict(s, strict);
+  PackingVerdict strict;
+  if (!tested(s, Jamming::strict, strict)) return Phase::done;
   s.strictly_jammed = static_cast<int32_t>(strict.result.jammed);
   if (strict.result.jammed == Verdict::yes) {
     take_forces_of(s, strict);
@@ -133,8 +150,8 @@ static bool converged(const CrunchState &s) { return s.out.report.gain <= defaul
 Phase judge(CrunchState &s) {
   for (;;) {
     s.system.release();  // the test has a factor of its own
-    const PackingVerdict verdict = test_packing(s.out.packing, &s.out.contacts, Jamming::collective);
-    log_verdict(s, verdict);
+    PackingVerdict verdict;
+    if (!tested(s, Jamming::collective, verdict)) return Phase::done;
     double open = 0.0;
     for (size_t k = 0; k < verdict.contacts.size(); ++k)
       if (verdict.result.carrying[k]) open = std::max(open, std::fabs(verdict.contacts.gap[k]));

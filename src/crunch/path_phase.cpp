@@ -41,7 +41,7 @@ Phase follow_path(CrunchState &s) {
   if (s.strain.count() > 0) control.opening = s.tuning.free_opening;
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;
-  control.from = std::exchange(s.history.stage.path, PathPoint());
+  control.from = s.history.stage.path;
   control.on_step = [&s](double gap, size_t pairs, const PathPoint &at) { add_history_row(s, gap, pairs, at); };
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
   // Forces do not balance at every point of the path: then it goes on to a smaller gap.

@@ -77,8 +77,8 @@ bool leave_strained_saddle(CrunchState &s, const PackingVerdict &strict);
 void shorten_cell(Packing &p);  // where strains made its vectors long
 // approach.cpp. Each phase function returns the phase that follows.
 Phase approach(CrunchState &s);
-// The LP of this bound at the present packing, into s.pairs and s.lp.
-void build_lp(CrunchState &s, double reach);
+// The LP of this bound at the present packing, into s.pairs and s.lp. Returns the reach of its pairs.
+double build_lp(CrunchState &s, double reach);
 // Moves by the answer, and records it.
 struct LpStep {
   double gain, longest, part;

@@ -56,8 +56,8 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
   const double widest = contact_distance_max(p), shorter = shortening(x, basis) * (reach + widest),
                growth = (std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0) * widest;
   PairList shifted = pairs;
-  Packing q = moved(p, shifted, x, 1.0, unit, basis);
-  double alpha = 1.0;
+  double alpha = x.strain.empty() ? 1.0 : strain_part(p.dim, strain_matrix(basis, x.strain, 1.0));
+  Packing q = moved(p, shifted, x, alpha, unit, basis);
   if (closest_approach(x, p.dim, unit) + growth + shorter > reach) {
     while (closest_pair(q).gap < -1e-13) {
       alpha *= 0.5;

@@ -2,19 +2,19 @@
 // refuses the file.
 #include "io/checkpoint.hpp"
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
-#include <memory>
+#include <vector>
 
 #include "core/byte_order.hpp"
+#include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/rng.hpp"
 #include "core/validate.hpp"
+#include "io/input_file.hpp"
 #include "io/output_file.hpp"
 
 namespace jam {
@@ -82,15 +82,16 @@ void take(const char *&at, std::vector<T> &v, size_t count) {
 
 // The whole file. What does not begin as a checkpoint is read no further: it may be a device without an end.
 std::string slurp(const char *path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path, "rb"), std::fclose);
-  if (!file) fail(JAM_E_IO, "cannot open %s: %s", path, std::strerror(errno));
+  InputFile file(path);
   std::string all;
-  char part[65536];
-  for (size_t got; (got = std::fread(part, 1, sizeof part, file.get())) > 0;) {
-    all.append(part, got);
-    if (all.size() < sizeof magic || std::memcmp(all.data(), magic, sizeof magic) != 0) return all;
+  std::vector<char> part(65536);
+  for (size_t got; (got = file.read(part.data(), part.size())) > 0;) {
+    all.append(part.data(), got);
+    if (all.size() < sizeof magic) continue;  // a pipe may give a byte at a time
+    if (std::memcmp(all.data(), magic, sizeof magic) != 0) return all;
+    // The string grows to twice its size, and the packing is a copy of it.
+    CallScope::need_memory(3.0 * static_cast<double>(all.size()), ("the contents of " + file.path()).c_str());
   }
-  if (std::ferror(file.get())) fail(JAM_E_IO, "cannot read %s: %s", path, std::strerror(errno));
   return all;
 }
 

@@ -1,74 +1,72 @@
 #include "io/output_file.hpp"
 
-#include <dirent.h>
 #include <fcntl.h>
-#include <sys/file.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <system_error>
 #include <vector>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
-#include "core/monitor.hpp"
+#include "io/part_file.hpp"
 
 namespace jam {
 namespace {
 
 constexpr size_t chunk = 1 << 16;
-constexpr char part[] = ".part-";
+constexpr int silence = 50;  // milliseconds that a full pipe may keep the call from looking
 
-// The target of a sequence of symbolic links, which need not exist. Relative links start from their own folder.
-std::string follow_links(std::string path) {
+// Where a path leads: to a file, which a rename replaces, or to something open that is written in place.
+struct Target {
+  std::string file;     // behind all links; it need not exist
+  int descriptor = -1;  // of this process: /dev/stdout, /dev/fd/N, /proc/self/fd/N
+  bool open = false;    // of another process: /proc/PROCESS/fd/N
+};
+
+// The folder without links, "" where there is none.
+std::string real_folder(const std::string &folder) {
+  const std::unique_ptr<char, void (*)(void *)> real(::realpath(folder.c_str(), nullptr), std::free);
+  return real ? real.get() : "";
+}
+
+bool ends_with(const std::string &text, const char *end) {
+  const size_t length = std::strlen(end);
+  return text.size() >= length && text.compare(text.size() - length, length, end) == 0;
+}
+
+// Follows symbolic links; relative ones start from their own folder. Those of /proc to open files are no names: what
+// they name may be a pipe, or a file that the shell appends to.
+Target follow_links(std::string path) {
+  Target target;
   for (int depth = 0; depth < 40; ++depth) {
+    const std::string folder = folder_of(path), name = path.substr(path.rfind('/') + 1);
+    const bool number = !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+    if (number) {
+      const std::string real = real_folder(folder);
+      if (real.compare(0, 6, "/proc/") == 0 && ends_with(real, "/fd")) {
+        const bool own = real == real_folder("/proc/self/fd") || real == real_folder("/proc/thread-self/fd");
+        if (own) target.descriptor = std::stoi(name);
+        target.open = !own;
+        break;
+      }
+    }
     char link[4096];
     const ssize_t length = ::readlink(path.c_str(), link, sizeof link);
-    if (length <= 0 || static_cast<size_t>(length) >= sizeof link) return path;
+    if (length <= 0 || static_cast<size_t>(length) >= sizeof link) break;
     const std::string to(link, static_cast<size_t>(length));
-    const size_t slash = path.rfind('/');
-    path = (to[0] == '/' || slash == std::string::npos) ? to : path.substr(0, slash + 1) + to;
+    path = to[0] == '/' ? to : path.substr(0, path.size() - name.size()) + to;
   }
-  return path;
-}
-
-std::string folder_of(const std::string &file) {
-  const size_t slash = file.rfind('/');
-  return slash == std::string::npos ? "./" : file.substr(0, slash + 1);
-}
-
-// A temporary file that can be locked has no writer: its process was killed. Locks fall with their process, on other
-// machines too. What fails here is no error.
-void remove_orphans(const std::string &target) {
-  const std::string folder = folder_of(target), begin = target.substr(target.rfind('/') + 1) + part;
-  const std::unique_ptr<DIR, int (*)(DIR *)> entries(::opendir(folder.c_str()), ::closedir);
-  if (!entries) return;
-  while (const dirent *entry = ::readdir(entries.get())) {
-    if (std::strncmp(entry->d_name, begin.c_str(), begin.size()) != 0) continue;
-    if (std::strspn(entry->d_name + begin.size(), "0123456789-") != std::strlen(entry->d_name + begin.size())) continue;
-    const std::string orphan = folder + entry->d_name;
-    const int fd = ::open(orphan.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
-    if (fd < 0) continue;
-    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(orphan.c_str());
-    ::close(fd);
-  }
-}
-
-// A new file under a lock, or -1 with errno. EEXIST: another name is to be tried.
-int open_locked(const std::string &name) {
-  const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd < 0) return fd;
-  struct stat there;
-  // File systems without locks refuse them otherwise. Before the lock another writer may have taken it for an orphan.
-  const bool taken = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (!taken && ::fstat(fd, &there) == 0 && there.st_nlink > 0) return fd;
-  ::close(fd);
-  errno = EEXIST;
-  return -1;
+  target.file = path;
+  return target;
 }
 
 // Makes a rename outlive a crash of the machine. The new file is whole either way, so what fails here is no error.
@@ -103,29 +101,28 @@ void OutputFile::fail_errno(const char *what) const {
   fail(JAM_E_IO, "cannot %s %s: %s", what, path_.c_str(), std::generic_category().message(code).c_str());
 }
 
-OutputFile::OutputFile(const char *path) : path_(path), target_(follow_links(path)) {
+OutputFile::OutputFile(const char *path) : path_(path) {
   text_.reserve(chunk + 1024);
   if (path_.size() > 3 && path_.compare(path_.size() - 3, 3, ".gz") == 0) gzip_ = std::make_unique<Gzip>();
+  const Target target = follow_links(path_);
+  target_ = target.file;
   struct stat there;
   const bool exists = ::stat(path, &there) == 0;
   if (exists && S_ISDIR(there.st_mode)) {
     errno = EISDIR;
     fail_errno("write");
   }
-  if (exists && !S_ISREG(there.st_mode)) {
-    fd_ = ::open(path, O_WRONLY | O_CLOEXEC);
+  if (target.descriptor >= 0 || target.open || (exists && !S_ISREG(there.st_mode))) {
+    // A copy of the descriptor goes on where its host stands, and appends where that does.
+    fd_ = target.descriptor >= 0 ? ::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 0)
+                                 : ::open(path, O_WRONLY | O_APPEND | O_CLOEXEC);
     if (fd_ < 0) fail_errno("open");
     return;
   }
   // Renaming would bypass a write protection that the user set.
   if (exists && ::access(path, W_OK) != 0) fail_errno("write");
   remove_orphans(target_);
-  const long long stamp = static_cast<long long>(now_seconds() * 1e9);
-  for (int attempt = 0; attempt < 100 && fd_ < 0; ++attempt) {
-    temporary_ = target_ + part + std::to_string(::getpid()) + "-" + std::to_string(stamp + attempt);
-    fd_ = open_locked(temporary_);
-    if (fd_ < 0 && errno != EEXIST) break;
-  }
+  fd_ = open_part(target_, temporary_);
   if (fd_ < 0) {
     temporary_.clear();
     fail_errno("write");
@@ -138,9 +135,14 @@ OutputFile::~OutputFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
+// Into a pipe only as much as it takes at once, so that a reader who is slow does not keep the call from looking.
 void OutputFile::put(const char *from, size_t left) {
+  const bool in_place = temporary_.empty();
   while (left > 0) {
-    const ssize_t done = ::write(fd_, from, left);
+    CallScope::look();
+    pollfd ready{fd_, POLLOUT, 0};
+    if (in_place && ::poll(&ready, 1, silence) == 0) continue;
+    const ssize_t done = ::write(fd_, from, in_place ? std::min<size_t>(left, PIPE_BUF) : left);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) fail_errno("write");
     from += done;

@@ -6,9 +6,10 @@
 namespace jam {
 
 // Text goes to a new file beside the target, which commit() renames onto it. Without commit nothing changes.
-// A symbolic link keeps pointing where it points; a target that is no regular file (/dev/stdout, a pipe) is
-// written in place. Under a name that ends in .gz the text is compressed. Every failure throws JAM_E_IO with the path
-// and errno's text. New files that killed writers of the same target have left are removed first.
+// A symbolic link keeps pointing where it points. What is no regular file under a name of its own is written in place:
+// a pipe, a device, and descriptors (/dev/stdout, /dev/fd/N), whatever is open there. Under a name that ends in .gz the
+// text is compressed. Every failure throws JAM_E_IO with the path and errno's text. The call may be left by Cancelled.
+// New files that killed writers of the same target have left are removed first.
 class OutputFile {
  public:
   explicit OutputFile(const char *path);

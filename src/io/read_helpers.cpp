@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 
 namespace jam {
@@ -40,6 +41,12 @@ bool Rows::next(std::vector<std::string_view> &words) {
     if (words.empty()) continue;
     check_last(words, last == ' ' || last == '\t');
   } while (words.empty());
+  if (++count_ % 4096 == 0) {
+    // Arrays grow to twice their length, and the packing has positions, velocities and diameters of its own.
+    const double d = static_cast<double>(std::min<size_t>(words.size(), JAM_MAX_DIM));
+    CallScope::need_memory(8.0 * (4.0 * d + 3.0) * static_cast<double>(count_),
+                           ("the spheres of " + in_.path()).c_str());
+  }
   return true;
 }
 

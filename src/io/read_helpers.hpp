@@ -62,13 +62,15 @@ void check_end(LineReader &in, int64_t n);
 class Rows {
  public:
   Rows(LineReader &in, bool comments) : in_(in), comments_(comments) {}
-  // The columns of the next row; false at the end of the file.
+  // The columns of the next row; false at the end of the file. JAM_E_MEMORY where what the rows hold exceeds the memory
+  // of the call: the count in a header may lie.
   bool next(std::vector<std::string_view> &words);
 
  private:
   void check_last(const std::vector<std::string_view> &words, bool blank_behind);
   LineReader &in_;
   bool comments_;
+  int64_t count_ = 0;
   size_t longest_ = 0;
   bool first_ = true;
 };

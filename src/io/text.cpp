@@ -1,14 +1,10 @@
 #include "io/text.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -20,13 +16,7 @@ constexpr size_t longest_line = 1 << 16;  // a binary file has no line ends and 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 }  // namespace
 
-void LineReader::Close::operator()(gzFile_s *f) const { ::gzclose(f); }
-
-LineReader::LineReader(const char *path) : path_(path), buffer_(buffer_size) {
-  errno = 0;
-  file_.reset(::gzopen(path, "rb"));  // reads what is not compressed as it is
-  if (!file_ && errno == 0) throw std::bad_alloc();
-  if (!file_) jam::fail(JAM_E_IO, "cannot open %s: %s", path, std::generic_category().message(errno).c_str());
+LineReader::LineReader(const char *path) : file_(path), buffer_(buffer_size) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   if (refill() && head().substr(0, mark.size()) == mark) begin_ += mark.size();
 }
@@ -37,22 +27,12 @@ void LineReader::fail(jam_status code, const char *format, ...) const {
   va_start(args, format);
   std::vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  jam::fail(code, "%s line %lld: %s", path_.c_str(), static_cast<long long>(number_), text);
+  jam::fail(code, "%s line %lld: %s", path().c_str(), static_cast<long long>(number_), text);
 }
 
 bool LineReader::refill() {
-  begin_ = end_ = 0;
-  const int got = ::gzread(file_.get(), buffer_.data(), static_cast<unsigned>(buffer_.size()));
-  if (got > 0) end_ = static_cast<size_t>(got);
-  int code = Z_OK;
-  const char *text = ::gzerror(file_.get(), &code);
-  if (code == Z_ERRNO)
-    jam::fail(JAM_E_IO, "cannot read %s: %s", path_.c_str(), std::generic_category().message(errno).c_str());
-  if (code == Z_MEM_ERROR) throw std::bad_alloc();
-  if (got < 0 || (end_ == 0 && code != Z_OK)) {
-    if (code == Z_BUF_ERROR) jam::fail(JAM_E_FORMAT, "%s: the compressed file is cut short", path_.c_str());
-    jam::fail(JAM_E_FORMAT, "%s: not a sound gzip file: %s", path_.c_str(), text);
-  }
+  begin_ = 0;
+  end_ = file_.read_unpacked(buffer_.data(), buffer_.size());
   return end_ > 0;
 }
 
@@ -67,7 +47,7 @@ bool LineReader::next(std::string_view &line, bool looks) {
   for (;;) {
     if (begin_ == end_ && !refill()) {
       if (line_.empty()) return false;
-      cut_short_ = ::gzdirect(file_.get()) != 0;  // gzip's checksum says that nothing is missing
+      cut_short_ = !file_.packed();  // gzip's checksum says that nothing is missing
       if (cut_short_ && !looks) fail_cut_short();
       break;
     }

@@ -1,14 +1,12 @@
 // Lines and numbers, the same in every locale of the host program.
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/input_file.hpp"
 #include "jam/jam.h"
-
-struct gzFile_s;  // of zlib
 
 namespace jam {
 
@@ -28,17 +26,13 @@ class LineReader {
   bool cut_short() const { return cut_short_; }
   [[noreturn]] void fail_cut_short() const;
   int64_t number() const { return number_; }  // of the line read last, from 1
-  const std::string &path() const { return path_; }
+  const std::string &path() const { return file_.path(); }
   // Throws with the path and the line read last before the text.
   [[noreturn]] void fail(jam_status code, const char *format, ...) const __attribute__((format(printf, 3, 4)));
 
  private:
-  struct Close {
-    void operator()(gzFile_s *f) const;
-  };
   bool refill();
-  std::string path_;
-  std::unique_ptr<gzFile_s, Close> file_;
+  InputFile file_;
   std::vector<char> buffer_;
   size_t begin_ = 0, end_ = 0;
   std::string line_;

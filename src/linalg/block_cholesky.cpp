@@ -15,7 +15,7 @@ namespace {
 
 // Additions, and numbers read, below which a second thread is not worth its start.
 constexpr size_t worth_a_thread = 200000, worth_a_reader = 1000000;
-// Numbers of a panel that take some 0.1 ms to read: the callback is told between such panels.
+// Numbers of a panel that take some 0.1 ms to read: the call may be left between such panels.
 constexpr size_t worth_a_look = 100000;
 // In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings (tests/bench/README.md).
 constexpr double lost_in_floats = 4e-6;
@@ -28,7 +28,7 @@ void BlockCholesky::assemble(const Supernode &s, const double *diag, const doubl
   const size_t front = columns(s) + below(s), block = static_cast<size_t>(dim_) * dim_;
   Real *values = values_.as<Real>(), *original = original_diagonal_.as<Real>();
   for (size_t c = 0; c < columns(s); ++c) {  // what lies above the diagonal blocks is never read
-    if (c % columns_between_looks == columns_between_looks - 1) CallScope::tell();  // the system clears new pages
+    if (c % columns_between_looks == columns_between_looks - 1) CallScope::look();  // the system clears new pages
     const size_t top = c / dim_ * dim_;
     std::memset(&values[s.value_start + c * front + top], 0, (front - top) * sizeof(Real));
   }
@@ -60,7 +60,7 @@ void BlockCholesky::extend_add_columns(int32_t child, Real *update, size_t start
   const Real *schur = static_cast<const Real *>(update_[child]);
   Real *into = update ? update : values_.as<Real>() + p.value_start;
   for (size_t b = (update ? split : 0) + start; b < (update ? c.row_count : split); b += stride) {
-    if (b % blocks_between_looks == blocks_between_looks - 1) CallScope::tell();
+    if (b % blocks_between_looks == blocks_between_looks - 1) CallScope::look();
     const Real *from = schur + b * D * mc;
     Real *to = into + (place[b] - shift) * D * ld;
     for (size_t column = 0; column < D; ++column)
@@ -136,7 +136,7 @@ void BlockCholesky::run_list(const std::vector<int32_t> &list, const double *dia
   stack.top[0] = stack.top[1] = 0;
   for (const int32_t s : list) {
     eliminate<Real>(s, diag, off, stack, threads, replaced);
-    CallScope::tell();
+    CallScope::look();
   }
 }
 
@@ -171,7 +171,7 @@ void BlockCholesky::forward(const std::vector<int32_t> &list, Real *y, Real *bel
   for (const int32_t index : list) {
     const Supernode &s = supernodes_[index];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::tell();
+    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::look();
     panel_forward(values_.as<Real>() + s.value_start, front, rows, width, y + static_cast<size_t>(s.first) * d,
                   static_cast<int>(unknowns), below_rows, static_cast<int>(largest_below_), nrhs, threads);
     for (int r = 0; r < nrhs; ++r)
@@ -188,7 +188,7 @@ void BlockCholesky::backward(const std::vector<int32_t> &list, Real *y, Real *be
   for (size_t at = list.size(); at-- > 0;) {
     const Supernode &s = supernodes_[list[at]];
     const int width = static_cast<int>(columns(s)), rows = static_cast<int>(below(s)), front = width + rows;
-    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::tell();
+    if (static_cast<size_t>(front) * width > worth_a_look) CallScope::look();
     for (int r = 0; r < nrhs; ++r)
       for (size_t k = 0; k < s.row_count; ++k)
         for (size_t c = 0; c < d; ++c)

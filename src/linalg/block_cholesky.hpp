@@ -15,6 +15,8 @@ enum class Precision { full, single };  // doubles or floats
 
 class BlockCholesky {
  public:
+  // Both parts may be left by Cancelled, and analyse() fails where the numbers exceed the memory of the call: the next
+  // call is then analyse().
   // Symbolic part: n nodes, unique undirected edges (ei[k], ej[k]), ei != ej. threads: 1, or 2 for independent subtrees
   // and large fronts side by side. order[k] is the node that is eliminated k-th; empty: nested dissection.
   void analyse(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges, int threads = 1,
@@ -50,6 +52,7 @@ class BlockCholesky {
   double flops() const { return flops_; }
   size_t bytes() const;
   size_t factor_nonzeros() const { return value_count_; }
+  size_t front_numbers() const { return stack_count_; }
   size_t supernodes() const { return supernodes_.size(); }
 
  private:
@@ -78,6 +81,7 @@ class BlockCholesky {
   void find_supernodes(const std::vector<int32_t> &parent, std::vector<std::vector<int32_t>> &structure);
   void place_entries(const int32_t *ei, const int32_t *ej, size_t edges);
   void plan();
+  void allocate();
   std::vector<int32_t> share_out(const std::vector<double> &work);
   void keep(const std::vector<int32_t> &roots);
   void lay_stacks(int list);
@@ -119,7 +123,8 @@ class BlockCholesky {
   ScratchBuffer kept_;
   std::vector<int32_t> lists_[3];  // supernodes of thread 0, thread 1, and the top of the tree
   Stack stacks_[2];
-  size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0;
+  size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0, kept_count_ = 0;
+  size_t stack_need_[2][2] = {};  // of stacks_
 };
 
 }  // namespace jam

@@ -21,11 +21,13 @@ void BlockCholesky::plan() {
     largest_below_ = std::max(largest_below_, below(s));
   }
   update_.assign(count, nullptr);
-  stack_count_ = 0;
   keep(share_out(work));
   for (size_t k = count; k-- > 0;)
     supernodes_[k].side = supernodes_[k].parent < 0 ? 0 : 1 - supernodes_[supernodes_[k].parent].side;
+  for (auto &list : stack_need_) list[0] = list[1] = 0;
   for (int list = 0; list < 3; ++list) lay_stacks(list);
+  stack_count_ = kept_count_;
+  for (const auto &list : stack_need_) stack_count_ += list[0] + list[1];
 }
 
 // With two threads: whole subtrees, split from the heaviest root down until the two lists are even. Returns their
@@ -63,11 +65,11 @@ std::vector<int32_t> BlockCholesky::share_out(const std::vector<double> &work) {
 // needed.
 void BlockCholesky::keep(const std::vector<int32_t> &roots) {
   kept_at_.assign(supernodes_.size(), on_stack);
+  kept_count_ = 0;
   for (const int32_t r : roots) {
-    kept_at_[r] = stack_count_;
-    stack_count_ += below(supernodes_[r]) * below(supernodes_[r]);
+    kept_at_[r] = kept_count_;
+    kept_count_ += below(supernodes_[r]) * below(supernodes_[r]);
   }
-  if (!dry_) kept_.need(stack_count_);
 }
 
 // Children lie on one stack while their parent's Schur complement is built on the other.
@@ -80,10 +82,8 @@ void BlockCholesky::lay_stacks(int list) {
     for (const int32_t c : s.children)
       if (kept_at_[c] == on_stack) now[1 - s.side] -= below(supernodes_[c]) * below(supernodes_[c]);
   }
-  for (int side = 0; side < 2; ++side) {
-    stack_count_ += most[side];
-    if (!dry_) stacks_[list % 2].memory[side].need(most[side]);
-  }
+  for (int side = 0; side < 2; ++side)  // the top of the tree comes when the lists are done
+    stack_need_[list % 2][side] = std::max(stack_need_[list % 2][side], most[side]);
 }
 
 }  // namespace jam

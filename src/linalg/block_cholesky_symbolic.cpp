@@ -67,7 +67,7 @@ std::vector<std::vector<int32_t>> column_structure(const Graph &g, const std::ve
     if (parent[k] >= 0) children[parent[k]].push_back(k);
   for (int32_t k = 0; k < n; ++k) {
     mark[k] = k;
-    if (k % 256 == 0) CallScope::tell();
+    if (k % 256 == 0) CallScope::look();
     const auto take = [&](int32_t r) {
       if (r > k && mark[r] != k) mark[r] = k, rows[k].push_back(r);
     };
@@ -104,7 +104,7 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     while (end < n_ && parent[end - 1] == end && structure[end].size() + 1 == structure[end - 1].size()) ++end;
     Draft now{k, end, std::move(structure[end - 1]), 0.0};
     std::sort(now.rows.begin(), now.rows.end());
-    CallScope::tell();
+    CallScope::look();
     while (!drafts.empty() && !drafts.back().rows.empty() && drafts.back().rows.front() < now.last) {
       const Draft &child = drafts.back();
       const double nc = child.last - child.first, np = now.last - now.first,
@@ -134,7 +134,6 @@ void BlockCholesky::find_supernodes(const std::vector<int32_t> &parent, std::vec
     supernodes_.push_back(std::move(s));
   }
   value_count_ = values;
-  if (!dry_) values_.need(values);
   places_.clear();
   places_.reserve(rows_.size());
   for (size_t k = 0; k < supernodes_.size(); ++k) {
@@ -165,7 +164,7 @@ void BlockCholesky::place_entries(const int32_t *ei, const int32_t *ej, size_t e
   std::vector<std::pair<int32_t, Entry>> all;
   all.reserve(n_ + edges);
   const auto add = [&](int32_t s, const Entry &entry) {
-    if (all.size() % 4096 == 0) CallScope::tell();
+    if (all.size() % 4096 == 0) CallScope::look();
     ++supernodes_[s].entry_count;
     all.push_back({s, entry});
   };
@@ -222,7 +221,19 @@ void BlockCholesky::analyse_keep_order(int dim, int32_t n, const int32_t *ei, co
   find_supernodes(parent, structure);
   place_entries(ei, ej, edges);
   plan();
-  if (!dry_) original_diagonal_.need(static_cast<size_t>(n) * dim);
+  if (!dry_) allocate();
+}
+
+// Nothing is taken of what exceeds the limit of the call.
+void BlockCholesky::allocate() {
+  const size_t unknowns = static_cast<size_t>(n_) * dim_;
+  CallScope::need_memory(8.0 * static_cast<double>(value_count_ + stack_count_ + unknowns),
+                         "the numbers of a factorised matrix");
+  values_.need(value_count_);
+  original_diagonal_.need(unknowns);
+  kept_.need(kept_count_);
+  for (int list = 0; list < 2; ++list)
+    for (int side = 0; side < 2; ++side) stacks_[list].memory[side].need(stack_need_[list][side]);
 }
 
 BlockCholesky::Sizes BlockCholesky::measure(int dim, int32_t n, const int32_t *ei, const int32_t *ej, size_t edges,

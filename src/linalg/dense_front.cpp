@@ -121,7 +121,7 @@ int factor_panel(Real *panel, int ld, int rows, int columns, const Real *origina
   if (columns <= narrow) {
     const int replaced = factor_small(panel, ld, columns, original, rule);
     divide_by_top(panel, ld, rows - columns, columns, panel + columns, threads);
-    CallScope::tell();
+    CallScope::look();
     return replaced;
   }
   const int left = (columns / 2 + narrow - 1) / narrow * narrow;

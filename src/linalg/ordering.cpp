@@ -68,7 +68,7 @@ std::vector<int32_t> Dissection::run() {
   std::iota(all.begin(), all.end(), 0);
   parts_.push_back({std::move(all), g_.size()});
   while (!parts_.empty()) {
-    CallScope::tell();
+    CallScope::look();
     const Part part = std::move(parts_.back());
     parts_.pop_back();
     const auto size = static_cast<int32_t>(part.nodes.size());

@@ -10,11 +10,18 @@
 
 namespace jam {
 
-// work(0) and work(1), which must not throw and must not write to the same places. Where the system has no second
-// thread to give, one after the other: the parts are the same, so are the bits.
+// work(0) and work(1), which must not write to the same places. Where the system has no second thread to give, one
+// after the other: the parts are the same, so are the bits. Only work(0) may throw, on this thread; it waits for the
+// other.
 template <class Work>
 void on_two_threads(const Work &work) {
   std::thread other;
+  struct Join {
+    std::thread &thread;
+    ~Join() {
+      if (thread.joinable()) thread.join();
+    }
+  } join{other};
   try {
     other = std::thread([&work, host = FloatingPoint::host()] {
       const FloatingPoint of_call(host);
@@ -24,11 +31,10 @@ void on_two_threads(const Work &work) {
     work(1);
   }
   work(0);
-  if (other.joinable()) other.join();
 }
 
 // Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one tells the
-// callback. The work is the same, so are the bits.
+// callback. The work is the same, so are the bits. A call that is cancelled is left when the work has ended.
 template <class Work>
 void while_telling(const Work &work) {
   constexpr std::chrono::milliseconds between_looks(20);
@@ -42,7 +48,7 @@ void while_telling(const Work &work) {
   } catch (const std::system_error &) {
     return work();
   }
-  while (done.wait_for(between_looks) != std::future_status::ready) CallScope::tell();
+  while (done.wait_for(between_looks) != std::future_status::ready) CallScope::look();
 }
 
 }  // namespace jam

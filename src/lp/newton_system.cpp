@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/monitor.hpp"
 #include "linalg/pair_products.hpp"
@@ -21,7 +22,7 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
   set_strain(nullptr, 0);
   if (dim == dim_ && n == n_ && threads == threads_ && pairs.i == pair_i_ && pairs.j == pair_j_) return;
   const double t0 = now_seconds();
-  dim_ = dim;
+  dim_ = 0;  // until all is done: the call may be left
   n_ = n;
   threads_ = threads;
   pair_i_ = pairs.i;
@@ -45,11 +46,16 @@ void NewtonSystem::set_graph(int dim, int32_t n, const PairList &pairs, int thre
     cholesky_.analyse_keep_order(dim, n, ei.data(), ej.data(), edges_, threads);
   else
     cholesky_.analyse(dim, n, ei.data(), ej.data(), edges_, threads);
+  CallScope::need_memory(
+      bytes(dim, n, static_cast<double>(pairs.size()), static_cast<double>(edges_),
+            static_cast<double>(cholesky_.factor_nonzeros()), static_cast<double>(cholesky_.front_numbers())),
+      "the linear programs of this packing");
   const size_t block = static_cast<size_t>(dim) * dim, unknowns = static_cast<size_t>(n) * dim;
   diag_.resize(block * n);
   off_.resize(block * edges_);
   for (auto *v : {&box_, &column_, &column_solved_, &work_, &residual_, &correction_}) v->resize(unknowns);
   row_work_.resize(pairs.size());
+  dim_ = dim;
   seconds_assemble += now_seconds() - t0;
 }
 

@@ -19,6 +19,15 @@ class NewtonSystem {
   // Symbolic part; reused by every factorise() until the pairs change (nothing is done for the same pairs). Images of
   // one pair share a block. keep_order: the elimination order stays, for a graph that got a few pairs more.
   void set_graph(int dim, int32_t n, const PairList &pairs, int threads, bool keep_order = false);
+  // Bytes that a crunch takes for `rows` pairs between `edges` pairs of spheres, with so many numbers in the factor and
+  // in the fronts beside it. Numbers of the factor in doubles: crunches of all sizes end in doubles. Blocks before
+  // elimination; a dozen vectors and the rows themselves for each pair, 45 for each unknown; three pair lists; tables
+  // of the symbolic part (an index for each block of the factor among them).
+  static double bytes(double dim, double n, double rows, double edges, double factor, double fronts) {
+    const double blocks = 8.0 * dim * dim * (n + edges), vectors = 8.0 * (rows * (14.0 + 2.0 * dim) + n * dim * 45.0);
+    const double lists = 3.0 * rows * (8.0 + 8.0 * dim), tables = 80.0 * (n + edges) + 8.0 * factor / (dim * dim);
+    return 8.0 * (factor + fronts) + blocks + vectors + lists + tables;
+  }
   // Frees the memory of the factor; the next call is set_graph.
   void release();
   // Columns of strain for the pairs of set_graph, (pairs, count); kept by pointer. set_graph takes them away.

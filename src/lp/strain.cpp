@@ -32,6 +32,15 @@ std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<do
   return e;
 }
 
+double strain_part(int dim, const std::vector<double> &strain) {
+  double part = 1.0;
+  for (int c = 0; c < dim; ++c) {
+    const double shrinks = -strain[static_cast<size_t>(c) * (dim + 1)];
+    if (!(shrinks * part <= 0.5)) part = 0.5 / shrinks;
+  }
+  return part;
+}
+
 std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<double> &vectors,
                                 const std::vector<double> &scale) {
   const int d = basis.dim;

@@ -18,6 +18,9 @@ struct StrainBasis {
 
 // Which components of the cell may change: the edges a_cc, the tilts a_ck, or both.
 StrainBasis strain_basis(int dim, bool edges, bool tilts);
+// Largest part of a strain (dim, dim) that leaves half of each edge. In a thin cell that is far from jammed the bound
+// of an LP lets several amplitudes shorten one edge, by more than there is of it.
+double strain_part(int dim, const std::vector<double> &strain);
 // E = sum_k amplitude_k B_k, (dim, dim).
 std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<double> &amplitude, double scale);
 // r . (B_k r) of every pair, times scale_e: (pairs, count).

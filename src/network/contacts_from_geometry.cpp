@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 
@@ -133,6 +134,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
   const GapList g = pairs_below(p, window);
   for (const Jump &jump : find_jumps(p, g, gap_resolution(p), window)) {
     if (out.limit.size() == most_candidates) break;
+    CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
     if (!can_be_rigid(net, p.dim)) continue;
     out.limit.push_back(std::sqrt(jump.below * jump.above));

@@ -21,12 +21,14 @@ double largest(const std::vector<double> &force, size_t n, int d, const std::vec
 }  // namespace
 
 double Relaxation::residual() const {
+  if (sums.coincident > 0) return std::numeric_limits<double>::infinity();
   const double mean = sums.mean_force();
   if (mean > weak_force) return std::max(largest(force, state.n(), state.dim(), nullptr) / mean, sums.stress);
   return at_rest() || weak_force > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 double Relaxation::stable_residual() const {
+  if (sums.coincident > 0) return std::numeric_limits<double>::infinity();
   const SoftContacts contacts = state.contacts();
   const std::vector<char> on = stable_contacts(state, contacts);
   std::vector<char> stable(state.n(), 0);

@@ -7,6 +7,7 @@
 #include "core/cancellation.hpp"
 #include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
+#include "core/rng.hpp"
 #include "network/rattlers.hpp"
 
 namespace jam {
@@ -15,8 +16,8 @@ namespace {
 // Reach of the neighbour list beyond contact, mean diameters: it grows where lists are made anew within few
 // evaluations.
 constexpr double shortest_skin = 0.1, longest_skin = 0.4;
-// Stands for the square of a distance of 0.
-constexpr double tiny = 1e-280;
+// Squares of distances up to this one have lost their digits; the distance that then stands for them, in sigma_ij.
+constexpr double tiny = 1e-280, coincident_distance = 1e-16;
 constexpr int64_t few_evaluations = 25, many_evaluations = 250;
 
 }  // namespace
@@ -152,6 +153,23 @@ inline double overlap_square_plain(int dim, const double *xi, const double *xj, 
   return (sigma - length) * (sigma + length);
 }
 
+double SoftState::part_coincident(size_t k, double *r) const {
+  const int d = base_.dim;
+  double largest = 0.0;
+  for (int c = 0; c < d; ++c) largest = std::max(largest, std::fabs(r[c]));
+  for (int c = 0; c < d && largest > 0.0; ++c) r[c] = std::ldexp(r[c], -std::ilogb(largest));
+  if (largest == 0.0) {
+    const uint64_t pair = static_cast<uint64_t>(pairs_.i[k]) << 32 | static_cast<uint64_t>(pairs_.j[k]);
+    Rng rng(base_.seed, Stream::coincident, mix64(pair));
+    for (int c = 0; c < d; ++c) r[c] = rng.uniform() - 0.5;
+  }
+  double r2 = 0.0;
+  for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
+  const double length = coincident_distance * sigma_[k];
+  for (int c = 0; c < d; ++c) r[c] *= length / std::sqrt(r2);
+  return length * length;
+}
+
 template <int D>
 SoftSums SoftState::evaluate_in(std::vector<double> &force, const CellStrain *strain) const {
   const int d = D ? D : base_.dim;
@@ -171,7 +189,7 @@ SoftSums SoftState::evaluate_in(std::vector<double> &force, const CellStrain *st
     if (!(q > 0.0)) continue;
     double r2 = 0.0;
     for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
-    if (!(r2 > 0.0)) r2 = tiny;  // the same centre: no direction to push in
+    if (!(r2 > tiny)) r2 = part_coincident(k, r), ++sums.coincident;
     const double length = std::sqrt(r2), sum = sigma + length, both = 1.0 / (length * sum);
     const double delta = q * length * both, f = energy_.force(delta, inverse_[k]);
     sums.energy += energy_.value_from_force(delta, f);
@@ -218,8 +236,8 @@ SoftContacts SoftState::contacts() const {
     if (!(q > 0.0)) continue;
     double r2 = 0.0;
     for (int c = 0; c < d; ++c) r2 += r[c] * r[c];
+    if (!(r2 > tiny)) r2 = part_coincident(k, r);
     const double length = std::sqrt(r2), delta = q / (sigma_[k] + length);
-    if (!(length > 0.0)) continue;
     out.pair.push_back(k);
     out.overlap.push_back(delta);
     out.force.push_back(energy_.force(delta, inverse_[k]));

@@ -28,6 +28,7 @@ struct SoftSums {
   double stress = 0.0;   // largest stress that a free cell leaves, less the target, over the pressure
   double enthalpy() const { return energy + work; }
   int64_t contacts = 0;
+  int64_t coincident = 0;  // of them between spheres at one centre: no minimum, whatever the forces are
   double mean_force() const { return contacts > 0 ? force / static_cast<double>(contacts) : 0.0; }
   // Typical d2v / dr2 of a contact.
   double stiffness(double alpha) const { return overlap > 0.0 ? (alpha - 1.0) * force / overlap : 0.0; }
@@ -93,6 +94,9 @@ class SoftState {
   void deform_base(Packing &p) const;
   void wrap_sphere(size_t at, const std::vector<double> *strain);
   void take_references();
+  // The energy has a cusp where two spheres share a centre. r of such a pair becomes a short vector, along itself where
+  // it is not 0, else along a direction drawn by the seed: then they push each other apart. Returns its square.
+  double part_coincident(size_t pair, double *r) const;
 
   Packing base_;
   PairEnergy energy_;

@@ -133,6 +133,43 @@ void memory_limit_of_a_call(void **) {
   jam_destroy(sys);
 }
 
+// The estimate stands against the limit before a crunch begins, and every matrix before it is factorised. What fits
+// runs.
+void memory_limit_of_factors(void **) {
+  jam_system *sys = make(6000, 0.3);
+  const double *view = nullptr;
+  size_t len = 0;
+  jam_positions_view(sys, &view, &len);
+  const std::vector<double> before(view, view + len);
+  jam_estimate e;
+  e.struct_size = sizeof e;
+  assert_int_equal(jam_crunch_estimate(sys, nullptr, &e), JAM_OK);
+  jam_crunch_options o;
+  jam_crunch_options_init(&o, sizeof o);
+  o.wall_time = 1.0;
+  jam_crunch_report r;
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_set_memory_limit(sys, 0.5 * e.bytes), JAM_OK);
+  largest = 0;
+  assert_int_equal(jam_crunch(sys, &o, &r), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "need"));
+  assert_true(static_cast<double>(largest) < 0.25 * e.bytes);
+  assert_memory_equal(view, before.data(), len * sizeof *view);
+  assert_int_equal(jam_crunch_report_get(sys, &r), JAM_E_STATE);
+  assert_int_equal(jam_set_memory_limit(sys, 1.1 * e.bytes), JAM_OK);
+  assert_int_equal(jam_crunch(sys, &o, &r), JAM_LIMIT);
+  jam_destroy(sys);
+
+  sys = make(400, 0.3);  // the rigidity test, and modes of its network
+  assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
+  assert_int_equal(jam_set_memory_limit(sys, 1e5), JAM_OK);
+  jam_moduli moduli;
+  moduli.struct_size = sizeof moduli;
+  assert_int_equal(jam_moduli_get(sys, nullptr, &moduli), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "factorised"));
+  jam_destroy(sys);
+}
+
 // One sphere that sees most of the pairs: the mean diameter does not announce them. Found by the soak test: 14 GB under
 // a limit of 0.1.
 void memory_limit_of_one_sphere(void **) {
@@ -243,6 +280,7 @@ int main() {
                               cmocka_unit_test(planting_stops_in_time),
                               cmocka_unit_test(fractions_out_of_reach),
                               cmocka_unit_test(memory_limit_of_a_call),
+                              cmocka_unit_test(memory_limit_of_factors),
                               cmocka_unit_test(memory_limit_of_one_sphere),
                               cmocka_unit_test(crunch_of_many_pairs),
                               cmocka_unit_test(lists_of_verbs_are_left),

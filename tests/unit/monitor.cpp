@@ -2,6 +2,7 @@
 #include "core/monitor.hpp"
 
 #include "core/call_scope.hpp"
+#include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/dense_front.hpp"
 #include "linalg/two_threads.hpp"
@@ -34,7 +35,6 @@ void silence_is_short(void **) {
   // be 2, and a call at each look would be millions
   assert_in_range(calls_during(1.2, [](Monitor &monitor) { monitor.look(); }), 4, 20);
   assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::look(); }), 4, 20);
-  assert_in_range(calls_during(1.2, [](Monitor &) { CallScope::tell(); }), 4, 20);
 }
 
 // Work that asks nobody: its end comes before that of the call, and nothing is told without a callback.
@@ -70,27 +70,92 @@ void symbolic_analysis_tells(void **) {
   assert_in_range(calls_during(1.2, again), 4, 20);
 }
 
-// A cancellation waits behind tell(), also where look() would leave the work.
-void tell_leaves_nothing(void **) {
-  Monitor monitor;
-  monitor.begin();
-  const LeavingScope scope(1e12, &monitor);
-  monitor.cancel();
-  CallScope::tell();
-  bool left = false;
-  try {
-    CallScope::look();
-  } catch (const Cancelled &) {
-    left = true;
+// Both parts of a factorisation are left where the call is cancelled, also with a second thread at work, and in a scope
+// that cannot be left they go on. Afterwards the same object factorises as a new one does.
+void factorisations_are_left(void **) {
+  const int side = 12, n = side * side * side;
+  std::vector<int32_t> ei, ej;
+  for (int k = 0; k < n; ++k)
+    for (const int step : {1, side, side * side})
+      if (k + step < n) ei.push_back(k), ej.push_back(k + step);
+  std::vector<double> diag(n, 7.0), off(ei.size(), -1.0);
+  BlockCholesky factor;
+  const auto solve = [&] {
+    std::vector<double> x(n, 1.0);
+    assert_int_equal(factor.factorise(diag.data(), off.data()), 0);
+    factor.solve(x.data());
+    return x;
+  };
+  for (const int threads : {1, 2}) {
+    const auto analyse = [&] { factor.analyse(1, n, ei.data(), ej.data(), ei.size(), threads); };
+    analyse();
+    const std::vector<double> before = solve();
+    Monitor monitor;
+    monitor.begin();
+    monitor.cancel();
+    const auto leaves = [&](auto &&work) {
+      const LeavingScope scope(1e12, &monitor);
+      try {
+        work();
+      } catch (const Cancelled &) {
+        return true;
+      }
+      return false;
+    };
+    assert_true(leaves([&] { factor.factorise(diag.data(), off.data()); }));
+    assert_true(leaves(analyse));
+    analyse();
+    const CallScope stays(1e12, &monitor);
+    assert_true(solve() == before);
   }
-  assert_true(left);
+}
+
+// A short call beside a handle hears the cancels that come while it runs, and answers them; those from before it leaves
+// to the next verb.
+void short_calls_beside_a_handle(void **) {
+  Monitor handle, call;
+  handle.begin();
+  handle.cancel();
+  call.begin_beside(handle, false);
+  assert_false(call.cancelled());
+  call.end_beside(handle);
+  assert_true(handle.cancelled());
+  handle.cancel();
+  assert_true(call.cancelled() && call.interrupted());
+  call.end_beside(handle);
+  assert_false(handle.cancelled());
+}
+
+// The numbers of a factor count against the memory of the call, before they are allocated.
+void factors_keep_to_the_memory(void **) {
+  const int n = 3000;
+  std::vector<int32_t> ei, ej;
+  for (int k = 1; k < n; ++k) ei.push_back(0), ej.push_back(k);
+  BlockCholesky factor;
+  const auto refused = [&](double limit) {
+    const CallScope scope(limit);
+    try {
+      factor.analyse(3, n, ei.data(), ej.data(), ei.size());
+    } catch (const Error &e) {
+      return e.code() == JAM_E_MEMORY;
+    }
+    return false;
+  };
+  assert_false(refused(1e12));
+  const double bytes = 8.0 * static_cast<double>(factor.factor_nonzeros());
+  assert_true(refused(bytes));
+  assert_false(refused(2.0 * static_cast<double>(factor.bytes())));
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(silence_is_short), cmocka_unit_test(symbolic_analysis_tells),
-                              cmocka_unit_test(work_on_another_thread_tells), cmocka_unit_test(a_large_product_tells),
-                              cmocka_unit_test(tell_leaves_nothing)};
+  const CMUnitTest tests[] = {cmocka_unit_test(silence_is_short),
+                              cmocka_unit_test(symbolic_analysis_tells),
+                              cmocka_unit_test(work_on_another_thread_tells),
+                              cmocka_unit_test(a_large_product_tells),
+                              cmocka_unit_test(factorisations_are_left),
+                              cmocka_unit_test(short_calls_beside_a_handle),
+                              cmocka_unit_test(factors_keep_to_the_memory)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -272,5 +272,12 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     return StatusCode(status), next(iter(results.values()), None)
 
 
+def finished(answer: Any) -> None:
+    """Raises where a cancel of another thread has ended a call that returns nothing."""
+    status = answer[0] if isinstance(answer, (list, tuple)) else answer
+    if status != 0:
+        raise errors.StoppedError(raw.jam_last_error())
+
+
 def camel(name: str) -> str:
     return "".join(w.capitalize() for w in name.removesuffix("_get").split("_"))

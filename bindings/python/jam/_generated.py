@@ -82,7 +82,7 @@ class Phase(IntEnum):
     COMPRESS = 2  # molecular dynamics with growth
     CRUNCH = 3  # one LP or re-linearised Newton step done
     POLISH = 4  # refinement of the final network
-    ANALYSE = 5  # long analysis calls
+    ANALYSE = 5  # long analysis calls, and setters that search for overlaps
     RELAX = 6  # minimising the energy of soft spheres
     DECOMPRESS = 7  # soft spheres on their way down to jamming; steps: decompressions so far
     MONTE_CARLO = 8  # Metropolis sweeps
@@ -843,8 +843,8 @@ OPTIONS = {
         "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'Masses, default EQUAL'),
         "non_additivity": ("float", 'Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same'),
-        "wall_time": ("float", "seconds for a random start or the search for overlaps, > 0, default infinity: then 'limit'"),
-        "memory_limit": ("float", "as set_memory_limit(); default 0: half the machine's memory"),
+        "wall_time": ("float", "seconds to read a file, for a random start and the search for overlaps, > 0, default infinity: then 'limit'"),
+        "memory_limit": ("float", "as set_memory_limit(), also while a file is read; default 0: half the machine's memory"),
         "frame": ("int", 'of a file with several packings, from 0, or from the end where negative; default -1, the last'),
         "shrink_min": ("float", "least factor that 'shrink' may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused"),
     },

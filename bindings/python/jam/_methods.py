@@ -16,9 +16,11 @@ class Methods:
         raise NotImplementedError
 
     def set_memory_limit(self, bytes: float, *, progress: Progressing = None) -> None:
-        """Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit.
+        """Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0;
+        infinity: no limit.
 
-        A call that needs more fails with MemoryError before it takes them. The default is half the machine's memory.
+        A call that needs more fails with MemoryError before it takes them. crunch() compares crunch_estimate() with
+        it before it begins, and each matrix before it is factorised. The default is half the machine's memory.
         Options named memory_limit bound their own calls further.
 
         Parameters

@@ -101,7 +101,7 @@ class State(Base):
         shape = self._show(raw.jam_positions_view).shape
         if x.shape != shape:
             raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
-        function(self.handle, x.reshape(-1))
+        _calls.finished(function(self.handle, x.reshape(-1)))
 
     @property
     def diameters(self) -> Array:
@@ -121,11 +121,11 @@ class State(Base):
 
     @cell.setter
     def cell(self, vectors: Any) -> None:
-        raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None)
+        _calls.finished(raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None))
 
     def strain(self, strain: Any) -> None:
         """Deforms cell and positions by r -> (1 + strain) r, strain of shape (d, d); diameters stay."""
-        raw.jam_strain(self.handle, self._matrix(strain, "strain"))
+        _calls.finished(raw.jam_strain(self.handle, self._matrix(strain, "strain")))
 
     def _matrix(self, values: Any, name: str) -> Array:
         x = _calls.as_array(values, name=name)
@@ -135,4 +135,4 @@ class State(Base):
 
     def scale_diameters(self, factor: float) -> None:
         """Multiplies all diameters by factor."""
-        raw.jam_scale_diameters(self.handle, float(factor))
+        _calls.finished(raw.jam_scale_diameters(self.handle, float(factor)))

@@ -53,7 +53,10 @@ class ClosedError(JamError, ValueError):
 
 
 class StoppedError(JamError, TimeoutError):
-    """A call that makes a system was stopped by wall_time or by its progress callable, so there is none."""
+    """A call that makes a system was stopped by wall_time or by its progress callable, so there is none.
+
+    Also a setter that a cancel() of another thread has ended: the system is as before.
+    """
 
 
 class StoreError(OSError):

@@ -164,12 +164,18 @@ class System(State, Verbs, Network):
                     "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
                 )
         options["box"] = _given.side_of(options.get("box"))
-        return cls(raw.jam_read(name, _calls.options("jam_create_options", options))[1])
+        return cls._made(*raw.read_watched(name, _calls.options("jam_create_options", options), None))
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
         """Reads a file of `checkpoint_write`. The dynamics continue to the same bits as if they had never stopped."""
-        return cls(raw.jam_checkpoint_read(os.fspath(path))[1])
+        return cls._made(*raw.checkpoint_read_watched(os.fspath(path), None))
+
+    @classmethod
+    def _made(cls, status: int, handle: Any) -> "System":
+        if status != 0:
+            raise errors.StoppedError(f"no system was made: {raw.jam_last_error()}")
+        return cls(handle)
 
     @classmethod
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
@@ -182,14 +188,13 @@ class System(State, Verbs, Network):
 
         try:
             if vectors is None:
-                status, handle = raw.create_watched(made, positions, diameters, told and on_progress)
+                answer = raw.create_watched(made, positions, diameters, told and on_progress)
             else:
-                status, handle = raw.jam_create_in_cell(made, vectors.reshape(-1), positions, diameters)
+                flat = vectors.reshape(-1)
+                answer = raw.create_in_cell_watched(made, flat, positions, diameters, told and on_progress)
         finally:
             end(told)
-        if status != 0:
-            raise errors.StoppedError(f"no system was made: {raw.jam_last_error()}")
-        return cls(handle)
+        return cls._made(*answer)
 
     # ---- life
     def close(self) -> None:
@@ -205,7 +210,7 @@ class System(State, Verbs, Network):
 
     def copy(self) -> "System":
         """Deep copy with results and what was observed. It has the same seed, so set velocities to make its dynamics differ."""
-        made = System(raw.jam_copy(self.handle)[1])
+        made = System._made(*raw.jam_copy(self.handle))
         made.trace, made.calls = list(self.trace), list(self.calls)
         return made
 
@@ -258,7 +263,7 @@ class System(State, Verbs, Network):
             from . import other_files
 
             return other_files.write_gsd(self, name)
-        raw.jam_write(self.handle, name, _calls.as_enum(format, "Format"))
+        _calls.finished(raw.jam_write(self.handle, name, _calls.as_enum(format, "Format")))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes the contact network: pairs, unit vectors, gaps and forces.
@@ -271,7 +276,7 @@ class System(State, Verbs, Network):
             'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
             behind it the file is compressed.
         """
-        raw.jam_write_contacts(self.handle, os.fspath(path), _calls.as_enum(format, "ContactFormat"))
+        _calls.finished(raw.jam_write_contacts(self.handle, os.fspath(path), _calls.as_enum(format, "ContactFormat")))
 
     def page(
         self,
@@ -311,7 +316,7 @@ class System(State, Verbs, Network):
             if len(column) != self.n:
                 raise ValueError(f"{name} must have shape ({self.n},), not {column.shape}")
         numbers = np.concatenate(list(columns.values())) if columns else None
-        raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers)
+        _calls.finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers))
 
     def _repr_html_(self) -> str:
         """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""

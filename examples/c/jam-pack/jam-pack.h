@@ -70,7 +70,7 @@ int is_named(const options *o, const char *name); /* whether the command line ha
 int check_formats(const options *o, const jam_system *sys);
 
 /* start.c: start returns 0 or an exit code after a message on stderr. */
-int start(const options *o, jam_system **sys);
+int start(const options *o, jam_progress_fn stop, jam_system **sys);
 int take_diameters(const char *value, options *o); /* without a message */
 
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */

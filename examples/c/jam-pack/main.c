@@ -19,6 +19,11 @@ static void on_signal(int number) {
   signal(number, SIG_DFL); /* a second Ctrl-C ends the program at once */
 }
 
+static int32_t stop_if_asked(const jam_progress *progress, void *user) {
+  (void)progress, (void)user;
+  return interrupted;
+}
+
 /* ---- the parts of the job; each returns the library's status */
 
 static void add_md(outcome *result, const jam_md_report *md) {
@@ -192,7 +197,7 @@ int main(int argc, char **argv) {
   memset(&result, 0, sizeof result);
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
-  code = start(&o, &sys);
+  code = start(&o, stop_if_asked, &sys);
   if (code) return code;
   if ((o.input || o.resume || o.dim > 3) && check_formats(&o, sys)) return EXIT_USAGE;
   print_warnings(jam_notes(sys));

@@ -106,7 +106,7 @@ static int refused_start(const options *o, jam_status status) {
              : EXIT_FAILED;
 }
 
-int start(const options *o, jam_system **sys) {
+int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   jam_create_options create;
   double *diameters = NULL;
   jam_status status = jam_create_options_init(&create, sizeof create);
@@ -119,18 +119,22 @@ int start(const options *o, jam_system **sys) {
   create.mk_zeta = o->zeta;
   create.non_additivity = o->non_additivity;
   if (o->resume)
-    status = jam_checkpoint_read(o->resume, sys);
+    status = jam_checkpoint_read_watched(o->resume, stop, NULL, sys);
   else if (o->input)
-    status = jam_read(o->input, &create, sys);
+    status = jam_read_watched(o->input, &create, stop, NULL, sys);
   else {
     create.n = o->n;
     if (make_diameters(o, &diameters, &create.n)) return EXIT_FAILED;
     create.dim = (int32_t)o->dim;
     create.packing_fraction = o->phi0;
-    status = jam_create(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, sys);
+    status = jam_create_watched(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, stop, NULL, sys);
     free(diameters);
   }
   if (status < 0) return refused_start(o, status);
+  if (!*sys) {
+    complain("interrupted before there was a packing");
+    return EXIT_FAILED;
+  }
   return o->resume ? check_resumed(o, *sys) : 0;
 }
 

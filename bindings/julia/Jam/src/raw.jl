@@ -73,7 +73,7 @@ const JAM_PHASE_RUN = Int32(1)  # NVE molecular dynamics
 const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
 const JAM_PHASE_CRUNCH = Int32(3)  # one LP or re-linearised Newton step done
 const JAM_PHASE_POLISH = Int32(4)  # refinement of the final network
-const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls
+const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls, and setters that search for overlaps
 const JAM_PHASE_RELAX = Int32(6)  # minimising the energy of soft spheres
 const JAM_PHASE_DECOMPRESS = Int32(7)  # soft spheres on their way down to jamming; steps: decompressions so far
 const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
@@ -296,8 +296,8 @@ mutable struct jam_create_options
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
     non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same
-    wall_time::Cdouble  # seconds for a random start or the search for overlaps, > 0, default infinity: then JAM_LIMIT
-    memory_limit::Cdouble  # as jam_set_memory_limit; default 0: half the machine's memory
+    wall_time::Cdouble  # seconds to read a file, for a random start and the search for overlaps, > 0, default infinity: then JAM_LIMIT
+    memory_limit::Cdouble  # as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     frame::Int64  # of a file with several packings, from 0, or from the end where negative; default -1, the last
     shrink_min::Cdouble  # least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused
     jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
@@ -1018,7 +1018,9 @@ function jam_strain(sys, strain, strain_len)
 end
 
 """
-Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Threads: alone.
+Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
+long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
+on its handle do not. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
 """
 function jam_set_progress(sys, callback, user)
@@ -1035,6 +1037,30 @@ function jam_create_watched(o, positions, positions_len, diameters, diameters_le
 end
 
 """
+jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
+JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
+where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
+jam_create_in_cell. Threads: any. @since 0.1
+"""
+function jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, callback, user, out)
+    return ccall((:jam_create_in_cell_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
+end
+
+"""
+See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1
+"""
+function jam_read_watched(path, o, callback, user, out)
+    return ccall((:jam_read_watched, libjam), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
+end
+
+"""
+See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1
+"""
+function jam_checkpoint_read_watched(path, callback, user, out)
+    return ccall((:jam_checkpoint_read_watched, libjam), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
+end
+
+"""
 Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
 """
@@ -1043,18 +1069,20 @@ function jam_set_log(sys, callback, level, user)
 end
 
 """
-Asks the call that runs on sys to stop soon with JAM_CANCELLED; without one, the next call
-stops. It only sets an atomic flag. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since 0.1
+Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
+stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
+0.1
 """
 function jam_cancel(sys)
     return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
-Bytes that lists of pairs and what is made from them may take in one call on sys, > 0; infinity: no limit. A call
-that needs more fails with JAM_E_MEMORY before it takes them. The default is half the machine's memory. Options named
-memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since
-0.1
+Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
+no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
+jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
+machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
+JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
 """
 function jam_set_memory_limit(sys, bytes)
     return ccall((:jam_set_memory_limit, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
@@ -1084,11 +1112,11 @@ end
 
 """
 Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-under another name and then renamed. Links are followed; pipes and devices are written in place. The shifts of
-JAM_MODEL_MK are not saved: read the file with the same seed and mk_zeta. Planted shifts are not saved either: use
-jam_checkpoint_write. Only XYZ can hold non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube:
-JAM_E_UNSUPPORTED.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
+of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
+the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
+JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
 """
 function jam_write(sys, path, format)
     return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)

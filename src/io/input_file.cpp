@@ -1,0 +1,121 @@
+#include "io/input_file.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include "core/call_scope.hpp"
+#include "core/error.hpp"
+
+namespace jam {
+namespace {
+
+constexpr size_t chunk = 1 << 16;
+constexpr int silence = 50;  // milliseconds that a pipe may keep the call from looking
+constexpr unsigned char gzip_mark[] = {0x1f, 0x8b};
+
+}  // namespace
+
+// One member of gzip's format after the other.
+struct InputFile::Gzip {
+  Gzip() {
+    constexpr int with_gzip_header = 15 + 16;
+    if (::inflateInit2(&stream, with_gzip_header) != Z_OK) throw std::bad_alloc();
+  }
+  ~Gzip() { ::inflateEnd(&stream); }
+  Gzip(const Gzip &) = delete;
+  Gzip &operator=(const Gzip &) = delete;
+  z_stream stream{};
+  bool inside = true;  // a member has begun and has not ended
+};
+
+void InputFile::fail_errno(const char *what) const {
+  const int code = errno;
+  fail(JAM_E_IO, "cannot %s %s: %s", what, path_.c_str(), std::generic_category().message(code).c_str());
+}
+
+// Opening a pipe would wait for its writer, deaf to all: so it is opened at once, and read() waits.
+InputFile::InputFile(const char *path) : path_(path) {
+  while ((fd_ = ::open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC)) < 0)
+    if (errno != EINTR) fail_errno("open");
+}
+
+InputFile::~InputFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+size_t InputFile::read(char *to, size_t size) {
+  for (;;) {
+    CallScope::look();
+    pollfd ready{fd_, POLLIN, 0};
+    const int waited = ::poll(&ready, 1, silence);
+    if (waited == 0 || (waited < 0 && errno == EINTR)) continue;
+    const ssize_t got = ::read(fd_, to, std::min(size, chunk));
+    if (got >= 0) return static_cast<size_t>(got);
+    if (errno != EINTR && errno != EAGAIN) fail_errno("read");
+  }
+}
+
+bool InputFile::fill() {
+  if (begin_ < end_) return true;
+  packed_.resize(chunk);
+  begin_ = 0;
+  end_ = read(packed_.data(), packed_.size());
+  return end_ > 0;
+}
+
+size_t InputFile::read_unpacked(char *to, size_t size) {
+  if (!begun_) {
+    begun_ = true;
+    while (end_ < sizeof gzip_mark) {  // a pipe may give one byte at a time
+      packed_.resize(chunk);
+      const size_t got = read(packed_.data() + end_, packed_.size() - end_);
+      if (got == 0) break;
+      end_ += got;
+    }
+    if (end_ >= sizeof gzip_mark && std::memcmp(packed_.data(), gzip_mark, sizeof gzip_mark) == 0)
+      gzip_ = std::make_unique<Gzip>();
+  }
+  if (gzip_) return unpack(to, size);
+  if (begin_ == end_) return read(to, size);
+  const size_t give = std::min(size, end_ - begin_);
+  std::memcpy(to, packed_.data() + begin_, give);
+  begin_ += give;
+  return give;
+}
+
+size_t InputFile::unpack(char *to, size_t size) {
+  z_stream &s = gzip_->stream;
+  s.next_out = reinterpret_cast<Bytef *>(to);
+  s.avail_out = static_cast<uInt>(std::min(size, chunk));
+  const uInt room = s.avail_out;
+  while (s.avail_out == room) {
+    if (!fill()) {
+      if (gzip_->inside) fail(JAM_E_FORMAT, "%s: the compressed file is cut short", path_.c_str());
+      return 0;
+    }
+    if (!gzip_->inside) {  // another member may follow
+      ::inflateReset(&s);
+      gzip_->inside = true;
+    }
+    s.next_in = reinterpret_cast<Bytef *>(packed_.data() + begin_);
+    s.avail_in = static_cast<uInt>(end_ - begin_);
+    const int code = ::inflate(&s, Z_NO_FLUSH);
+    begin_ = end_ - s.avail_in;
+    if (code == Z_MEM_ERROR) throw std::bad_alloc();
+    if (code == Z_STREAM_END) gzip_->inside = false;
+    if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR)
+      fail(JAM_E_FORMAT, "%s: not a sound gzip file: %s", path_.c_str(), s.msg ? s.msg : "damaged");
+    CallScope::look();
+  }
+  return room - s.avail_out;
+}
+
+}  // namespace jam

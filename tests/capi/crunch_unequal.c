@@ -1,0 +1,112 @@
+/* Crunches of starts at the rim: few spheres of very unequal sizes, farther apart than the first linear program lets
+ * them move; and cells as thin as the limits allow, that are free to become thick. Each ends with a status and a valid
+ * state: a finite cell of the same volume and no overlap. */
+#include "test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "jam/jam.h"
+
+static void assert_valid(const jam_system *sys, double before) {
+  jam_info info = {.struct_size = sizeof info};
+  double cell[64];
+  size_t rows;
+  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_true(info.packing_fraction >= before * (1.0 - 1e-12) && info.packing_fraction < 1.0);
+  assert_int_equal(jam_cell_get(sys, cell, 64, &rows), JAM_OK);
+  for (size_t k = 0; k < rows; ++k) assert_true(isfinite(cell[k]));
+  jam_system *copy = NULL;
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  assert_int_equal(jam_scale_diameters(copy, 1.0 + 1e-13), JAM_OK); /* looks for overlaps */
+  jam_destroy(copy);
+}
+
+/* One large sphere and five small ones: no pair lies within the bound of the first step. */
+static void very_unequal_spheres(void **state) {
+  const struct {
+    int dim;
+    double ratio;
+  } cases[] = {{4, 10.0}, {3, 100.0}, {4, 100.0}, {2, 100.0}, {2, 5.0}, {3, 1000.0}};
+  (void)state;
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
+    for (int64_t seed = 1; seed <= 10; ++seed)
+      for (int few = 0; few < 2; ++few) {
+        jam_create_options o;
+        jam_crunch_options c;
+        jam_system *sys = NULL;
+        double diameters[6] = {cases[k].ratio, 1, 1, 1, 1, 1};
+        const size_t n = few ? 2 : 6;
+        assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+        assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+        o.n = (int64_t)n, o.dim = cases[k].dim, o.seed = seed, o.packing_fraction = 0.02;
+        assert_int_equal(jam_create(&o, NULL, 0, diameters, n, &sys), JAM_OK);
+        c.wall_time = 20.0;
+        const jam_status status = jam_crunch(sys, &c, NULL);
+        if (status < 0) fail_msg("d %d ratio %g seed %d: %s", o.dim, cases[k].ratio, (int)seed, jam_last_error());
+        assert_valid(sys, 0.02);
+        jam_destroy(sys);
+      }
+}
+
+/* A small bound of the steps, by option, makes the lists as short. */
+static void short_steps(void **state) {
+  jam_create_options o;
+  jam_crunch_options c;
+  jam_system *sys = NULL;
+  (void)state;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+  o.n = 6, o.packing_fraction = 0.05;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  c.step_bound = 1e-3, c.max_lps = 30;
+  const jam_status status = jam_crunch(sys, &c, NULL);
+  if (status < 0) fail_msg("%s", jam_last_error());
+  assert_valid(sys, 0.05);
+  c.neighbour_radius = 1e-3; /* what the user asks for is not changed */
+  assert_int_equal(jam_scale_diameters(sys, 0.5), JAM_OK);
+  assert_int_equal(jam_crunch(sys, &c, NULL), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "neighbour radius"));
+  jam_destroy(sys);
+}
+
+/* Rods of height h, and a flat cell. The volume is 1. */
+static void thin_cells(void **state) {
+  const struct {
+    int dim, n;
+    double height;
+    int flat;
+  } cases[] = {{3, 20, 1.1e-3, 0}, {4, 20, 1.1e-3, 0}, {4, 20, 1e-2, 0},   {4, 20, 5e-2, 0},
+               {5, 20, 5e-2, 0},   {3, 20, 1e-2, 1},   {8, 10, 1.01e-3, 1}};
+  (void)state;
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+    const int d = cases[k].dim;
+    const double h = cases[k].height, wide = cases[k].flat ? pow(h, -1.0 / (d - 1)) : h;
+    jam_create_options o;
+    jam_crunch_options c;
+    jam_system *sys = NULL;
+    double cell[64] = {0}, ball = pow(acos(-1.0), 0.5 * d) / tgamma(0.5 * d + 1.0);
+    assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+    assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
+    for (int q = 0; q < d; ++q) cell[q * d + q] = wide;
+    if (cases[k].flat)
+      cell[0] = h;
+    else
+      cell[d * d - 1] = pow(h, 1 - d);
+    o.dim = d, o.n = cases[k].n;
+    o.packing_fraction = cases[k].n * ball * pow(0.35 * h, d);
+    assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys), JAM_OK);
+    c.strain = JAM_STRAIN_FREE, c.wall_time = 10.0;
+    const jam_status status = jam_crunch(sys, &c, NULL);
+    if (status < 0) fail_msg("d %d height %g: %d %s", d, h, status, jam_last_error());
+    assert_valid(sys, o.packing_fraction);
+    jam_destroy(sys);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(very_unequal_spheres), cmocka_unit_test(short_steps),
+                                     cmocka_unit_test(thin_cells)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,162 @@
+/* Pipes and open files: signals do not end a read, limits end a silent one, and what is open is written in place. */
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include "io_helpers.h"
+
+static void ignore_signal(int number) { (void)number; }
+
+static void ring(suseconds_t every) {
+  struct itimerval timer = {{0, every}, {0, every}};
+  struct sigaction action = {0};
+  action.sa_handler = ignore_signal; /* without SA_RESTART, as those of Python */
+  sigaction(SIGALRM, &action, NULL);
+  setitimer(ITIMER_REAL, &timer, NULL);
+}
+
+/* Feeds a file into a pipe, a few bytes at a time; several times a read is amid one of zlib's blocks. */
+static pid_t feed(const char *file, const char *fifo) {
+  const pid_t child = fork();
+  size_t size, at;
+  char *bytes;
+  int fd;
+  if (child) return child;
+  bytes = get_bytes(file, &size);
+  fd = open(fifo, O_WRONLY);
+  for (at = 0; at < size; at += 7000) {
+    if (write(fd, bytes + at, size - at < 7000 ? size - at : 7000) < 0) _exit(1);
+    usleep(3000);
+  }
+  _exit(0);
+}
+
+static void signals_do_not_end_a_read(void **state) {
+  jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
+  const char *names[] = {"plain.dat", "packed.xyz.gz", "state.chk"};
+  char fifo[256];
+  int k;
+  (void)state;
+  strcpy(fifo, in_scratch("fifo"));
+  assert_int_equal(mkfifo(fifo, 0600), 0);
+  for (k = 0; k < 3; ++k) {
+    const char *name = in_scratch(names[k]);
+    pid_t child;
+    assert_int_equal(k == 2 ? jam_checkpoint_write(sys, name) : jam_write(sys, name, 0), JAM_OK);
+    child = feed(name, fifo);
+    ring(1000);
+    assert_int_equal(k == 2 ? jam_checkpoint_read(fifo, &back) : jam_read(fifo, NULL, &back), JAM_OK);
+    ring(0);
+    assert_same_bits(sys, back);
+    jam_destroy(back);
+    waitpid(child, NULL, 0);
+  }
+  jam_destroy(sys);
+}
+
+static int32_t stop_at_once(const jam_progress *p, void *user) {
+  (void)p, (void)user;
+  return 1;
+}
+
+/* Nobody writes: the limit of time and the callback end the call. */
+static void silent_pipes_are_left(void **state) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  char fifo[256];
+  int writer;
+  (void)state;
+  strcpy(fifo, in_scratch("silent"));
+  assert_int_equal(mkfifo(fifo, 0600), 0);
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.wall_time = 0.1;
+  assert_int_equal(jam_read(fifo, &o, &sys), JAM_LIMIT);
+  assert_int_equal(jam_checkpoint_read_watched(fifo, stop_at_once, NULL, &sys), JAM_CANCELLED);
+  writer = open(fifo, O_RDWR); /* connected, and still silent */
+  assert_int_equal(jam_read(fifo, &o, &sys), JAM_LIMIT);
+  close(writer);
+  assert_null(sys);
+}
+
+/* A compressed file, made by a shell command whose output is its text. */
+static void pack(const char *text, const char *path, int append) {
+  char command[600];
+  snprintf(command, sizeof command, "( %s ) | gzip -1 %s '%s'", text, append ? ">>" : ">", path);
+  assert_int_equal(system(command), 0);
+}
+
+/* A small compressed file can hold much: blank lines, or spheres. */
+static void reading_keeps_to_its_limits(void **state) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  const char *path = in_scratch("much.dat.gz");
+  (void)state;
+  pack("printf '3\\n1\\n0.1\\n'; yes '' | head -c 300000000; echo 0 0 0", path, 0);
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.wall_time = 0.1;
+  assert_int_equal(jam_read(path, &o, &sys), JAM_LIMIT);
+  assert_int_equal(jam_read_watched(path, NULL, stop_at_once, NULL, &sys), JAM_CANCELLED);
+
+  pack("printf '3\\n200000\\n1e-5\\n'; yes '0 0 0' | head -n 200000", path, 0);
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.memory_limit = 1e6;
+  assert_int_equal(jam_read(path, &o, &sys), JAM_E_MEMORY);
+  assert_non_null(strstr(jam_last_error(), "much.dat.gz"));
+  assert_null(sys);
+}
+
+/* Members of gzip's format behind each other are one text; what else stands behind them is refused. */
+static void gzip_members(void **state) {
+  jam_system *sys = NULL;
+  const char *path = in_scratch("members.dat.gz");
+  FILE *more;
+  (void)state;
+  pack("printf '3\\n1\\n0.1\\n0.25 0.'", path, 0);
+  pack("printf '5 0.75\\n'", path, 1);
+  assert_int_equal(jam_read(path, NULL, &sys), JAM_OK);
+  jam_destroy(sys);
+  sys = NULL;
+  more = fopen(path, "ab");
+  fputs("0.1 0.1 0.1\n", more);
+  fclose(more);
+  assert_int_equal(jam_read(path, NULL, &sys), JAM_E_FORMAT);
+  assert_null(sys);
+}
+
+/* What a shell does with >>: earlier and later lines stay, also where a link leads there. */
+static void open_files_are_appended_to(void **state) {
+  jam_system *sys = some_packing(3, 5, 1.0, 1.0);
+  const char *path = in_scratch("log.txt"), *plain = in_scratch("alone.dat");
+  char names[3][256], *text, *packing;
+  const int fd = open(path, O_WRONLY | O_CREAT | O_APPEND, 0600);
+  size_t size, one;
+  int k;
+  (void)state;
+  assert_int_equal(jam_write(sys, plain, JAM_FORMAT_PLAIN), JAM_OK);
+  packing = get_bytes(plain, &one);
+  sprintf(names[0], "/dev/fd/%d", fd);
+  sprintf(names[1], "/proc/%ld/fd/%d", (long)getpid(), fd);
+  strcpy(names[2], in_scratch("to-the-log"));
+  assert_int_equal(symlink(names[0], names[2]), 0);
+  assert_int_equal(write(fd, "before\n", 7), 7);
+  for (k = 0; k < 3; ++k) assert_int_equal(jam_write(sys, names[k], JAM_FORMAT_PLAIN), JAM_OK);
+  assert_int_equal(write(fd, "after\n", 6), 6);
+  text = get_bytes(path, &size);
+  assert_int_equal(size, 7 + 3 * one + 6);
+  assert_memory_equal(text, "before\n", 7);
+  for (k = 0; k < 3; ++k) assert_memory_equal(text + 7 + k * one, packing, one);
+  assert_string_equal(text + 7 + 3 * one, "after\n");
+  free(text), free(packing);
+  close(fd);
+  assert_int_equal(jam_write(sys, names[0], JAM_FORMAT_PLAIN), JAM_E_IO); /* closed */
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(signals_do_not_end_a_read),   cmocka_unit_test(silent_pipes_are_left),
+      cmocka_unit_test(reading_keeps_to_its_limits), cmocka_unit_test(gzip_members),
+      cmocka_unit_test(open_files_are_appended_to),
+  };
+  return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

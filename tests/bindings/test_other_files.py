@@ -1,6 +1,8 @@
 """Files of other programs: each number comes from where the file names it, or the file is refused with a way out."""
 import importlib.util
 import os
+import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
@@ -166,6 +168,16 @@ class Gsd(Folder):
         self.write(f)
         for name in ("box", "dim"):
             self.refused([name, "f.gsd"], jam.System.read, self.path, kind=TypeError, **{name: 3})
+
+    def test_the_command_line_takes_them(self):
+        f = self.frame()
+        f.particles.diameter = np.full(64, 0.5)
+        self.write(f)
+        out = os.path.join(self.folder, "out.xyz")
+        command = [sys.executable, "-m", "jam", "--input", self.path, "--no-md", "--no-crunch", "--quiet", "--output", out]
+        done = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(jam.System.read(out).box, 8.0)
 
     def test_no_gsd(self):
         with open(self.path, "w") as file:

@@ -111,6 +111,24 @@ static void estimates_scale_with_the_number_of_spheres(void **state) {
   jam_destroy(small), jam_destroy(large);
 }
 
+/* Small spheres roam in holes: the path meets saddles, and makes a list a step. */
+static void wide_mixtures_take_more_steps(void **state) {
+  double sizes[256], before = 0.0;
+  (void)state;
+  for (int ratio = 1; ratio <= 100; ratio *= 10) {
+    jam_create_options o;
+    jam_system *sys = NULL;
+    jam_create_options_init(&o, sizeof o);
+    o.n = 256;
+    for (int i = 0; i < 256; ++i) sizes[i] = i < 128 ? 1.0 : ratio;
+    assert_int_equal(jam_create(&o, NULL, 0, sizes, 256, &sys), JAM_OK);
+    const jam_estimate e = estimated(sys, NULL);
+    assert_true(e.factorisations > 1.3 * before && e.seconds == e.factorisations * e.step_seconds);
+    before = e.factorisations;
+    jam_destroy(sys);
+  }
+}
+
 /* The path couples pairs near contact; an LP couples those too that its step bound lets close. */
 static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
   jam_system *sys = start(300, 0.3);
@@ -172,9 +190,11 @@ static void bad_calls_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(memory_estimate_is_good_to_a_half), cmocka_unit_test(estimates_scale_with_the_number_of_spheres),
-      cmocka_unit_test(the_path_factorises_fewer_pairs_than_the_lps), cmocka_unit_test(the_estimate_is_logged_first),
-      cmocka_unit_test(bad_calls_are_refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_estimate_is_good_to_a_half),
+                                     cmocka_unit_test(estimates_scale_with_the_number_of_spheres),
+                                     cmocka_unit_test(wide_mixtures_take_more_steps),
+                                     cmocka_unit_test(the_path_factorises_fewer_pairs_than_the_lps),
+                                     cmocka_unit_test(the_estimate_is_logged_first),
+                                     cmocka_unit_test(bad_calls_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

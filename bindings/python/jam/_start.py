@@ -78,7 +78,7 @@ def start(o: argparse.Namespace) -> System:
         return System.read(
             o.input,
             seed=o.seed,
-            box=o.box,
+            box=None if o.box == 1 else o.box,  # the default is no word about a file that names its own
             frame=o.frame,
             overlap="shrink" if o.shrink else "refuse",
             shrink_min=o.shrink_min,

@@ -156,7 +156,7 @@ class System(State, Verbs, Network):
         if name.lower().endswith(".gsd"):
             from . import other_files
 
-            return other_files.read_gsd(name, **options)
+            return other_files.read_gsd(name, **{key: value for key, value in options.items() if value is not None})
         for unknown in ("diameters", "radii", "cell"):
             if unknown in options:
                 raise TypeError(

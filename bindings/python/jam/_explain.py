@@ -80,7 +80,8 @@ def _history_text() -> dict[str, str]:
 def explain(node: Any, path: str) -> None:
     """Attributes of an array, where its name is known."""
     unit, meaning = _MEANING.get(path, ("", ""))
-    if unit:
+    # in H5MD's own group a unit is one of its list, and readers refuse others; ours has any unit of length
+    if unit and not path.startswith("particles/"):
         node.attrs["unit"] = unit
     if meaning:
         node.attrs["description"] = meaning

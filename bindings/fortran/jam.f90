@@ -1305,7 +1305,7 @@ module jam
 
     ! What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
     ! sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
-    ! Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1
+    ! Valid as long as the handle; "" for NULL. Checkpoints hold it. Threads: const. @since 0.1
     function jam_notes(sys) &
         bind(c, name="jam_notes") result(status)
       import

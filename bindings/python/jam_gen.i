@@ -394,7 +394,7 @@ JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and t
 @since 0.1"
 %feature("docstring") jam_notes "What was changed or assumed when sys was made: a sentence a line, \"\" when nothing. Shrunk diameters, wrapped or
 sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
-Valid as long as the handle; \"\" for NULL and for checkpoints. Threads: const. @since 0.1"
+Valid as long as the handle; \"\" for NULL. Checkpoints hold it. Threads: const. @since 0.1"
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
 under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
 of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with

@@ -427,7 +427,7 @@ typedef enum jam_format {
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
 /* What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
  * sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
- * Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1 */
+ * Valid as long as the handle; "" for NULL. Checkpoints hold it. Threads: const. @since 0.1 */
 JAM_API const char *jam_notes(const jam_system *sys);
 /* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
  * under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also

@@ -1104,7 +1104,7 @@ end
 """
 What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
 sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
-Valid as long as the handle; "" for NULL and for checkpoints. Threads: const. @since 0.1
+Valid as long as the handle; "" for NULL. Checkpoints hold it. Threads: const. @since 0.1
 """
 function jam_notes(sys)
     return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)

@@ -244,6 +244,16 @@ module jam
   integer(c_int32_t), parameter :: JAM_VERDICT_YES = 1
   integer(c_int32_t), parameter :: JAM_VERDICT_UNDECIDED = 2
 
+  ! jam_check_reason: Why jam_check_packing answers as it does. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CHECK_PROOF = 0
+  integer(c_int32_t), parameter :: JAM_CHECK_APART = 1
+  integer(c_int32_t), parameter :: JAM_CHECK_NO_FORCE = 2
+  integer(c_int32_t), parameter :: JAM_CHECK_FLEX = 3
+  integer(c_int32_t), parameter :: JAM_CHECK_DIGITS = 4
+  integer(c_int32_t), parameter :: JAM_CHECK_OVERLAP = 5
+  integer(c_int32_t), parameter :: JAM_CHECK_GAPS = 6
+  integer(c_int32_t), parameter :: JAM_CHECK_MARGIN = 7
+
   ! jam_contact_class: Flags of a contact. @since 0.1
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
@@ -655,7 +665,7 @@ module jam
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
   type, bind(c) :: jam_crunch_report
     ! set by the caller: sizeof(jam_crunch_report)
-    integer(c_int32_t) :: struct_size = 280
+    integer(c_int32_t) :: struct_size = 336
     ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     integer(c_int32_t) :: jammed = 0
     ! jam_stop_reason
@@ -684,7 +694,7 @@ module jam
     integer(c_int64_t) :: bucklers = 0
     ! d (N' - 1) + 1: contacts of a single state of self-stress
     integer(c_int64_t) :: isostatic_contacts = 0
-    ! contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
+    ! contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     integer(c_int64_t) :: excess_contacts = 0
     ! motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     integer(c_int64_t) :: flexes = 0
@@ -734,6 +744,19 @@ module jam
     integer(c_int32_t) :: status = 0
     ! 0
     integer(c_int32_t) :: reserved_end = 0
+    ! before this call. This and the next six say what the crunch did to the packing that it was given; NaN or -1 where no crunch made the report
+    real(c_double) :: packing_fraction_start = 0
+    ! largest displacement since then, over the mean diameter, without the mean displacement of all spheres; rattlers count, and so does a strain of the cell
+    real(c_double) :: displacement_max = 0
+    ! root of the mean square of the same
+    real(c_double) :: displacement_rms = 0
+    ! both over the spheres that end with contacts, without their mean; NaN without any
+    real(c_double) :: displacement_max_stable = 0
+    real(c_double) :: displacement_rms_stable = 0
+    ! pairs that touched before, as far as the digits of the coordinates tell
+    integer(c_int64_t) :: contacts_start = 0
+    ! of these the contacts of this report; -1 where contacts are unknown
+    integer(c_int64_t) :: contacts_kept = 0
   end type jam_crunch_report
 
   ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
@@ -971,7 +994,7 @@ module jam
     real(c_double) :: gap_above = 0
     ! gap_above / gap_below, the latter no smaller than resolution
     real(c_double) :: jump = 0
-    ! of gaps, from the digits of the coordinates
+    ! of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with few of them
     real(c_double) :: resolution = 0
     ! of the next candidate that could be rigid, 1 when there is none
     real(c_double) :: second_jump = 0
@@ -1022,13 +1045,90 @@ module jam
     integer(c_int64_t) :: bridges = 0
     ! closed pairs that are not in K+
     integer(c_int64_t) :: idle_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
+    ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot tell from contacts
     integer(c_int64_t) :: undecided_contacts = 0
-    ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
+    ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     real(c_double) :: rigidity_margin = 0
     ! largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     real(c_double) :: force_residual = 0
   end type jam_rigidity_report
+
+  ! Options of jam_check_packing. @since 0.1
+  type, bind(c) :: jam_check_options
+    ! sizeof(jam_check_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! 1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0
+    integer(c_int32_t) :: crunch = 0
+    ! limit for this crunch in seconds, > 0, default infinity
+    real(c_double) :: wall_time = 0
+  end type jam_check_options
+
+  ! Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
+  ! NaN: not known. @since 0.1
+  type, bind(c) :: jam_check_report
+    ! set by the caller: sizeof(jam_check_report)
+    integer(c_int32_t) :: struct_size = 216
+    ! jam_verdict: collectively jammed
+    integer(c_int32_t) :: jammed = 0
+    ! jam_verdict; NO where jammed is NO
+    integer(c_int32_t) :: strictly_jammed = 0
+    ! jam_verdict: non-negative forces balance
+    integer(c_int32_t) :: stationary = 0
+    ! jam_check_reason of jammed
+    integer(c_int32_t) :: reason = 0
+    ! d
+    integer(c_int32_t) :: dim = 0
+    ! decimal digits that the coordinates seem to have; 0: all of a double
+    integer(c_int32_t) :: digits = 0
+    ! jam_verdict of the crunched copy; UNTESTED without one
+    integer(c_int32_t) :: crunch_jammed = 0
+    ! number of spheres
+    integer(c_int64_t) :: n = 0
+    ! closed pairs (gaps below 1e-10) that carry force
+    integer(c_int64_t) :: contacts = 0
+    ! contacts - (d (N' - 1) + 1), 0 without contacts
+    integer(c_int64_t) :: excess_contacts = 0
+    ! n - N': spheres without force
+    integer(c_int64_t) :: rattlers = 0
+    ! pairs with gaps below 1e-10, those of rattlers among them
+    integer(c_int64_t) :: closed_pairs = 0
+    ! of the pairs that were tested, those without force in every state
+    integer(c_int64_t) :: idle_contacts = 0
+    ! pairs that may be contacts or not, by rounding or for lack of digits
+    integer(c_int64_t) :: undecided_contacts = 0
+    ! independent balances of forces; with more than one forces are not unique
+    integer(c_int64_t) :: self_stresses = 0
+    ! motions beyond translations that keep all contacts with force closed
+    integer(c_int64_t) :: flexes = 0
+    ! likewise with strains of the cell; 0 where that was not tested
+    integer(c_int64_t) :: strict_flexes = 0
+    ! contacts of the crunched copy; -1 without one
+    integer(c_int64_t) :: crunch_contacts = 0
+    ! of the packing as it is
+    real(c_double) :: packing_fraction = 0
+    ! smallest gap of all pairs; negative: an overlap. Infinite: none below 1
+    real(c_double) :: nearest_gap = 0
+    ! smallest gap of two spheres with force that is no contact
+    real(c_double) :: min_gap = 0
+    ! largest |gap| of a contact with force
+    real(c_double) :: max_contact_gap = 0
+    ! largest |sum_j f_ij n_ij| over the mean force
+    real(c_double) :: force_residual = 0
+    ! smallest eigenvalue on contacts with force that is no translation
+    real(c_double) :: rigidity_margin = 0
+    ! most coordinates are multiples of it, unit of the box; 0: all digits are there
+    real(c_double) :: coordinate_step = 0
+    ! of gaps: from the digits of the coordinates, and from overlaps
+    real(c_double) :: resolution = 0
+    ! diameters were tested times this, so that no pair overlaps; 1: as they are
+    real(c_double) :: diameter_factor = 0
+    ! of the crunched copy
+    real(c_double) :: crunch_packing_fraction = 0
+    ! largest displacement in it of a sphere that ends with contacts
+    real(c_double) :: crunch_displacement_max = 0
+    ! root of the mean square of the same
+    real(c_double) :: crunch_displacement_rms = 0
+  end type jam_check_report
 
   ! Options of jam_density_of_states. @since 0.1
   type, bind(c) :: jam_dos_options
@@ -1095,7 +1195,7 @@ module jam
       default_observe_options, default_monte_carlo_options, default_isoconf_options, &
       default_crunch_options, default_relax_options, default_decompress_options, &
       default_hessian_options, default_modes_options, default_geometry_options, &
-      default_dos_options
+      default_check_options, default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -1588,9 +1688,10 @@ module jam
     ! are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
     ! stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
     ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-    ! JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
-    ! leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
-    ! JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+    ! above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+    ! collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+    ! JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)
       import
@@ -1602,7 +1703,9 @@ module jam
 
     ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
     ! pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
-    ! A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
+    ! Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
+    ! spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
+    ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
     ! Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
     ! for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
     ! Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
@@ -1618,6 +1721,39 @@ module jam
       type(jam_rigidity_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
     end function jam_rigidity
+
+    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    function jam_check_options_init(o, size) &
+        bind(c, name="jam_check_options_init") result(status)
+      import
+      type(jam_check_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_check_options_init
+
+    ! Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
+    ! handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
+    ! few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
+    ! o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+    ! jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+    ! JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    function jam_check_packing(sys, o, report) &
+        bind(c, name="jam_check_packing") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_check_options), intent(in), optional :: o
+      type(jam_check_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_check_packing
+
+    ! The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
+    ! wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1
+    function jam_check_text(report) &
+        bind(c, name="jam_check_text") result(status)
+      import
+      type(jam_check_report), intent(in), optional :: report
+      type(c_ptr) :: status
+    end function jam_check_text
 
     ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
     ! about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1
@@ -4342,7 +4478,8 @@ contains
   end function jam_contact_gaps
 
   ! Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
-  ! self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
+  ! self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
+  ! least norm if none is negative, else the LP's.
   ! Threads: const. Errors: as jam_contacts. @since 0.1
   function jam_forces(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
@@ -5683,6 +5820,12 @@ contains
     integer(c_int32_t) :: status
     status = jam_geometry_options_init(o, c_sizeof(o))
   end subroutine default_geometry_options
+
+  subroutine default_check_options(o)
+    type(jam_check_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_check_options_init(o, c_sizeof(o))
+  end subroutine default_check_options
 
   subroutine default_dos_options(o)
     type(jam_dos_options), intent(out) :: o

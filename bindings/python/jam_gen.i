@@ -279,6 +279,25 @@ again and again; stable spheres are the others. @since 0.1"
 }
 %feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
 that they touch, N' their number. @since 0.1"
+%extend jam_check_options {
+  jam_check_options() {
+    jam_check_options *made = (jam_check_options *)calloc(1, sizeof *made);
+    if (made) { jam_check_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_check_options() { free($self); }
+}
+%feature("docstring") jam_check_options "Options of jam_check_packing. @since 0.1"
+%extend jam_check_report {
+  jam_check_report() {
+    jam_check_report *made = (jam_check_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_check_report() { free($self); }
+}
+%feature("docstring") jam_check_report "Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
+NaN: not known. @since 0.1"
 %extend jam_dos_options {
   jam_dos_options() {
     jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
@@ -546,7 +565,8 @@ Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
 a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
 f. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
-self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
+self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
+least norm if none is negative, else the LP's.
 Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_coordination "Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1"
 %feature("docstring") jam_hessian_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
@@ -566,9 +586,10 @@ moves. Rattlers are the spheres that carry no force. Contacts between the others
 are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
 stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
 network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
-leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
-JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
 jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
 as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
@@ -579,7 +600,9 @@ NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of
 JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
 %feature("docstring") jam_rigidity "Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
-A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
+Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
+spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
+where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
 Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
 for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
@@ -592,6 +615,15 @@ collective kind. The largest displacement is at most 1 mean diameter. Moving by 
 contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
 Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
 0.1"
+%feature("docstring") jam_check_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+%feature("docstring") jam_check_packing "Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
+handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
+few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
+o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+%feature("docstring") jam_check_text "The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. \"\" for NULL or a
+wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1"
 %feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"

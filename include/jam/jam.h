@@ -861,7 +861,9 @@ typedef struct jam_crunch_report {
   int64_t stable;          /* n - rattlers = N'; 0 where contacts are unknown */
   int64_t bucklers;        /* stable spheres with exactly d+1 contacts */
   int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
-  int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic */
+  int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic.
+                               * Amorphous packings have 0, but disks of two sizes one for each disk whose six
+                               * neighbours are its equals: the seven close twelve contacts, and eleven fix them */
   int64_t flexes;        /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
   int64_t idle_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
   int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list. After
@@ -889,6 +891,16 @@ typedef struct jam_crunch_report {
   double seconds_solve;           /* of it in triangular solves */
   int32_t status;                 /* jam_status_code of the call that made this report */
   int32_t reserved_end;           /* 0 */
+  double packing_fraction_start;  /* before this call. This and the next six say what the crunch did to the packing
+                                   * that it was given; NaN or -1 where no crunch made the report */
+  double displacement_max; /* largest displacement since then, over the mean diameter, without the mean displacement of
+                            * all spheres; rattlers count, and so does a strain of the cell */
+  double displacement_rms; /* root of the mean square of the same */
+  double
+      displacement_max_stable; /* both over the spheres that end with contacts, without their mean; NaN without any */
+  double displacement_rms_stable;
+  int64_t contacts_start; /* pairs that touched before, as far as the digits of the coordinates tell */
+  int64_t contacts_kept;  /* of these the contacts of this report; -1 where contacts are unknown */
 } jam_crunch_report;
 
 /* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
@@ -1155,7 +1167,8 @@ JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_
  * f. Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
- * self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
+ * self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
+ * least norm if none is negative, else the LP's.
  * Threads: const. Errors: as jam_contacts. @since 0.1 */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */
@@ -1244,7 +1257,8 @@ typedef struct jam_geometry_report {
   double gap_below;        /* largest |h| within it, rattlers included */
   double gap_above;        /* smallest |h| beyond it (window when there is none) */
   double jump;             /* gap_above / gap_below, the latter no smaller than resolution */
-  double resolution;       /* of gaps, from the digits of the coordinates */
+  double resolution;       /* of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with
+                            * few of them */
   double second_jump;      /* of the next candidate that could be rigid, 1 when there is none */
   double second_tolerance; /* its tolerance */
   int64_t second_contacts; /* its contacts, -1 when there is none */
@@ -1265,9 +1279,10 @@ JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t siz
  * are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
  * stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
  * network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
- * JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
- * leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
- * JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+ * above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+ * collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+ * JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. @since 0.1 */
@@ -1319,14 +1334,18 @@ typedef struct jam_rigidity_report {
   int64_t flexes;             /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
   int64_t bridges;            /* spheres of B with d contacts of K+ or fewer */
   int64_t idle_contacts;      /* closed pairs that are not in K+ */
-  int64_t undecided_contacts; /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list */
-  double rigidity_margin;     /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex */
+  int64_t undecided_contacts; /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those
+                               * that the digits of the coordinates cannot tell from contacts */
+  double rigidity_margin;     /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere
+                               * that touches its own images alone: with strains */
   double force_residual;      /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
 } jam_rigidity_report;
 
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
  * pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
- * A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
+ * Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
+ * spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
+ * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
  * Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
  * for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
  * Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
@@ -1342,6 +1361,74 @@ JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_repo
  * 0.1 */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
                             size_t strain_len, size_t *needed);
+
+/* Why jam_check_packing answers as it does. @since 0.1 */
+typedef enum jam_check_reason {
+  JAM_CHECK_PROOF = 0,    /* jammed: positive forces balance, and the rank is full */
+  JAM_CHECK_APART = 1,    /* not: no two spheres touch */
+  JAM_CHECK_NO_FORCE = 2, /* not: no non-negative forces on the contacts balance */
+  JAM_CHECK_FLEX = 3,     /* not: forces balance, and yet spheres can move (a saddle) */
+  JAM_CHECK_DIGITS = 4,   /* undecided: the coordinates have too few digits to say which spheres touch */
+  JAM_CHECK_OVERLAP = 5,  /* undecided: spheres overlap, so gaps are known no better than that */
+  JAM_CHECK_GAPS = 6,     /* undecided: with pairs closed that are open by 1e-10 or more it would be jammed */
+  JAM_CHECK_MARGIN = 7    /* undecided: doubles do not tell a flex from a soft mode, or a weak force from none */
+} jam_check_reason;
+
+/* Options of jam_check_packing. @since 0.1 */
+typedef struct jam_check_options {
+  uint32_t struct_size; /* sizeof(jam_check_options) */
+  int32_t crunch;   /* 1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0 */
+  double wall_time; /* limit for this crunch in seconds, > 0, default infinity */
+} jam_check_options;
+
+/* Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
+ * NaN: not known. @since 0.1 */
+typedef struct jam_check_report {
+  uint32_t struct_size;           /* set by the caller: sizeof(jam_check_report) */
+  int32_t jammed;                 /* jam_verdict: collectively jammed */
+  int32_t strictly_jammed;        /* jam_verdict; NO where jammed is NO */
+  int32_t stationary;             /* jam_verdict: non-negative forces balance */
+  int32_t reason;                 /* jam_check_reason of jammed */
+  int32_t dim;                    /* d */
+  int32_t digits;                 /* decimal digits that the coordinates seem to have; 0: all of a double */
+  int32_t crunch_jammed;          /* jam_verdict of the crunched copy; UNTESTED without one */
+  int64_t n;                      /* number of spheres */
+  int64_t contacts;               /* closed pairs (gaps below 1e-10) that carry force */
+  int64_t excess_contacts;        /* contacts - (d (N' - 1) + 1), 0 without contacts */
+  int64_t rattlers;               /* n - N': spheres without force */
+  int64_t closed_pairs;           /* pairs with gaps below 1e-10, those of rattlers among them */
+  int64_t idle_contacts;          /* of the pairs that were tested, those without force in every state */
+  int64_t undecided_contacts;     /* pairs that may be contacts or not, by rounding or for lack of digits */
+  int64_t self_stresses;          /* independent balances of forces; with more than one forces are not unique */
+  int64_t flexes;                 /* motions beyond translations that keep all contacts with force closed */
+  int64_t strict_flexes;          /* likewise with strains of the cell; 0 where that was not tested */
+  int64_t crunch_contacts;        /* contacts of the crunched copy; -1 without one */
+  double packing_fraction;        /* of the packing as it is */
+  double nearest_gap;             /* smallest gap of all pairs; negative: an overlap. Infinite: none below 1 */
+  double min_gap;                 /* smallest gap of two spheres with force that is no contact */
+  double max_contact_gap;         /* largest |gap| of a contact with force */
+  double force_residual;          /* largest |sum_j f_ij n_ij| over the mean force */
+  double rigidity_margin;         /* smallest eigenvalue on contacts with force that is no translation */
+  double coordinate_step;         /* most coordinates are multiples of it, unit of the box; 0: all digits are there */
+  double resolution;              /* of gaps: from the digits of the coordinates, and from overlaps */
+  double diameter_factor;         /* diameters were tested times this, so that no pair overlaps; 1: as they are */
+  double crunch_packing_fraction; /* of the crunched copy */
+  double crunch_displacement_max; /* largest displacement in it of a sphere that ends with contacts */
+  double crunch_displacement_rms; /* root of the mean square of the same */
+} jam_check_report;
+
+/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
+/* Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
+ * handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
+ * few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
+ * o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+ * jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+ * JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report);
+/* The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
+ * wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1 */
+JAM_API const char *jam_check_text(const jam_check_report *report);
 
 /* ------------- gaps, classes and angles of contacts */
 /* Flags of a contact. @since 0.1 */

@@ -60,6 +60,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     if (result.status < 0)
       fail(result.status, "%s",
            result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
+    if (result.status > 0 && !result.text.empty()) return {result.status, result.text};
     return stopped(result.status, result.report.stop_reason);
   });
 }

@@ -7,7 +7,7 @@
 
 namespace jam {
 namespace {
-thread_local char last_error[512] = "";
+thread_local char last_error[2048] = "";  // a paragraph of jam_check_text fits
 }
 void set_last_error(const char *text) noexcept { std::snprintf(last_error, sizeof last_error, "%s", text); }
 

@@ -32,8 +32,7 @@ ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x, double close
   active.coordination.assign(lp.n, 0);
   for (size_t k = 0; k < on.size(); ++k)
     if (on[k]) active.rows.push_back(k), ++active.coordination[pairs.i[k]], ++active.coordination[pairs.j[k]];
-  active.stable =
-      std::count_if(active.coordination.begin(), active.coordination.end(), [](int32_t z) { return z > 0; });
+  active.stable = stable_spheres(active.coordination);
   return active;
 }
 
@@ -55,7 +54,7 @@ double largest_step(const LpSolution &x, const ActiveSet &active, int dim) {
 }
 
 int64_t excess_of(const ActiveSet &active, int dim) {
-  return static_cast<int64_t>(active.rows.size()) - (active.stable > 0 ? dim * (active.stable - 1) + 1 : 0);
+  return static_cast<int64_t>(active.rows.size()) - isostatic_contacts(active.stable, dim);
 }
 
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &x, const ActiveSet &active) {

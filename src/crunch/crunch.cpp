@@ -130,9 +130,11 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
     s.out.text = e.what();
     finish_failed(s);
   } catch (const std::bad_alloc &) {
+    s.out.text.clear();
     s.stop(JAM_STOP_SOLVER, JAM_E_MEMORY);
     finish_failed(s);
   }
+  report_changes(start, s);
   return std::move(s.out);
 }
 

@@ -23,7 +23,7 @@ struct CrunchResult {
   ContactNetwork contacts;  // of the last LP; empty if none was solved
   jam_crunch_report report{};
   jam_status status = JAM_OK;
-  std::string text;  // why, when status < 0
+  std::string text;  // why, when status is not JAM_OK; empty where the stop reason says it all
 };
 
 // For tests and benches alone: what no input does at will. Each may be empty.

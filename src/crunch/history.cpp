@@ -79,6 +79,18 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
   return rows_.back();
 }
 
+void History::displaced(const Packing &now, const std::vector<int32_t> *coordination, double &largest,
+                        double &rms) const {
+  std::vector<double> x(total_), last(now.dim);
+  for (size_t i = 0; i < now.n(); ++i) {  // and what has moved since the last row
+    for (int c = 0; c < now.dim; ++c) last[c] = now.position[i * now.dim + c] - reached_.position[i * now.dim + c];
+    now.cell.nearest(last.data());
+    for (int c = 0; c < now.dim; ++c) x[i * now.dim + c] += last[c];
+  }
+  const Spread s = spread(x, now.dim, diameter_mean(now), coordination);
+  largest = s.largest, rms = std::sqrt(s.mean_square);
+}
+
 void History::over_stable(const std::vector<int32_t> &coordination, int dim, double unit) {
   HistoryRow &row = rows_.back();
   row[JAM_HISTORY_STEP_MSD_STABLE] = spread(last_, dim, unit, &coordination).mean_square;

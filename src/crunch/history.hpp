@@ -36,6 +36,9 @@ class History {
                     const double *displacement = nullptr);
   // Mean squares of the last row over stable spheres alone: those with a contact.
   void over_stable(const std::vector<int32_t> &coordination, int dim, double unit);
+  // From begin() to `now`, over the mean diameter, without the mean displacement: the largest, and the root of the mean
+  // square; with `coordination` of the spheres that have contacts.
+  void displaced(const Packing &now, const std::vector<int32_t> *coordination, double &largest, double &rms) const;
   // The packing at the last row: valid also while a step is being made.
   const Packing &reached() const { return reached_; }
   // How a crunch goes on from there.

@@ -99,10 +99,12 @@ void take_forces_of(CrunchState &s, const PackingVerdict &verdict) {
   s.out.contacts.force_scale = scale;
 }
 
-// A packing that is not jammed has no negative forces either: polish projects those of its last network.
+// A packing that is not jammed has no negative forces either: polish projects those of its last network. Where polish
+// refused, only the test has forces that balance.
 void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
   const std::vector<double> &f = s.out.contacts.force;
-  if (std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
+  const bool refused = s.o.polish && !s.polished && verdict.result.contacts > 0;
+  if (refused || std::any_of(f.begin(), f.end(), [](double x) { return x < 0.0; })) take_forces_of(s, verdict);
 }
 
 // The test of the packing as it is. False when the call was interrupted: then its contacts stay untested.
@@ -126,6 +128,7 @@ Phase judge_strictly(CrunchState &s) {
     take_forces_of(s, strict);
   } else if (s.o.strain == JAM_STRAIN_FREE) {
     if (leave_strained_saddle(s, strict)) return s.stop(JAM_STOP_NONE, JAM_OK), Phase::approach;
+    s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict);
     s.stop(strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   }
   return Phase::done;
@@ -166,6 +169,7 @@ Phase judge(CrunchState &s) {
     }
     if (!s.exact && s.o.polish) return Phase::exact_vertex;
     report_verdict(verdict, s.out.packing.dim, s.out.report);
+    s.out.text = why_not_jammed(verdict);
     take_positive_forces(s, verdict);
     if (verdict.result.jammed != Verdict::no)
       s.stop(JAM_STOP_PRECISION, JAM_NOT_CONVERGED);

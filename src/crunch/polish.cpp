@@ -36,7 +36,7 @@ class Polish {
   PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
     if (!close_all(p, net)) return PolishEnd::interrupted;
     if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
-    if (excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
+    if (net.size() == 0 || excess_contacts(net, p.dim) < 0) return PolishEnd::too_few;
     balance_forces(p, net);
     const bool one_state = excess_contacts(net, p.dim) == 0;
     // Forces of several states of self-stress are not unique: the test of the network decides which contacts carry.

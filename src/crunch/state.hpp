@@ -100,5 +100,7 @@ Phase identify(CrunchState &s);
 Phase judge(CrunchState &s);
 void finish(CrunchState &s);
 void finish_failed(CrunchState &s);
+// changes.cpp: what the crunch did to the packing that it was given, into the report.
+void report_changes(const Packing &start, CrunchState &s);
 
 }  // namespace jam

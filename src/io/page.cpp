@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/byte_order.hpp"
 #include "core/error.hpp"
@@ -88,6 +89,7 @@ void put_named(std::string &out, const std::vector<std::pair<const char *, doubl
 }
 
 void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<const char *, double>> rows = {
       {"contacts", static_cast<double>(r.contacts)},
       {"contacts above isostatic", static_cast<double>(r.excess_contacts)},
@@ -101,6 +103,12 @@ void put_report(std::string &out, const jam_crunch_report &r, const std::string 
       {"smallest gap of no contact", r.min_gap},
       {"rigidity margin", r.rigidity_margin},
       {"duality gap of the last LP", r.duality_gap},
+      {"packing fraction before the crunch", r.packing_fraction_start},
+      {"largest displacement in it (diameters)", r.displacement_max},
+      {"rms displacement in it (diameters)", r.displacement_rms},
+      {"largest of spheres with contacts (diameters)", r.displacement_max_stable},
+      {"contacts before it", r.contacts_start < 0 ? nan : static_cast<double>(r.contacts_start)},
+      {"of these kept", r.contacts_kept < 0 ? nan : static_cast<double>(r.contacts_kept)},
       {"seconds of the crunch", r.seconds},
   };
   out += ",\n\"report\": {\"jammed\": ";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <set>
 #include <utility>
@@ -44,7 +45,7 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
     report.bucklers += z == d + 1;
   }
   report.stable = static_cast<int64_t>(p.n()) - report.rattlers;
-  report.isostatic_contacts = report.stable > 0 ? d * (report.stable - 1) + 1 : 0;
+  report.isostatic_contacts = isostatic_contacts(report.stable, d);
   report.excess_contacts = report.contacts - report.isostatic_contacts;
   report.force_residual = balance_residual(p.dim, p.n(), net);
   report.min_force = net.size() ? *std::min_element(net.force.begin(), net.force.end()) : 0.0;
@@ -54,6 +55,9 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
   scan_gaps(p, net, free_cell, report);
   report.strictly_jammed = JAM_VERDICT_UNTESTED;
   report.strict_contacts_needed = report.stable > 0 ? d * (report.stable - 1) + d * (d + 1) / 2 : 0;
+  report.packing_fraction_start = report.displacement_max = report.displacement_rms = report.displacement_max_stable =
+      report.displacement_rms_stable = std::numeric_limits<double>::quiet_NaN();
+  report.contacts_start = report.contacts_kept = -1;
 }
 
 int32_t verdict_code(Verdict verdict) {
@@ -70,6 +74,53 @@ void report_verdict(const PackingVerdict &v, int d, jam_crunch_report &report) {
   report.bridges = v.result.bridges;
   report.strict_contacts_needed = v.result.spheres > 0 ? d * (v.result.spheres - 1) + d * (d + 1) / 2 : 0;
   report.rigidity_margin = v.result.margin;
+}
+
+namespace {
+
+std::string why_undecided(const PackingVerdict &v) {
+  char line[320];
+  double widest = 0.0;
+  for (const double h : v.contacts.gap) widest = std::max(widest, h);
+  const auto pairs = static_cast<long long>(v.undecided_contacts);
+  if (v.undecided_contacts > 0 && v.when_closed != v.result.jammed)
+    std::snprintf(line, sizeof line,
+                  "undecided: %lld pairs, open by 1e-10 to %.1e, may be contacts or not; with them closed the packing "
+                  "would%s be jammed",
+                  pairs, widest,
+                  v.when_closed == Verdict::yes  ? ""
+                  : v.when_closed == Verdict::no ? " not"
+                                                 : " perhaps");
+  else if (v.result.contacts == 0)
+    std::snprintf(
+        line, sizeof line,
+        "undecided: doubles do not tell which of the %zu closed pairs carry force, as some forces are too weak; "
+        "the network is left empty",
+        v.contacts.size());
+  else if (v.result.spheres == 1)
+    std::snprintf(line, sizeof line, "undecided: only own images hold sphere and cell, and not in every strain");
+  else
+    std::snprintf(line, sizeof line,
+                  "undecided: doubles do not tell a flex from a soft mode here, or a weak force from none (smallest "
+                  "eigenvalue %.1e, force residual %.1e)",
+                  v.result.margin, v.result.force_residual);
+  return line;
+}
+
+}  // namespace
+
+std::string why_not_jammed(const PackingVerdict &v) {
+  char line[240];
+  const auto number = [](int64_t x) { return static_cast<long long>(x); };
+  if (v.result.jammed == Verdict::yes) return "";
+  if (v.result.jammed == Verdict::undecided) return why_undecided(v);
+  if (v.result.flexes > 0)
+    std::snprintf(line, sizeof line, "a saddle: forces balance on %lld contacts, and yet %lld motions keep them closed",
+                  number(v.result.contacts), number(v.result.flexes));
+  else
+    std::snprintf(line, sizeof line, "no non-negative forces on the %zu closed pairs balance, so a motion opens them",
+                  v.contacts.size());
+  return line;
 }
 
 void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,

@@ -1,5 +1,7 @@
 // The certificate: everything in the report that follows from positions, diameters, contacts and forces alone.
 #pragma once
+#include <string>
+
 #include "core/packing.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
@@ -14,6 +16,8 @@ void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report
 int32_t verdict_code(Verdict verdict);
 // What the test of collective jamming says, put into the report; strictly_jammed stays untested.
 void report_verdict(const PackingVerdict &verdict, int dim, jam_crunch_report &report);
+// Why the test does not say that the packing is jammed: one sentence with its figures. Empty where it does.
+std::string why_not_jammed(const PackingVerdict &verdict);
 // Both in one: tests the packing with these contacts and puts the answer into the report.
 void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,
                      const CancellationPoint &cancel_point = CancellationPoint());

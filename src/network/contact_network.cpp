@@ -27,9 +27,12 @@ void measure_contacts(const Packing &p, ContactNetwork &net) {
   }
 }
 
+int64_t stable_spheres(const std::vector<int32_t> &coordination) {
+  return std::count_if(coordination.begin(), coordination.end(), [](int32_t z) { return z > 0; });
+}
+
 int64_t excess_contacts(const ContactNetwork &net, int dim) {
-  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
-  return static_cast<int64_t>(net.size()) - (dim * (stable - 1) + 1);
+  return static_cast<int64_t>(net.size()) - isostatic_contacts(stable_spheres(net.coordination), dim);
 }
 
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim) {

@@ -23,7 +23,11 @@ struct ContactNetwork {
 // Directions and gaps at the positions of p, in extended precision.
 void measure_contacts(const Packing &p, ContactNetwork &net);
 
-// Contacts above those of one state of self-stress, d (stable - 1) + 1.
+// Spheres with a contact.
+int64_t stable_spheres(const std::vector<int32_t> &coordination);
+// Contacts of one state of self-stress on this many spheres: d (stable - 1) + 1, and 0 without spheres.
+constexpr int64_t isostatic_contacts(int64_t stable, int dim) { return stable > 0 ? dim * (stable - 1) + 1 : 0; }
+// Contacts above those; an empty network has none too many and none too few.
 int64_t excess_contacts(const ContactNetwork &net, int dim);
 
 // Whether pairs of a list are contacts of a network, image by image. Both are sorted by (i, j); pairs come in order.

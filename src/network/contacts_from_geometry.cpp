@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
@@ -107,23 +106,10 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
   return out;
 }
 
-bool can_be_rigid(const ContactNetwork &net, int d) {
-  const auto stable = static_cast<int64_t>(net.coordination.size()) -
-                      static_cast<int64_t>(std::count(net.coordination.begin(), net.coordination.end(), 0));
-  return stable > 0 && static_cast<int64_t>(net.size()) >= d * (stable - 1) + 1;
-}
+bool can_be_rigid(const ContactNetwork &net, int d) { return net.size() > 0 && excess_contacts(net, d) >= 0; }
 
-// Gaps carry the rounding of coordinates that are as large as the box.
-double gap_resolution(const Packing &p) {
-  return 8.0 * std::numeric_limits<double>::epsilon() * p.cell.side() /
-         *std::min_element(p.diameter.begin(), p.diameter.end());
-}
 void check_window(double window) {
   if (!(window > 0.0 && window <= 1.0)) fail(JAM_E_ARGUMENT, "window is %g, it must be in (0, 1]", window);
-}
-int64_t excess_of(const ContactNetwork &net, int d) {
-  const auto stable = std::count_if(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
-  return stable > 0 ? static_cast<int64_t>(net.size()) - (d * (static_cast<int64_t>(stable) - 1) + 1) : 0;
 }
 
 }  // namespace
@@ -132,7 +118,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
   check_window(window);
   ContactCandidates out;
   const GapList g = pairs_below(p, window);
-  for (const Jump &jump : find_jumps(p, g, gap_resolution(p), window)) {
+  for (const Jump &jump : find_jumps(p, g, gap_resolution(p).relative(p), window)) {
     if (out.limit.size() == most_candidates) break;
     CallScope::look();
     const ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
@@ -140,7 +126,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
     out.limit.push_back(std::sqrt(jump.below * jump.above));
     out.jump.push_back(jump.ratio);
     out.contacts.push_back(static_cast<int32_t>(net.size()));
-    out.excess.push_back(static_cast<int32_t>(excess_of(net, p.dim)));
+    out.excess.push_back(static_cast<int32_t>(excess_contacts(net, p.dim)));
   }
   return out;
 }
@@ -154,7 +140,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   jam_geometry_report &r = out.report;
   const double window = std::max(o.window, 2.0 * o.tolerance);
   const GapList g = pairs_below(p, window);
-  r.resolution = gap_resolution(p);
+  const GapResolution resolution = gap_resolution(p);
+  r.resolution = resolution.relative(p);
   r.tolerance = o.tolerance;
   r.second_contacts = -1;
   bool clear = true, wide = false;
@@ -170,7 +157,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
       if (chosen) {
         second = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());
-        second_excess = excess_of(net, p.dim);
+        second_excess = excess_contacts(net, p.dim);
         r.second_tolerance = std::sqrt(jump.below * jump.above);
         break;
       }
@@ -209,15 +196,18 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   r.zero_modes = stress.zero_modes;
   r.force_residual = stress.residual;
   r.min_force = stress.min_force;
-  r.excess_contacts = excess_of(out.network, p.dim);
+  r.excess_contacts = excess_contacts(out.network, p.dim);
   r.clusters = count_clusters(graph);
   // The null space decides between two: rattlers that nearly touch their neighbours make the second network
   // hyperstatic.
   clear = clear ||
           (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
-  out.verdict = test_packing(p, &out.network, Jamming::collective, cancel_point);
+  out.verdict = test_packing(p, resolution, &out.network, Jamming::collective, cancel_point);
+  out.when_closed = closed.jammed;
+  out.clear = clear;
   const bool wide_gaps = out.verdict.result.jammed != closed.jammed;
-  if (closed.jammed == Verdict::no)
+  // Contacts that the digits may hide forbid a no.
+  if (closed.jammed == Verdict::no && !(resolution.coarse(p) && out.verdict.result.jammed == Verdict::undecided))
     out.status = JAM_NOT_JAMMED;
   else if (stress.dimension > 1 || !clear || closed.jammed == Verdict::undecided || wide_gaps)
     out.status = JAM_AMBIGUOUS;

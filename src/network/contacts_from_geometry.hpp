@@ -11,8 +11,10 @@ jam_geometry_options default_geometry_options();
 struct GeometryResult {
   ContactNetwork network;
   jam_geometry_report report{};
-  PackingVerdict verdict;      // of the packing, with gaps as they are
-  jam_status status = JAM_OK;  // JAM_OK, JAM_AMBIGUOUS, JAM_NOT_JAMMED
+  PackingVerdict verdict;             // of the packing, with gaps as they are
+  Verdict when_closed = Verdict::no;  // with the contacts of the network closed
+  bool clear = false;                 // one jump of the gaps stands out
+  jam_status status = JAM_OK;         // JAM_OK, JAM_AMBIGUOUS, JAM_NOT_JAMMED
 };
 
 GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o,

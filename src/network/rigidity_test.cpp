@@ -18,6 +18,8 @@ constexpr size_t most_flexes = 512;
 constexpr double flex_rounding = 1e-9;
 // Forces that balance worse than this, over the mean force, prove nothing.
 constexpr double most_residual = 1e-10;
+// And worse than this they do not even name the contacts.
+constexpr double useless_residual = 1e-6;
 
 // Spheres of `sub` (a subset of g): displacements of its nodes put in the place of those of g.
 void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v) {
@@ -93,8 +95,7 @@ void spread(const std::vector<char> &on, const std::vector<char> &carrying, cons
 
 }  // namespace
 
-RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
-  const BlasSingleThread single;
+static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
   cancel_point();
   const bool strain = kind == Jamming::strict;
   const size_t m = g.contacts();
@@ -169,6 +170,22 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const Cancel
   return out;
 }
 
+// A no is proved by its motion. Where none holds up, K+ was not what it seemed, and nothing is decided.
+RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
+  const BlasSingleThread single;
+  RigidityResult out = find_verdict(g, kind, cancel_point);
+  if (out.jammed != Verdict::no || g.contacts() == 0 || !out.flex.empty()) return out;
+  const bool stressed = out.stressed == Verdict::yes, useless = !(out.force_residual < useless_residual);
+  if (stressed && useless) {
+    out = RigidityResult();
+    out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
+    out.idle_contacts = static_cast<int64_t>(g.contacts());
+  }
+  out.jammed = Verdict::undecided;
+  if (!stressed || !(out.force_residual < most_residual) || useless) out.stressed = Verdict::undecided;
+  return out;
+}
+
 ContactNetwork PackingVerdict::carrying(int dim) const { return subset(contacts, result.carrying, dim); }
 
 namespace {
@@ -207,14 +224,42 @@ bool within_jammed(const RigidityMatrix &g, const std::vector<char> &closed, con
   return true;
 }
 
+// Spheres with d contacts or fewer can slip out of a balance of forces (they are no part of a jammed network), and
+// others follow. Whether any sphere is left does not depend on directions.
+bool may_hold_spheres(const RigidityMatrix &g) {
+  std::vector<int32_t> degree(g.nodes, 0);
+  std::vector<char> on(g.contacts(), 1);
+  for (size_t k = 0; k < g.contacts(); ++k) ++degree[g.a[k]], ++degree[g.b[k]];
+  for (bool again = true; again;) {
+    again = false;
+    for (size_t k = 0; k < g.contacts(); ++k)
+      if (on[k] && (degree[g.a[k]] <= g.dim || degree[g.b[k]] <= g.dim))
+        on[k] = 0, again = true, --degree[g.a[k]], --degree[g.b[k]];
+  }
+  return std::count(on.begin(), on.end(), 1) > 0;
+}
+
+// A sphere that touches nothing but its own images has no motion of its own. It is held where their forces balance on
+// the cell too.
+void judge_alone(const RigidityMatrix &g, RigidityResult &r, const CancellationPoint &cancel_point) {
+  const RigidityResult strict = test_rigidity(subset(g, r.carrying), Jamming::strict, cancel_point);
+  r.margin = strict.margin;
+  r.jammed = strict.stressed == Verdict::yes ? Verdict::yes : Verdict::undecided;
+}
+
 }  // namespace
 
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
                             const CancellationPoint &cancel_point) {
+  return test_packing(p, gap_resolution(p), listed, kind, cancel_point);
+}
+
+PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
+                            Jamming kind, const CancellationPoint &cancel_point) {
   PackingVerdict out;
   ContactNetwork &net = out.contacts;
   ContactNetwork near;
-  near.pairs = find_pairs(p, 0.0, 1.0 + listed_gap_limit);
+  near.pairs = find_pairs(p, resolution.reach(), 1.0 + listed_gap_limit);
   measure_contacts(p, near);
   near.coordination.assign(p.n(), 0);
   near.force.assign(near.size(), 0.0);
@@ -224,7 +269,8 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   // A sphere and its own image keep their distance in a fixed cell: contacts only of a network from a free one.
   const auto counts = [&](size_t k) { return kind == Jamming::strict || !near.pairs.own_image(k); };
   for (size_t k = 0; k < near.size(); ++k)
-    wanted[k] = in_list[k] > 0.0 || (near.gap[k] < undecided_gap_limit && counts(k));
+    wanted[k] = in_list[k] > 0.0 ||
+                (counts(k) && resolution.may_touch(near.gap[k], contact_distance(p, near.pairs.i[k], near.pairs.j[k])));
   net = subset(near, wanted, p.dim);
   std::vector<char> closed;
   for (size_t k = 0; k < near.size(); ++k)
@@ -235,14 +281,20 @@ PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamm
   const std::vector<char> all(net.size(), 1);
   const bool undecided = out.undecided_contacts > 0;
   out.result = test_part(g, undecided ? closed : all, kind, cancel_point);
+  out.when_closed = out.result.jammed;
   if (undecided && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
     RigidityResult shut = test_rigidity(g, kind, cancel_point);
     const bool same = shut.jammed == out.result.jammed;
+    out.when_closed = shut.jammed;
     // Jammed with and without the pairs in doubt: closed contacts alone prove it. Else the flex of the open ones is
     // kept.
     if (same ? shut.jammed != Verdict::yes : out.result.jammed == Verdict::yes) out.result = std::move(shut);
     if (!same) out.result.jammed = Verdict::undecided;
   }
+  if (out.result.jammed == Verdict::no && resolution.coarse(p) && may_hold_spheres(g))
+    out.result.jammed = Verdict::undecided;
+  if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0)
+    judge_alone(g, out.result, cancel_point);
   net.force = out.result.force;
   double sum = 0.0;
   for (size_t k = 0; k < g.contacts(); ++k) sum += net.force[k] * g.sigma[k] * g.sigma[k] / g.distance[k];

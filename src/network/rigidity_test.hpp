@@ -18,12 +18,11 @@
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 #include "network/rattlers.hpp"
+#include "network/resolution.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam {
 
-// Relative gaps |h| of a contact, and of a pair that doubles cannot tell from one.
-constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7, listed_gap_limit = 1e-5;
 // Eigenvalues of S^T S on K+: a smaller one is a flex, up to the second one it is undecided.
 constexpr double flex_eigenvalue = 1e-12, undecided_eigenvalue = 1e-10;
 
@@ -44,26 +43,32 @@ struct RigidityResult {
   int64_t self_stresses = 0;       // states of self-stress on K+
   int64_t flexes = 0;              // motions of B with S v = 0 on K+ beyond translations; 0 without a stress
   int64_t bridges = 0;             // spheres of B with d contacts of K+ or fewer
-  double margin = 0.0;             // smallest eigenvalue of S^T S on K+ that is no translation
-  std::vector<double> flex;        // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
-  std::vector<double> strain;      // (dim, dim) that goes with it; strict only
+  double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
+  std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
+  std::vector<double> strain;  // (dim, dim) that goes with it; strict only
 };
 RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
                              const CancellationPoint &cancel_point = CancellationPoint());
 
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
-// below undecided_gap_limit. Undecided are other pairs below undecided_gap_limit, and those of `listed` below
-// listed_gap_limit. Undecided pairs are taken as closed, then as open; where the two verdicts differ, the packing is
-// undecided. Where both are jammed, contacts and forces are those of the closed pairs alone.
+// below undecided_gap_limit. Undecided are other pairs below undecided_gap_limit, those of `listed` below
+// listed_gap_limit, and those that the digits of the coordinates cannot tell from contacts. Undecided pairs are taken
+// as closed, then as open; where the two verdicts differ, the packing is undecided. Where both are jammed, contacts and
+// forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
+// their sign: then only spheres with too few pairs near them make a no.
 struct PackingVerdict {
   RigidityResult result;
   ContactNetwork contacts;      // all that the test looked at, force as in result
   std::vector<int32_t> sphere;  // node of result.flex -> sphere
   int64_t undecided_contacts = 0;
+  Verdict when_closed = Verdict::undecided;  // with all undecided pairs closed
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
                             const CancellationPoint &cancel_point = CancellationPoint());
+// The same where the resolution of gaps is known.
+PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
+                            Jamming kind, const CancellationPoint &cancel_point = CancellationPoint());
 
 }  // namespace jam

@@ -26,7 +26,7 @@ class BlockIteration {
     for (int pass = 0; pass < most_passes; ++pass) {
       const size_t found = out_.flexes.size();
       if (found >= motions) {
-        out_.margin = std::numeric_limits<double>::infinity();
+        out_.margin = 0.0;  // no eigenvalue is left that could be a margin
         return out_;
       }
       if (found >= most_) {

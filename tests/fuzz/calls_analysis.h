@@ -24,6 +24,13 @@ static void call_rigidity(input *in, jam_system *sys) {
   size_t needed;
   check_status(jam_rigidity(sys, kind, NULL));
   check_status(jam_flex(sys, kind, values[0], many, values[1], 64, &needed));
+  jam_check_report check = {.struct_size = sizeof check};
+  jam_check_options o;
+  jam_check_options_init(&o, sizeof o);
+  damage(in, &o, sizeof o);
+  o.wall_time = at_most(o.wall_time, 0.1);
+  check_status(jam_check_packing(sys, &o, &check));
+  jam_check_text(&check);
 }
 
 static void call_modes(input *in, jam_system *sys) {

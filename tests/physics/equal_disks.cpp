@@ -139,6 +139,8 @@ void verdict_holds(int64_t seed) {
   assert_int_equal(jam_diameters_view(sys.get(), &s, &len), JAM_OK);
   const std::vector<Closed> closed = pairs_below(x, s[0], 1e-10);
   for (const Closed &c : closed) assert_true(c.gap > -1e-13);
+  print_message("seed %d: jammed %d, %s, residual %.1e, contacts %d\n", static_cast<int>(seed), r.jammed,
+                jam_stop_string(r.stop_reason), r.force_residual, static_cast<int>(r.contacts));
   if (!r.jammed) {  // named, and the state is a valid one
     assert_true(status == JAM_NOT_CONVERGED &&
                 (r.stop_reason == JAM_STOP_SADDLE || r.stop_reason == JAM_STOP_PRECISION));

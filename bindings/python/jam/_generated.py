@@ -299,6 +299,18 @@ class Verdict(IntEnum):
     UNDECIDED = 2  # double precision does not tell
 
 
+class CheckReason(IntEnum):
+    """Why jam_check_packing answers as it does. @since 0.1"""
+    PROOF = 0  # jammed: positive forces balance, and the rank is full
+    APART = 1  # not: no two spheres touch
+    NO_FORCE = 2  # not: no non-negative forces on the contacts balance
+    FLEX = 3  # not: forces balance, and yet spheres can move (a saddle)
+    DIGITS = 4  # undecided: the coordinates have too few digits to say which spheres touch
+    OVERLAP = 5  # undecided: spheres overlap, so gaps are known no better than that
+    GAPS = 6  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
+    MARGIN = 7  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
+
+
 class ContactClass(IntEnum):
     """Flags of a contact. @since 0.1"""
     LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
@@ -533,7 +545,7 @@ class CrunchReport(Report):
     stable: n - rattlers = N'; 0 where contacts are unknown
     bucklers: stable spheres with exactly d+1 contacts
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
-    excess_contacts: contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
+    excess_contacts: contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     idle_contacts: closed pairs without force in every state of self-stress, those of rattlers too
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
@@ -557,7 +569,14 @@ class CrunchReport(Report):
     seconds_assemble: of it in neighbour lists and assembly
     seconds_solve: of it in triangular solves
     status: jam_status_code of the call that made this report
-    reserved_end: 0"""
+    reserved_end: 0
+    packing_fraction_start: before this call. This and the next six say what the crunch did to the packing that it was given; NaN or -1 where no crunch made the report
+    displacement_max: largest displacement since then, over the mean diameter, without the mean displacement of all spheres; rattlers count, and so does a strain of the cell
+    displacement_rms: root of the mean square of the same
+    displacement_max_stable: both over the spheres that end with contacts, without their mean; NaN without any
+    displacement_rms_stable:
+    contacts_start: pairs that touched before, as far as the digits of the coordinates tell
+    contacts_kept: of these the contacts of this report; -1 where contacts are unknown"""
     jammed: bool
     stop_reason: StopReason
     lp_solver: LpSolver
@@ -596,6 +615,13 @@ class CrunchReport(Report):
     seconds_solve: float
     status: StatusCode = field()
     reserved_end: int
+    packing_fraction_start: float
+    displacement_max: float
+    displacement_rms: float
+    displacement_max_stable: float
+    displacement_rms_stable: float
+    contacts_start: int
+    contacts_kept: int
 
 
 @dataclass(frozen=True, repr=False)
@@ -724,7 +750,7 @@ class GeometryReport(Report):
     gap_below: largest |h| within it, rattlers included
     gap_above: smallest |h| beyond it (window when there is none)
     jump: gap_above / gap_below, the latter no smaller than resolution
-    resolution: of gaps, from the digits of the coordinates
+    resolution: of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with few of them
     second_jump: of the next candidate that could be rigid, 1 when there is none
     second_tolerance: its tolerance
     second_contacts: its contacts, -1 when there is none
@@ -770,8 +796,8 @@ class RigidityReport(Report):
     flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     bridges: spheres of B with d contacts of K+ or fewer
     idle_contacts: closed pairs that are not in K+
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
-    rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot tell from contacts
+    rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
     kind: RigidityKind
     jammed: Verdict
@@ -786,6 +812,73 @@ class RigidityReport(Report):
     undecided_contacts: int
     rigidity_margin: float
     force_residual: float
+
+
+@dataclass(frozen=True, repr=False)
+class CheckReport(Report):
+    """Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
+    NaN: not known. @since 0.1
+
+    jammed: jam_verdict: collectively jammed
+    strictly_jammed: jam_verdict; NO where jammed is NO
+    stationary: jam_verdict: non-negative forces balance
+    reason: jam_check_reason of jammed
+    dim: d
+    digits: decimal digits that the coordinates seem to have; 0: all of a double
+    crunch_jammed: jam_verdict of the crunched copy; UNTESTED without one
+    n: number of spheres
+    contacts: closed pairs (gaps below 1e-10) that carry force
+    excess_contacts: contacts - (d (N' - 1) + 1), 0 without contacts
+    rattlers: n - N': spheres without force
+    closed_pairs: pairs with gaps below 1e-10, those of rattlers among them
+    idle_contacts: of the pairs that were tested, those without force in every state
+    undecided_contacts: pairs that may be contacts or not, by rounding or for lack of digits
+    self_stresses: independent balances of forces; with more than one forces are not unique
+    flexes: motions beyond translations that keep all contacts with force closed
+    strict_flexes: likewise with strains of the cell; 0 where that was not tested
+    crunch_contacts: contacts of the crunched copy; -1 without one
+    packing_fraction: of the packing as it is
+    nearest_gap: smallest gap of all pairs; negative: an overlap. Infinite: none below 1
+    min_gap: smallest gap of two spheres with force that is no contact
+    max_contact_gap: largest |gap| of a contact with force
+    force_residual: largest |sum_j f_ij n_ij| over the mean force
+    rigidity_margin: smallest eigenvalue on contacts with force that is no translation
+    coordinate_step: most coordinates are multiples of it, unit of the box; 0: all digits are there
+    resolution: of gaps: from the digits of the coordinates, and from overlaps
+    diameter_factor: diameters were tested times this, so that no pair overlaps; 1: as they are
+    crunch_packing_fraction: of the crunched copy
+    crunch_displacement_max: largest displacement in it of a sphere that ends with contacts
+    crunch_displacement_rms: root of the mean square of the same"""
+    jammed: Verdict
+    strictly_jammed: Verdict
+    stationary: Verdict
+    reason: CheckReason
+    dim: int
+    digits: int
+    crunch_jammed: Verdict
+    n: int
+    contacts: int
+    excess_contacts: int
+    rattlers: int
+    closed_pairs: int
+    idle_contacts: int
+    undecided_contacts: int
+    self_stresses: int
+    flexes: int
+    strict_flexes: int
+    crunch_contacts: int
+    packing_fraction: float
+    nearest_gap: float
+    min_gap: float
+    max_contact_gap: float
+    force_residual: float
+    rigidity_margin: float
+    coordinate_step: float
+    resolution: float
+    diameter_factor: float
+    crunch_packing_fraction: float
+    crunch_displacement_max: float
+    crunch_displacement_rms: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -965,6 +1058,10 @@ OPTIONS = {
         "tolerance": ("float", 'contacts have |h| <= tolerance; 0, the default: set at the largest jump of the sorted gaps'),
         "window": ("float", 'jumps are searched in |h| < window, in (0, 1], default 0.1'),
     },
+    "jam_check_options": {
+        "crunch": ("bool", '1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0'),
+        "wall_time": ("float", 'limit for this crunch in seconds, > 0, default infinity'),
+    },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),
         "vectors": ("int", 'random vectors, 2..1e5, default 16'),
@@ -987,6 +1084,7 @@ REPORTS = {
     "jam_decompress_report": DecompressReport,
     "jam_geometry_report": GeometryReport,
     "jam_rigidity_report": RigidityReport,
+    "jam_check_report": CheckReport,
     "jam_moduli": Moduli,
     "jam_comparison": Comparison,
 }
@@ -1065,6 +1163,7 @@ CALLS = {
     "jam_stress_states": (True, (("force", "array_out", "double"), ("force_len", "len", "size_t"), ("basis", "array_out", "double"), ("basis_len", "len", "size_t"), ("residual", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
     "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_check_packing": (True, (("o", "struct_in", "jam_check_options"), ("report", "struct_out", "jam_check_report"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),

@@ -524,8 +524,9 @@ class Methods:
         are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-
         stress. The stored report's `jammed` is the verdict of rigidity(), whatever the tolerance. Status, with the
         network kept each time: 'ok': one jump stands out, or only this candidate has a single state of self-stress.
-        'ambiguous': another candidate fits too (see second_*), there are several states of self-stress, or gaps above
-        1e-7 leave the verdict open. 'not_jammed': not collectively jammed even with these contacts closed.
+        'ambiguous': another candidate fits too (see second_*), or there are several states of self-stress. Also where
+        gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. 'not_jammed': not
+        collectively jammed even with these contacts closed.
 
         Parameters
         ----------
@@ -605,13 +606,15 @@ class Methods:
         """Tests whether the packing is jammed.
 
         Nothing changes but strictly_jammed in the stored crunch report. Contacts are pairs with gaps below 1e-10, and
-        those of the contact network, when there is one, below 1e-7. No network is needed. A sphere and its own image
-        are a contact in the strict test, and in the collective one where the network lists them. Let S v be the
-        opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
-        translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources:
-        Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-        arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam.
-        kind: a RigidityKind. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided, 'cancelled'.
+        those of the contact network, when there is one, below 1e-7. No network is needed. Where coordinates have few
+        digits, pairs within their rounding are undecided, and the answer is a no only where spheres have too few of
+        them. A sphere and its own image are a contact in the strict test, and in the collective one where the network
+        lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the opening of
+        contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations of
+        B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev, Torquato,
+        Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith, arXiv:1301.0664;
+        Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. kind: a
+        RigidityKind. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided, 'cancelled'.
 
         Parameters
         ----------

@@ -7,7 +7,7 @@ import numpy as np
 
 from ._types import Array
 from . import _calls, raw
-from ._generated import CrunchReport, HistoryColumn, ModesWhich, RigidityReport
+from ._generated import CheckReport, CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
 from ._handle import Base
 from ._methods import FlexResult, StressStatesResult
 from .results import Contacts, Modes
@@ -218,6 +218,41 @@ class Network(Base):
             report.jammed is a Verdict.
         """
         found: RigidityReport = self.call("rigidity", kind, progress=progress)
+        return found
+
+    def check(self, *, crunch: bool = True, wall_time: float | None = None, progress: Any = None) -> CheckReport:
+        """Judges the packing as it is: by positions, diameters and cell alone. Nothing moves or changes.
+
+        Parameters
+        ----------
+        crunch : bool
+            An undecided packing is crunched, as a copy, to say what that changes.
+        wall_time : float, optional
+            Limit of this crunch in seconds.
+
+        Returns
+        -------
+        CheckReport
+            jammed, strictly_jammed and stationary are a Verdict. It prints as one paragraph; str(report) is that text.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> disks.check().jammed.name
+        'NO'
+        >>> report = disks.crunch()
+        >>> print(str(disks.check()).split(".")[0])
+        Collectively jammed, but not strictly
+        """
+        handle = self.handle
+        chosen = _calls.options("jam_check_options", {"crunch": crunch, "wall_time": wall_time})
+        made = _calls.new_report("jam_check_report")
+        with self._reporting(progress):
+            status = raw.jam_check_packing(handle, chosen, made)
+            found: CheckReport = _calls.freeze(made, "jam_check_report")
+            self._note(status, found)
+        object.__setattr__(found, "text", "" if status == StatusCode.CANCELLED else raw.jam_check_text(made))
         return found
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:

@@ -10,7 +10,7 @@ import time
 from typing import Any, Callable
 
 from . import files, raw
-from ._generated import LogLevel, Phase, StopReason
+from ._generated import LogLevel, Phase, StopReason, Verdict
 from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS
 from ._paths import replacing
 from ._progress import every_ten_seconds
@@ -267,8 +267,15 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
         "min_gap",
         "duality_gap",
         "gain",
+        "packing_fraction_start",
+        "displacement_max",
+        "displacement_rms",
+        "displacement_max_stable",
+        "displacement_rms_stable",
     ):
         made[key] = getattr(r, key) if r else None
+    for key in ("contacts_start", "contacts_kept"):
+        made[key] = getattr(r, key) if r and getattr(r, key) >= 0 else None
     made["jammed"] = bool(r.jammed) if r else None
     made |= {
         "stop_reason": out["stop_reason"],
@@ -352,7 +359,38 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     return list(chosen.values())
 
 
+def _warn(system: System) -> None:
+    for line in system.notes.splitlines():
+        if line.startswith("warning: "):
+            print(f"jam: {line}", file=sys.stderr)
+
+
+def _check(words: list[str]) -> int:
+    """check FILE: the verdict on a packing as it is. Exit status 0 jammed, 1 not, 3 undecided, 2 refused."""
+    p = argparse.ArgumentParser(prog="python3 -m jam check", description=_check.__doc__, allow_abbrev=False)
+    p.add_argument("file")
+    p.add_argument("--box", type=_positive, default=1.0)
+    p.add_argument("--frame", type=int, default=-1)
+    p.add_argument("--non-additivity", type=_delta, default=0.0)
+    p.add_argument("--wall-time", type=_positive, default=None)
+    p.add_argument("--quiet", action="store_true")
+    o = p.parse_args(words)
+    try:
+        system = System.read(o.file, box=o.box, frame=o.frame, non_additivity=o.non_additivity, overlap="allow")
+        _warn(system)
+        report = system.check(wall_time=o.wall_time)
+    except (JamError, ValueError, OSError) as e:
+        print(f"jam: {e}", file=sys.stderr)
+        return USAGE
+    if not o.quiet:
+        print(report)
+    return {Verdict.YES: 0, Verdict.NO: 1}.get(report.jammed, 3)
+
+
 def main(arguments: list[str] | None = None) -> int:
+    words = sys.argv[1:] if arguments is None else arguments
+    if words[:1] == ["check"]:
+        return _check(words[1:])
     p = parser()
     o = p.parse_args(arguments)
     if o.no_md and (o.growth or o.nve):
@@ -380,9 +418,7 @@ def main(arguments: list[str] | None = None) -> int:
     except (JamError, ValueError, OSError) as error:
         print(f"jam: {error}", file=sys.stderr)
         return FAILED
-    for line in system.notes.splitlines():
-        if line.startswith("warning: "):
-            print(f"jam: {line}", file=sys.stderr)
+    _warn(system)
     log = _Log(o.log)
     try:
         log.follow(system)

@@ -32,6 +32,14 @@ for _class in set(REPORTS.values()):
     setattr(_class, "__repr__", _repr)  # reports print as a table
 
 
+def _paragraph(self: Any) -> str:
+    return getattr(self, "text", "") or _repr(self)
+
+
+setattr(REPORTS["jam_check_report"], "__str__", _paragraph)
+setattr(REPORTS["jam_check_report"], "__repr__", _paragraph)
+
+
 def _short(self: Any) -> str:
     """A named tuple of results: arrays by shape, numbers as they are."""
     parts = (

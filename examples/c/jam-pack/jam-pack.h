@@ -76,7 +76,7 @@ int take_diameters(const char *value, options *o); /* without a message */
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
 int check_writable(const char *path);
 int write_report(const options *o, const outcome *result, const char *path);
-void print_summary(const outcome *result);
+void print_summary(const options *o, const outcome *result);
 void print_warnings(const char *notes); /* those of jam_notes, on stderr */
 void complain(const char *format, ...);
 
@@ -88,6 +88,9 @@ typedef struct output {
 } output;
 int open_output(output *out, const char *path);
 int close_output(output *out);
+
+/* check.c: `jam-pack check FILE`; the exit code. */
+int check_file(int argc, char **argv);
 
 /* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or -1 after a message on stderr. */
 int write_network(jam_system *sys, const options *o, const jam_info *info);

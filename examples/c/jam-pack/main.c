@@ -180,7 +180,7 @@ static int write_all(jam_system *sys, const options *o, outcome *result) {
   if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;
   running = NULL;
   if (o->report) bad |= write_report(o, result, o->report) != 0;
-  if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(result);
+  if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
   return bad || fflush(stdout);
 }
 
@@ -190,8 +190,9 @@ int main(int argc, char **argv) {
   terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
   jam_system *sys = NULL;
   jam_status status = JAM_OK;
-  int bad, code;
-  const int parsed = parse_options(argc, argv, &o);
+  int bad, code, parsed;
+  if (argc > 1 && !strcmp(argv[1], "check")) return check_file(argc, argv);
+  parsed = parse_options(argc, argv, &o);
   if (parsed) return parsed - 1;
   if (each_output(&o, check_writable)) return EXIT_OUTPUT;
   memset(&result, 0, sizeof result);

@@ -223,6 +223,13 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "min_gap", certified ? r->min_gap : NAN);
   put_number(f, "duality_gap", certified ? r->duality_gap : NAN);
   put_number(f, "gain", crunched ? r->gain : NAN);
+  put_number(f, "packing_fraction_start", crunched ? r->packing_fraction_start : NAN);
+  put_number(f, "displacement_max", crunched ? r->displacement_max : NAN);
+  put_number(f, "displacement_rms", crunched ? r->displacement_rms : NAN);
+  put_number(f, "displacement_max_stable", crunched ? r->displacement_max_stable : NAN);
+  put_number(f, "displacement_rms_stable", crunched ? r->displacement_rms_stable : NAN);
+  put_count(f, "contacts_start", r->contacts_start, crunched && r->contacts_start >= 0);
+  put_count(f, "contacts_kept", r->contacts_kept, crunched && r->contacts_kept >= 0);
   if (crunched)
     fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
   else
@@ -241,7 +248,24 @@ static const char *verdict(const jam_crunch_report *r) {
   return r->stop_reason == JAM_STOP_DUALITY_GAP ? "not tested" : "not jammed";
 }
 
-void print_summary(const outcome *result) {
+/* What the crunch did to the packing that it was given, and of what the verdict is. */
+static void print_changes(const options *o, const outcome *result) {
+  const jam_crunch_report *r = &result->crunch;
+  printf("  moved     phi %.9f -> %.9f, spheres by up to %.2g diameters (rms %.2g)", r->packing_fraction_start,
+         result->info.packing_fraction, r->displacement_max, r->displacement_rms);
+  if (isfinite(r->displacement_max_stable))
+    printf(", those with contacts by up to %.2g (rms %.2g)", r->displacement_max_stable, r->displacement_rms_stable);
+  if (r->contacts_kept >= 0 && r->contacts_start > 0)
+    printf(", %lld of %lld contacts kept", (long long)r->contacts_kept, (long long)r->contacts_start);
+  putchar('\n');
+  if (o->input)
+    printf(
+        "  the file  is not judged: '%s' is the end state, after the crunch moved spheres by up to %.2g diameters. "
+        "See: jam-pack check %s\n",
+        verdict(r), r->displacement_max, o->input);
+}
+
+void print_summary(const options *o, const outcome *result) {
   const jam_crunch_report *r = &result->crunch;
   const jam_info *info = &result->info;
   printf("%lld spheres in d = %d, seed %lld: packing fraction %.12f\n", (long long)info->n, (int)info->dim,
@@ -253,7 +277,10 @@ void print_summary(const outcome *result) {
   if (!result->has_crunch) return;
   printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", verdict(r), jam_stop_string(r->stop_reason),
          (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
-  if (r->contacts == 0) return;
+  if (r->contacts == 0) {
+    print_changes(o, result);
+    return;
+  }
   if (r->stop_reason == JAM_STOP_DUALITY_GAP)
     printf("  gap       %.2e, so that phi_J is about %.12f; %lld undecided pairs\n", r->duality_gap,
            info->packing_fraction * pow(1.0 + r->duality_gap, 0.5 * info->dim), (long long)r->undecided_contacts);
@@ -261,4 +288,5 @@ void print_summary(const outcome *result) {
          (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
   printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n",
          r->max_overlap, r->force_residual, r->min_force, r->min_gap);
+  print_changes(o, result);
 }

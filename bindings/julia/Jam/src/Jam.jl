@@ -20,7 +20,7 @@ include("raw.jl")
 
 export System, JamError, run!, compress!, crunch!, cancel, info, report, positions, diameters, velocities,
        set_positions!, set_velocities!, scale_diameters!, contacts, contact_vectors, contact_gaps, forces,
-       coordination, hessian_rows, modes, call_array, checkpoint, from_checkpoint
+       coordination, judge, hessian_rows, modes, call_array, checkpoint, from_checkpoint
 
 "A call failed; the system is as it was before. `status` is the code, `text` the library's."
 struct JamError <: Exception
@@ -300,6 +300,13 @@ end
 "Stops the call that runs on s in another thread; without one, the next call."
 cancel(s::System) = (check(jam_cancel(handle(s))); nothing)
 
+function Base.show(io::IO, r::jam_crunch_report)
+    print(io, "jam_crunch_report(", r.jammed == 1 ? "jammed" : "not jammed", ", ", unsafe_string(jam_stop_string(r.stop_reason)),
+          ", phi ", r.packing_fraction_start, " -> ", r.packing_fraction, ", moved by up to ", r.displacement_max,
+          " diameters (rms ", r.displacement_rms, "), ", r.contacts_kept, " of ", r.contacts_start, " contacts kept, ", r.contacts,
+          " contacts, excess ", r.excess_contacts, ", ", r.rattlers, " rattlers)")
+end
+
 "Report of the last crunch."
 function report(s::System)
     made = jam_crunch_report()
@@ -318,6 +325,18 @@ function call_array(::Type{T}, f, s::System, args...) where {T}
     out = Vector{T}(undef, Int(needed[]))
     note!(s, f(handle(s), args..., out, length(out), needed))
     return out
+end
+
+"""
+    judge(s; crunch, wall_time, progress) -> (report, text)
+
+Judges the packing as it is and moves nothing: a jam_check_report, and its paragraph. `s.status` is JAM_OK when jammed,
+JAM_NOT_JAMMED, or JAM_AMBIGUOUS when undecided.
+"""
+function judge(s::System; progress = nothing, given...)
+    o, made = options(jam_check_options, jam_check_options_init, given), jam_check_report()
+    verb(h -> jam_check_packing(h, o, made), s, progress)
+    return made, unsafe_string(jam_check_text(made))
 end
 
 "2-by-contacts matrix of sphere indices, from 1."

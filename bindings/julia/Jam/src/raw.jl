@@ -242,6 +242,16 @@ const JAM_VERDICT_NO = Int32(0)  # not jammed, with a proof: no balanced forces,
 const JAM_VERDICT_YES = Int32(1)  # jammed, with a proof: positive forces that balance, and full rank
 const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision does not tell
 
+# jam_check_reason: Why jam_check_packing answers as it does. @since 0.1
+const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
+const JAM_CHECK_APART = Int32(1)  # not: no two spheres touch
+const JAM_CHECK_NO_FORCE = Int32(2)  # not: no non-negative forces on the contacts balance
+const JAM_CHECK_FLEX = Int32(3)  # not: forces balance, and yet spheres can move (a saddle)
+const JAM_CHECK_DIGITS = Int32(4)  # undecided: the coordinates have too few digits to say which spheres touch
+const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are known no better than that
+const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
+const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
+
 # jam_contact_class: Flags of a contact. @since 0.1
 const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
@@ -552,7 +562,7 @@ mutable struct jam_crunch_report
     stable::Int64  # n - rattlers = N'; 0 where contacts are unknown
     bucklers::Int64  # stable spheres with exactly d+1 contacts
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
-    excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic, > 0 hyperstatic
+    excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     idle_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
@@ -577,7 +587,14 @@ mutable struct jam_crunch_report
     seconds_solve::Cdouble  # of it in triangular solves
     status::Int32  # jam_status_code of the call that made this report
     reserved_end::Int32  # 0
-    jam_crunch_report() = new(280, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    packing_fraction_start::Cdouble  # before this call. This and the next six say what the crunch did to the packing that it was given; NaN or -1 where no crunch made the report
+    displacement_max::Cdouble  # largest displacement since then, over the mean diameter, without the mean displacement of all spheres; rattlers count, and so does a strain of the cell
+    displacement_rms::Cdouble  # root of the mean square of the same
+    displacement_max_stable::Cdouble  # both over the spheres that end with contacts, without their mean; NaN without any
+    displacement_rms_stable::Cdouble
+    contacts_start::Int64  # pairs that touched before, as far as the digits of the coordinates tell
+    contacts_kept::Int64  # of these the contacts of this report; -1 where contacts are unknown
+    jam_crunch_report() = new(336, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -741,7 +758,7 @@ mutable struct jam_geometry_report
     gap_below::Cdouble  # largest |h| within it, rattlers included
     gap_above::Cdouble  # smallest |h| beyond it (window when there is none)
     jump::Cdouble  # gap_above / gap_below, the latter no smaller than resolution
-    resolution::Cdouble  # of gaps, from the digits of the coordinates
+    resolution::Cdouble  # of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with few of them
     second_jump::Cdouble  # of the next candidate that could be rigid, 1 when there is none
     second_tolerance::Cdouble  # its tolerance
     second_contacts::Int64  # its contacts, -1 when there is none
@@ -772,10 +789,59 @@ mutable struct jam_rigidity_report
     flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     bridges::Int64  # spheres of B with d contacts of K+ or fewer
     idle_contacts::Int64  # closed pairs that are not in K+
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list
-    rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot tell from contacts
+    rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     jam_rigidity_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of jam_check_packing. @since 0.1
+"""
+mutable struct jam_check_options
+    struct_size::UInt32  # sizeof(jam_check_options)
+    crunch::Int32  # 1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0
+    wall_time::Cdouble  # limit for this crunch in seconds, > 0, default infinity
+    jam_check_options() = new(16, 0, 0)
+end
+
+"""
+Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
+NaN: not known. @since 0.1
+"""
+mutable struct jam_check_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_check_report)
+    jammed::Int32  # jam_verdict: collectively jammed
+    strictly_jammed::Int32  # jam_verdict; NO where jammed is NO
+    stationary::Int32  # jam_verdict: non-negative forces balance
+    reason::Int32  # jam_check_reason of jammed
+    dim::Int32  # d
+    digits::Int32  # decimal digits that the coordinates seem to have; 0: all of a double
+    crunch_jammed::Int32  # jam_verdict of the crunched copy; UNTESTED without one
+    n::Int64  # number of spheres
+    contacts::Int64  # closed pairs (gaps below 1e-10) that carry force
+    excess_contacts::Int64  # contacts - (d (N' - 1) + 1), 0 without contacts
+    rattlers::Int64  # n - N': spheres without force
+    closed_pairs::Int64  # pairs with gaps below 1e-10, those of rattlers among them
+    idle_contacts::Int64  # of the pairs that were tested, those without force in every state
+    undecided_contacts::Int64  # pairs that may be contacts or not, by rounding or for lack of digits
+    self_stresses::Int64  # independent balances of forces; with more than one forces are not unique
+    flexes::Int64  # motions beyond translations that keep all contacts with force closed
+    strict_flexes::Int64  # likewise with strains of the cell; 0 where that was not tested
+    crunch_contacts::Int64  # contacts of the crunched copy; -1 without one
+    packing_fraction::Cdouble  # of the packing as it is
+    nearest_gap::Cdouble  # smallest gap of all pairs; negative: an overlap. Infinite: none below 1
+    min_gap::Cdouble  # smallest gap of two spheres with force that is no contact
+    max_contact_gap::Cdouble  # largest |gap| of a contact with force
+    force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force
+    rigidity_margin::Cdouble  # smallest eigenvalue on contacts with force that is no translation
+    coordinate_step::Cdouble  # most coordinates are multiples of it, unit of the box; 0: all digits are there
+    resolution::Cdouble  # of gaps: from the digits of the coordinates, and from overlaps
+    diameter_factor::Cdouble  # diameters were tested times this, so that no pair overlaps; 1: as they are
+    crunch_packing_fraction::Cdouble  # of the crunched copy
+    crunch_displacement_max::Cdouble  # largest displacement in it of a sphere that ends with contacts
+    crunch_displacement_rms::Cdouble  # root of the mean square of the same
+    jam_check_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1526,7 +1592,8 @@ end
 
 """
 Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
-self-stress they are not unique. A polish then gives those of least norm if none is negative, else the LP's.
+self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
+least norm if none is negative, else the LP's.
 Threads: const. Errors: as jam_contacts. @since 0.1
 """
 function jam_forces(sys, out, out_len, needed)
@@ -1594,9 +1661,10 @@ moves. Rattlers are the spheres that carry no force. Contacts between the others
 are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
 stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
 network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-JAM_AMBIGUOUS: another candidate fits too (see second_*), there are several states of self-stress, or gaps above 1e-7
-leave the verdict open. JAM_NOT_JAMMED: not collectively jammed even with these contacts closed. Errors: JAM_E_NULL,
-JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
+JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
@@ -1625,7 +1693,9 @@ end
 """
 Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
-A sphere and its own image are a contact in the strict test, and in the collective one where the network lists them.
+Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
+spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
+where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
 Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
 for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
@@ -1647,6 +1717,33 @@ Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without
 """
 function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
     return ccall((:jam_flex, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
+end
+
+"""
+Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+"""
+function jam_check_options_init(o, size)
+    return ccall((:jam_check_options_init, libjam), Int32, (Ref{jam_check_options}, Csize_t), _ref(jam_check_options, o), size)
+end
+
+"""
+Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
+handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
+few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
+o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
+jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+"""
+function jam_check_packing(sys, o, report)
+    return ccall((:jam_check_packing, libjam), Int32, (Ptr{Cvoid}, Ref{jam_check_options}, Ref{jam_check_report}), sys, _ref(jam_check_options, o), _ref(jam_check_report, report))
+end
+
+"""
+The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
+wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1
+"""
+function jam_check_text(report)
+    return ccall((:jam_check_text, libjam), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
 end
 
 """

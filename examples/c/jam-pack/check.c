@@ -1,0 +1,81 @@
+/* jam-pack check FILE: is the packing of the file jammed, as it is? One paragraph on standard output. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "jam-pack.h"
+
+enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
+
+static const char *const allowed[] = {"--box", "--frame", "--non-additivity", "--wall-time", "--quiet", "--help", "-h"};
+
+static int is_allowed(const char *word) {
+  const size_t length = strcspn(word, "=");
+  size_t k;
+  for (k = 0; k < sizeof allowed / sizeof *allowed; ++k)
+    if (strlen(allowed[k]) == length && !strncmp(word, allowed[k], length)) return 1;
+  return 0;
+}
+
+/* The words of an ordinary command line with --input FILE, which options.c takes. NULL after a message. */
+static char **as_input(int argc, char **argv) {
+  char **words;
+  int k;
+  for (k = 2; k < argc; ++k)
+    if (argv[k][0] == '-' && argv[k][1] && !is_allowed(argv[k])) {
+      complain("check takes a FILE and --box, --frame, --non-additivity, --wall-time or --quiet, not '%s'", argv[k]);
+      return NULL;
+    }
+  words = malloc(((size_t)argc + 2) * sizeof *words);
+  if (!words) {
+    complain("out of memory");
+    return NULL;
+  }
+  words[0] = argv[0];
+  words[1] = "--input";
+  for (k = 2; k <= argc; ++k) words[k] = argv[k];
+  return words;
+}
+
+/* Spheres may overlap: a file with few digits always has some that do, and the verdict says so. */
+static jam_status read_as_it_is(const options *o, jam_system **sys) {
+  jam_create_options create;
+  const jam_status status = jam_create_options_init(&create, sizeof create);
+  create.box = o->box;
+  create.frame = o->frame;
+  create.non_additivity = o->non_additivity;
+  create.overlap = JAM_OVERLAP_ALLOW;
+  return status < 0 ? status : jam_read(o->input, &create, sys);
+}
+
+static int judge(const options *o) {
+  jam_check_options check;
+  jam_check_report report;
+  jam_system *sys = NULL;
+  jam_status status = read_as_it_is(o, &sys);
+  report.struct_size = sizeof report;
+  if (status >= 0) print_warnings(jam_notes(sys));
+  if (status >= 0) status = jam_check_options_init(&check, sizeof check);
+  if (status >= 0) {
+    check.wall_time = o->wall_time;
+    status = jam_check_packing(sys, &check, &report);
+  }
+  jam_destroy(sys);
+  if (status < 0) {
+    complain("%s", jam_last_error());
+    return CHECK_REFUSED;
+  }
+  if (!o->quiet) puts(jam_check_text(&report));
+  if (fflush(stdout)) return EXIT_OUTPUT;
+  return status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
+}
+
+int check_file(int argc, char **argv) {
+  options o;
+  int parsed;
+  char **words = as_input(argc, argv);
+  if (!words) return CHECK_REFUSED;
+  parsed = parse_options(argc, words, &o);
+  free(words);
+  return parsed ? parsed - 1 : judge(&o);
+}

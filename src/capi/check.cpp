@@ -1,0 +1,74 @@
+// Header section "jammed or not": the verdict on a packing as it is.
+#include <cstdio>
+
+#include "capi/analysis.hpp"
+#include "crunch/crunch.hpp"
+#include "network/check.hpp"
+
+using namespace jam;
+
+namespace {
+
+jam_check_options default_check_options() {
+  jam_check_options o{};
+  o.struct_size = sizeof o;
+  o.crunch = 1;
+  o.wall_time = std::numeric_limits<double>::infinity();
+  return o;
+}
+
+// What a crunch does to an undecided packing. Where it fails the report says that no crunch ran.
+void crunch_copy(const Packing &tested, double wall_time, Monitor &monitor, jam_check_report &r) {
+  jam_crunch_options o = default_crunch_options();
+  o.wall_time = wall_time;
+  try {
+    const CrunchResult c = crunch(tested, o, monitor);
+    if (monitor.cancelled()) throw Cancelled();
+    if (c.status < 0) return;
+    r.crunch_jammed = c.report.jammed ? JAM_VERDICT_YES : JAM_VERDICT_UNDECIDED;
+    r.crunch_contacts = c.report.contacts;
+    r.crunch_packing_fraction = c.report.packing_fraction;
+    r.crunch_displacement_max = c.report.displacement_max_stable;
+    r.crunch_displacement_rms = c.report.displacement_rms_stable;
+  } catch (const Error &e) {
+    monitor.log(JAM_LOG_WARNING, "check: no crunch of the copy: %s", e.what());
+  }
+}
+
+}  // namespace
+
+extern "C" {
+
+jam_status jam_check_options_init(jam_check_options *o, size_t size) {
+  return init_options(o, size, default_check_options());
+}
+
+jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report) {
+  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
+    check_out_struct(report, "report");
+    jam_check_options full = default_check_options();
+    take_options(o, full);
+    if (full.crunch != 0 && full.crunch != 1) fail(JAM_E_ARGUMENT, "crunch is %d, it must be 0 or 1", full.crunch);
+    if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
+    CheckResult result = check_as_it_is(sys->packing, cancel_point);
+    jam_check_report &r = result.report;
+    r.struct_size = sizeof r;
+    if (full.crunch && r.jammed == JAM_VERDICT_UNDECIDED) crunch_copy(result.tested, full.wall_time, sys->monitor, r);
+    give_struct(r, report);
+    if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
+    return {r.jammed == JAM_VERDICT_NO ? JAM_NOT_JAMMED : JAM_AMBIGUOUS, text_of(r)};
+  });
+}
+
+const char *jam_check_text(const jam_check_report *report) {
+  static thread_local char text[2048];
+  text[0] = '\0';
+  guard([&]() -> jam_status {
+    if (report && report->struct_size == sizeof *report)
+      std::snprintf(text, sizeof text, "%s", text_of(*report).c_str());
+    return JAM_OK;
+  });
+  return text;
+}
+
+}  // extern "C"

@@ -1,0 +1,131 @@
+// See check.hpp.
+#include "network/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+#include "network/certificate.hpp"
+#include "network/contacts_from_geometry.hpp"
+
+namespace jam {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Diameters of the tested packing are reduced until the worst pair just touches. That such a pair overlaps says that
+// gaps are known no better.
+GapResolution take_overlaps(CheckResult &out) {
+  Packing &p = out.tested;
+  const ClosestPair closest = closest_pair(p);
+  out.report.nearest_gap = closest.gap;
+  out.report.diameter_factor = 1.0;
+  GapResolution resolution = gap_resolution(p);
+  p.overlap_allowed = false;
+  if (!(closest.gap < -contact_gap_limit)) return resolution;
+  if (closest.gap < -0.5)
+    fail(JAM_E_OVERLAP,
+         "spheres %d and %d overlap by %.3g of their contact distance: this is no packing of hard spheres", closest.i,
+         closest.j, -closest.gap);
+  widen(resolution, p, -closest.gap * contact_distance(p, closest.i, closest.j));
+  out.report.diameter_factor = 1.0 + closest.gap;
+  for (double &sigma : p.diameter) sigma *= out.report.diameter_factor;
+  return resolution;
+}
+
+// Closed pairs, and the smallest gap between stable spheres of one that is not closed.
+void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_check_report &r) {
+  double v[JAM_MAX_DIM];
+  r.min_gap = nan;
+  for (const double slope : {1.2, 2.0}) {
+    const PairList pairs = find_pairs(p, 0.0, slope);
+    r.closed_pairs = 0;
+    for (size_t k = 0; k < pairs.size(); ++k) {
+      const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
+      const double gap = std::sqrt(pair_vector(p, pairs, k, v)) / sigma - 1.0;
+      if (gap < contact_gap_limit)
+        ++r.closed_pairs;
+      else if (coordination[pairs.i[k]] > 0 && coordination[pairs.j[k]] > 0 && !(gap >= r.min_gap))
+        r.min_gap = gap;
+    }
+    if (std::isfinite(r.min_gap)) return;
+  }
+}
+
+void take_verdict(const Packing &p, const PackingVerdict &v, jam_check_report &r) {
+  const ContactNetwork net = v.carrying(p.dim);
+  r.contacts = static_cast<int64_t>(net.size());
+  r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
+  r.excess_contacts = excess_contacts(net, p.dim);
+  r.idle_contacts = v.result.idle_contacts;
+  r.undecided_contacts = v.undecided_contacts;
+  r.self_stresses = v.result.self_stresses;
+  r.flexes = v.result.flexes;
+  r.stationary = verdict_code(v.result.stressed);
+  r.force_residual = net.size() ? v.result.force_residual : nan;
+  r.rigidity_margin = net.size() ? v.result.margin : nan;
+  r.max_contact_gap = net.size() ? 0.0 : nan;
+  for (const double h : net.gap) r.max_contact_gap = std::max(r.max_contact_gap, std::fabs(h));
+  scan_pairs(p, net.coordination, r);
+}
+
+int32_t reason_of(const jam_check_report &r, bool coarse, bool changes_when_closed) {
+  if (r.jammed == JAM_VERDICT_YES) return JAM_CHECK_PROOF;
+  if (r.jammed == JAM_VERDICT_UNDECIDED) {
+    if (coarse) return r.diameter_factor < 1.0 && r.digits == 0 ? JAM_CHECK_OVERLAP : JAM_CHECK_DIGITS;
+    return changes_when_closed ? JAM_CHECK_GAPS : JAM_CHECK_MARGIN;
+  }
+  if (r.closed_pairs == 0) return JAM_CHECK_APART;
+  return r.stationary == JAM_VERDICT_YES ? JAM_CHECK_FLEX : JAM_CHECK_NO_FORCE;
+}
+
+bool may_touch_own_image(const Packing &p, const GapResolution &resolution) {
+  const double widest = diameter_max(p);
+  return resolution.may_touch(p.cell.shortest() / widest - 1.0, widest);
+}
+
+}  // namespace
+
+CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_point) {
+  CheckResult out;
+  out.tested = p;
+  jam_check_report &r = out.report;
+  r.dim = p.dim, r.n = static_cast<int64_t>(p.n());
+  r.packing_fraction = packing_fraction(p);
+  r.crunch_jammed = JAM_VERDICT_UNTESTED, r.crunch_contacts = -1;
+  r.crunch_packing_fraction = r.crunch_displacement_max = r.crunch_displacement_rms = nan;
+  const GapResolution resolution = take_overlaps(out);
+  const Packing &q = out.tested;
+  r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
+  PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective, cancel_point);
+  r.jammed = verdict_code(verdict.result.jammed);
+  r.strictly_jammed = JAM_VERDICT_NO;
+  // Only where a sphere is held by its own images alone can the strict test find more than the collective one.
+  if (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution)) {
+    const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict, cancel_point);
+    r.strictly_jammed = verdict_code(strict.result.jammed);
+    r.strict_flexes = strict.result.flexes;
+    if (strict.result.jammed == Verdict::yes && r.jammed != JAM_VERDICT_YES) {
+      verdict = strict;
+      r.jammed = JAM_VERDICT_YES;
+    } else if (r.jammed == JAM_VERDICT_NO && strict.result.jammed == Verdict::undecided) {
+      r.jammed = JAM_VERDICT_UNDECIDED;
+    }
+  }
+  bool changes = verdict.when_closed != verdict.result.jammed;
+  if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no && q.n() > 1) {
+    const GeometryResult wide = contacts_from_geometry(q, default_geometry_options(), cancel_point);
+    if (wide.clear && wide.when_closed == Verdict::yes) {
+      r.jammed = r.strictly_jammed = JAM_VERDICT_UNDECIDED;
+      changes = true;
+      verdict.undecided_contacts = std::max(verdict.undecided_contacts, wide.report.contacts);
+    }
+  }
+  take_verdict(q, verdict, r);
+  r.reason = reason_of(r, resolution.coarse(p), changes);
+  return out;
+}
+
+}  // namespace jam

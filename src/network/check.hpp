@@ -1,0 +1,20 @@
+// The verdict on a packing as it is: from positions, diameters and cell alone, and nothing moves.
+#pragma once
+#include <string>
+
+#include "core/cancellation.hpp"
+#include "core/packing.hpp"
+#include "jam/jam.h"
+
+namespace jam {
+
+struct CheckResult {
+  jam_check_report report{};
+  Packing tested;  // with the diameters that were tested: no pair overlaps
+};
+CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_point = CancellationPoint());
+
+// check_text.cpp: the report as one paragraph.
+std::string text_of(const jam_check_report &report);
+
+}  // namespace jam

@@ -1,0 +1,135 @@
+/* jam_check_packing: the verdict on a packing as it is, and that the handle stays as it was. */
+#include <jam/jam.h>
+#include <math.h>
+#include <string.h>
+#include "verdicts.h"
+
+enum { most_spheres = 256, most = JAM_MAX_DIM * most_spheres };
+
+static jam_check_report check(jam_system *sys, int32_t crunch, jam_status expected) {
+  jam_check_options o;
+  jam_check_report r = {.struct_size = sizeof r};
+  assert_int_equal(jam_check_options_init(&o, sizeof o), JAM_OK);
+  o.crunch = crunch;
+  assert_int_equal(jam_check_packing(sys, &o, &r), expected);
+  assert_int_equal(r.struct_size, sizeof r);
+  assert_true(strlen(jam_check_text(&r)) > 60);
+  if (expected > 0) assert_string_equal(jam_last_error(), jam_check_text(&r));
+  return r;
+}
+
+/* side^d spheres that touch along the axes. */
+static jam_system *cubic(int32_t dim, int side, int32_t overlap, double sigma) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  double x[most];
+  int64_t n = 1;
+  for (int c = 0; c < dim; ++c) n *= side;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim, o.n = n, o.box = side, o.overlap = overlap;
+  for (int64_t k = 0; k < n; ++k) {
+    int64_t rest = k;
+    for (int c = 0; c < dim; ++c, rest /= side) x[k * dim + c] = (double)(rest % side);
+  }
+  assert_int_equal(jam_create(&o, x, (size_t)(n * dim), &sigma, 1, &sys), JAM_OK);
+  return sys;
+}
+
+/* Saddles in all dimensions, and the same spheres apart. */
+static void cubic_lattices(void **state) {
+  (void)state;
+  for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim) {
+    jam_system *sys = cubic(dim, dim < 5 ? 3 : 2, JAM_OVERLAP_REFUSE, 1.0);
+    jam_check_report r = check(sys, 1, JAM_NOT_JAMMED);
+    assert_true(r.jammed == JAM_VERDICT_NO && r.strictly_jammed == JAM_VERDICT_NO && r.stationary == JAM_VERDICT_YES);
+    assert_true(r.reason == JAM_CHECK_FLEX && r.flexes > 0 && r.dim == dim && r.rattlers == 0);
+    assert_true(r.contacts == dim * r.n && r.closed_pairs == r.contacts && r.undecided_contacts == 0);
+    assert_true(fabs(r.nearest_gap) < 1e-14 && r.diameter_factor == 1.0 && r.crunch_contacts == -1);
+    jam_destroy(sys);
+    sys = cubic(dim, 2, JAM_OVERLAP_REFUSE, 0.4);
+    r = check(sys, 1, JAM_NOT_JAMMED);
+    assert_true(r.reason == JAM_CHECK_APART && r.contacts == 0 && r.excess_contacts == 0 && r.rattlers == r.n);
+    jam_destroy(sys);
+  }
+}
+
+/* Contacts, report and positions are those of the crunch, before and after. */
+static void leaves_the_handle_alone(void **state) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  jam_crunch_report before = {.struct_size = sizeof before}, after = {.struct_size = sizeof after};
+  const double *x;
+  double kept[3 * 64];
+  size_t len = 0, m = 0, rows = 0;
+  (void)state;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.n = 64;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  check(sys, 1, JAM_NOT_JAMMED);
+  assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_E_STATE);
+  assert_int_equal(jam_crunch(sys, NULL, &before), JAM_OK);
+  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
+  memcpy(kept, x, sizeof kept);
+  const jam_check_report r = check(sys, 1, JAM_OK);
+  assert_true(r.jammed == JAM_VERDICT_YES && r.reason == JAM_CHECK_PROOF && r.contacts == before.contacts);
+  assert_true(r.force_residual < 1e-10 && r.rigidity_margin > 1e-10 && r.max_contact_gap < 1e-10);
+  assert_true(r.min_gap == before.min_gap && r.crunch_contacts == -1 && isnan(r.crunch_displacement_max));
+  assert_memory_equal(kept, x, sizeof kept);
+  assert_int_equal(jam_crunch_report_get(sys, &after), JAM_OK);
+  assert_memory_equal(&before, &after, sizeof before);
+  assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_PHI, NULL, 0, &rows), JAM_OK);
+  assert_true(rows > 0);
+  jam_destroy(sys);
+}
+
+/* Spheres that overlap by a thousandth: their gaps are known no better. */
+static void overlaps(void **state) {
+  jam_system *sys = cubic(3, 3, JAM_OVERLAP_ALLOW, 1.001);
+  (void)state;
+  const jam_check_report r = check(sys, 0, JAM_AMBIGUOUS);
+  assert_true(r.jammed == JAM_VERDICT_UNDECIDED && fabs(r.diameter_factor * 1.001 - 1.0) < 1e-12);
+  assert_true(r.resolution > 9e-4 && r.nearest_gap < 0.0);
+  jam_destroy(sys);
+  sys = cubic(3, 3, JAM_OVERLAP_ALLOW, 1.9);
+  assert_int_equal(jam_check_packing(sys, NULL, NULL), JAM_AMBIGUOUS);
+  jam_destroy(sys);
+}
+
+static int32_t stop(const jam_progress *p, void *user) {
+  (void)p, (void)user;
+  return 1;
+}
+
+static void arguments(void **state) {
+  jam_system *sys = cubic(2, 4, JAM_OVERLAP_REFUSE, 1.0);
+  jam_check_options o;
+  jam_check_report r = {.struct_size = 2};
+  (void)state;
+  assert_int_equal(jam_check_options_init(NULL, sizeof o), JAM_E_NULL);
+  assert_int_equal(jam_check_options_init(&o, sizeof o), JAM_OK);
+  assert_true(o.crunch == 1 && isinf(o.wall_time));
+  assert_int_equal(jam_check_packing(NULL, &o, NULL), JAM_E_NULL);
+  assert_int_equal(jam_check_packing(sys, &o, &r), JAM_E_STRUCT_SIZE);
+  o.crunch = 2;
+  assert_int_equal(jam_check_packing(sys, &o, NULL), JAM_E_ARGUMENT);
+  o.crunch = 0, o.wall_time = 0.0;
+  assert_int_equal(jam_check_packing(sys, &o, NULL), JAM_E_ARGUMENT);
+  assert_int_equal(jam_check_packing(sys, NULL, NULL), JAM_NOT_JAMMED);
+  assert_string_equal(jam_check_text(NULL), "");
+  assert_string_equal(jam_check_text(&r), "");
+  assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
+  r.struct_size = sizeof r, r.jammed = 77;
+  assert_int_equal(jam_check_packing(sys, NULL, &r), JAM_CANCELLED);
+  assert_int_equal(r.jammed, 77);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(cubic_lattices),
+      cmocka_unit_test(leaves_the_handle_alone),
+      cmocka_unit_test(overlaps),
+      cmocka_unit_test(arguments),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

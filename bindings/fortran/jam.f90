@@ -304,7 +304,7 @@ module jam
     integer(c_int64_t) :: seed = 0
     ! side of the cube, > 0, default 1
     real(c_double) :: box = 0
-    ! of a random start, > 0, default 0.2
+    ! of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3
     real(c_double) :: packing_fraction = 0
     ! jam_overlap_policy for given positions, default REFUSE
     integer(c_int32_t) :: overlap = 0
@@ -361,7 +361,7 @@ module jam
   ! Given to the progress callback; valid during the call only. @since 0.1
   type, bind(c) :: jam_progress
     ! sizeof(jam_progress) as the library knows it
-    integer(c_int32_t) :: struct_size = 88
+    integer(c_int32_t) :: struct_size = 104
     ! jam_phase
     integer(c_int32_t) :: phase = 0
     ! now
@@ -374,7 +374,7 @@ module jam
     real(c_double) :: max_step = 0
     ! since the call began
     real(c_double) :: seconds = 0
-    ! 0..1 where known, else NaN
+    ! of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
     real(c_double) :: fraction = 0
     ! MD: so far in this call
     integer(c_int64_t) :: collisions = 0
@@ -384,6 +384,10 @@ module jam
     integer(c_int64_t) :: factorisations = 0
     ! number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
     integer(c_int64_t) :: snapshot = 0
+    ! until the aim, from how `fraction` grew; NaN before a few reports
+    real(c_double) :: seconds_left = 0
+    ! a factor above 1: about two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    real(c_double) :: seconds_left_spread = 0
   end type jam_progress
 
   ! Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1
@@ -1435,10 +1439,12 @@ module jam
     ! drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
     ! report may be NULL. A run or stage that ends with
     ! JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+    ! So does one that was stopped while its lists were made, when nothing has moved.
     ! With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
     ! run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
     ! Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-    ! JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+    ! JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
+    ! says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
     ! JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_run(sys, o, report) &
         bind(c, name="jam_run") result(status)
@@ -1454,7 +1460,8 @@ module jam
     ! by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
     ! may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
     ! to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
-    ! JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+    ! JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
+    ! no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
     ! protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
     ! Threads: alone. @since 0.1
     function jam_compress(sys, o, report) &

@@ -3,7 +3,7 @@ page of the guide."""
 import re
 import textwrap
 
-from options import ABOUT, EXAMPLE, NOTES, PACK, PYTHON, options, usage
+from options import ABOUT, EXAMPLE, NOTES, PACK, PYTHON, STAGES, options, usage
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
 COLUMN = 25  # where the help begins what it says of an option
@@ -67,6 +67,7 @@ def emit_c(_api):
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
     said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"') + '",' for line in help_text())
+    stages = ", ".join(f"{{{growth!r}, {pressure!r}}}" for growth, pressure in STAGES)
     kinds = ",\n  ".join(f"TAKE_{k.upper()}" for k in dict.fromkeys(o.kind for o in rows))
     return f"""/* The options of jam-pack: {MADE}. */
 /* clang-format off */
@@ -103,6 +104,9 @@ static const options defaults = {{
 {chr(10).join(defaults)}
 }};
 
+/* Stages of growth where --growth is not given; the last one goes to --pressure. */
+static const stage default_stages[] = {{{stages}}};
+
 static const char *const help[] = {{
 {said}
     NULL}};
@@ -136,7 +140,7 @@ def emit_python(_api):
         f'"""The options of python3 -m jam: {MADE}."""\n# fmt: off\n\nABOUT = (\n'
         + "\n".join("    " + repr(line + " ") for line in textwrap.wrap(ABOUT, 96))
         + "\n)\n"
-        + f"EXAMPLE = {EXAMPLE!r}\nNOTES = (\n"
+        + f"STAGES = {STAGES!r}  # rate and pressure of the stages of growth by default\nEXAMPLE = {EXAMPLE!r}\nNOTES = (\n"
         + "\n".join("    " + repr(line + " ") for note in NOTES for line in textwrap.wrap(note, 96))
         + "\n)\n"
         + "# name, kind, metavar, default, (low, high), words, needs the crunch, no effect beside, no effect without, help\nOPTIONS = (\n"

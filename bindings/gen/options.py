@@ -43,6 +43,9 @@ class Option:
 
 INT32_MAX, INT64_MAX = 2**31 - 1, 2**63 - 1
 
+# Growth of the programs and of ensembles by default: rate and pressure of the stages; that of jam_compress(sys, NULL, ..).
+STAGES = ((1e-2, 500.0), (3e-3, 1e7))
+
 TABLE = {
     "Start": (
         Option("n", "integer", "N", "spheres (1024)", None, 1, INT32_MAX, without=("input",)),
@@ -127,7 +130,7 @@ TABLE = {
             "one stage: growth rate G = (d sigma/dt)/sqrt(kT/m) up to reduced pressure P. Give it again for more stages. "
             "Default: 1e-2:500, then 3e-3 up to --pressure",
         ),
-        Option("pressure", "pressure", "P", "target of stages without :P (1e7)", 1e7),
+        Option("pressure", "pressure", "P", "target of stages without :P (1e7)", STAGES[-1][1]),
         Option("no-md", "switch", "", "none"),
     ),
     "A job that may be killed": (
@@ -284,7 +287,7 @@ EXAMPLE = "--n 1024 --seed 1 --output packing.xyz --page packing.html --report -
 NOTES = (
     "Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file progress goes as a line "
     "every ten seconds, on a terminal as one line that changes.",
-    "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early or not jammed; the valid state reached is written. "
+    "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the packing of a file as it "
     "is and moves nothing. It takes --box, --frame, --non-additivity, --wall-time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "

@@ -433,17 +433,20 @@ JAM_E_MEMORY. Threads: const. @since 0.1"
 drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
 report may be NULL. A run or stage that ends with
 JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+So does one that was stopped while its lists were made, when nothing has moved.
 With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
 run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
+says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
 by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
 may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
 to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
-JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
+no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
 protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
 Threads: alone. @since 0.1"
 %feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,

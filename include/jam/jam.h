@@ -72,14 +72,16 @@
  * - spheres n                 1 .. 2^31 - 1
  * - box                       1e-30 .. 1e30
  * - cell: distance of faces   at least 1e-3 box, after reduction
- * - diameter / box            1e-9 .. 1
+ * - diameter                  at least 1e-9 of the longest cell edge (of a cube the box), which
+ *                             coordinates resolve to 1e-16; at most the shortest cell vector
  * - largest / least diameter  1 .. 1e4
  * - non_additivity            above -1, at most 1
  * - mk_zeta                   0 .. 1e15, or infinity
  * - packing fraction          above 0; a random start: below saturation, 0.38 in d = 3
  * - radii of pair searches    at most 1000 mean diameters
  * - growth rate               above 0, at most 1000
- * - velocity component        at most 1e6 thermal units
+ * - velocities                root of sum m v^2 / (d n) at most 1e6. Light spheres among heavy
+ *                             ones may be faster
  */
 #ifndef JAM_JAM_H
 #define JAM_JAM_H
@@ -209,7 +211,7 @@ typedef struct jam_create_options {
   int64_t n;               /* number of spheres, 1..2^31-1; default 0: taken from the arrays */
   int64_t seed;            /* of every random stream, default 1; recorded */
   double box;              /* side of the cube, > 0, default 1 */
-  double packing_fraction; /* of a random start, > 0, default 0.2 */
+  double packing_fraction; /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
   int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
   int32_t model;           /* jam_model, default EUCLID */
   double mk_zeta;   /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted
@@ -339,11 +341,15 @@ typedef struct jam_progress {
   double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
   double max_step;         /* crunch: largest |s_i| over mean diameter */
   double seconds;          /* since the call began */
-  double fraction;         /* 0..1 where known, else NaN */
-  int64_t collisions;      /* MD: so far in this call */
-  int64_t steps;           /* crunch: LPs so far; analysis: items done */
-  int64_t factorisations;  /* crunch: so far */
-  int64_t snapshot;        /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
+  double fraction;    /* of the call, 0..1: never falls, an estimate where the length of the way is not known (growth,
+                       * crunch); NaN before the first estimate and in calls without one. wall_time is not in it */
+  int64_t collisions; /* MD: so far in this call */
+  int64_t steps;      /* crunch: LPs so far; analysis: items done */
+  int64_t factorisations;     /* crunch: so far */
+  int64_t snapshot;           /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
+  double seconds_left;        /* until the aim, from how `fraction` grew; NaN before a few reports */
+  double seconds_left_spread; /* a factor above 1: about two of three calls end between seconds_left divided by it and
+                               * seconds_left times it; NaN with seconds_left */
 } jam_progress;
 
 /* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a
@@ -520,10 +526,12 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
  * drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
  * report may be NULL. A run or stage that ends with
  * JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+ * So does one that was stopped while its lists were made, when nothing has moved.
  * With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
  * run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
  * Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
- * JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+ * JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
+ * says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
  * JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
@@ -531,7 +539,8 @@ JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_rep
  * by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
  * may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
  * to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
- * JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+ * JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
+ * no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
  * protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
  * Threads: alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);

@@ -115,7 +115,7 @@ class System {
   explicit System(jam_system *handle) : handle_(handle) {
     if (!handle) throw std::invalid_argument("jam::System: the handle is NULL");
   }
-  static System random(std::int64_t n, int dim = 3, std::int64_t seed = 1, double packing_fraction = 0.2,
+  static System random(std::int64_t n, int dim = 3, std::int64_t seed = 1, double packing_fraction = 0.0,
                        const std::vector<double> &diameters = {}) {
     jam_create_options o = create_options();
     o.n = n;

@@ -175,8 +175,7 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
   for (size_t e = 0; e < h.ei.size(); ++e)
     put(h.ej[e], h.ei[e], &h.off[e * d * d]);  // lower triangle; blocks are symmetric
   auto stop = [&](double fraction) {
-    jam_progress p{};
-    p.phase = JAM_PHASE_ANALYSE;
+    jam_progress p = progress_of(JAM_PHASE_ANALYSE);
     p.fraction = fraction;
     return monitor.report(p, fraction == 0.0);
   };

@@ -179,8 +179,7 @@ jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t 
     if (velocities_len != v.size())
       fail(JAM_E_ARGUMENT, "velocities_len is %zu, n * dim is %zu", velocities_len, v.size());
     check_array_in(velocities, velocities_len, "velocities");
-    for (size_t k = 0; k < velocities_len; ++k)
-      check_range("a velocity component", velocities[k], -limits::velocity_max, limits::velocity_max);
+    check_velocities(sys->packing, std::vector<double>(velocities, velocities + velocities_len), JAM_E_ARGUMENT);
     std::copy(velocities, velocities + velocities_len, v.begin());
     sys->packing.has_velocity = true;
     sys->paused.reset();
@@ -194,7 +193,7 @@ jam_status jam_scale_diameters(jam_system *sys, double factor) {
       fail(JAM_E_ARGUMENT, "factor is %g, it must be positive and finite", factor);
     Packing p = sys->packing;
     for (double &s : p.diameter) s *= factor;
-    check_diameters(p.diameter, p.cell.side());
+    check_diameters(p.diameter, p.cell);
     if (factor > 1.0) settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
     return JAM_OK;

@@ -55,7 +55,6 @@ jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
       if (!sys->runs) fail(JAM_E_STATE, "resume is 1 but there are no runs on this handle");
       sys->runs->continue_with(sys->packing, full, chosen, instants, sets);
     } else {
-      const LeavingScope scope;
       const bool jammed = sys->has_report && sys->report.jammed;
       sys->runs = std::make_unique<Isoconfigurational>(sys->packing, jammed, full, chosen, std::move(instants),
                                                        std::move(sets));

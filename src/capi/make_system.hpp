@@ -15,9 +15,8 @@ Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *
   monitor.wall_time = o.wall_time;
   monitor.progress = callback;
   monitor.progress_user = user;
-  jam_progress begun{};
-  begun.phase = JAM_PHASE_CREATE;
-  begun.pressure = begun.gain = begun.max_step = begun.fraction = std::numeric_limits<double>::quiet_NaN();
+  jam_progress begun = progress_of(JAM_PHASE_CREATE);
+  begun.packing_fraction = 0.0;
   monitor.expect(begun);
   const LeavingScope scope(sys->memory_limit, &monitor);
   try {

@@ -1,10 +1,13 @@
 // Header section "molecular dynamics": running, checkpoints, closed forms.
+#include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "capi/guard.hpp"
 #include "capi/make_system.hpp"
 #include "core/create.hpp"
+#include "core/math.hpp"
 #include "dynamics/equation_of_state.hpp"
 #include "dynamics/stage.hpp"
 #include "io/checkpoint.hpp"
@@ -39,8 +42,9 @@ class Live {
   Results results_;
 };
 
-// Runs a stage; the handle changes only when nothing is thrown. The handle keeps a stage that was stopped early.
-jam_status run_md(jam_system *sys, std::unique_ptr<Stage> &stage, const Limits &limits, jam_md_report &report) {
+// Runs a stage; the handle changes only when nothing is thrown. The handle keeps a stage that was stopped early, also
+// before it has begun: then nothing has moved.
+Answer run_md(jam_system *sys, std::unique_ptr<Stage> &stage, const Limits &limits, jam_md_report &report) {
   Listeners listeners;
   listeners.monitor = &sys->monitor;
   if (sys->observing) listeners.observer = sys->observer.get();
@@ -53,16 +57,18 @@ jam_status run_md(jam_system *sys, std::unique_ptr<Stage> &stage, const Limits &
     status = stage->run(limits, listeners);
     report = stage->report;
   }
-  check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
-  sys->commit(stage->packing());
+  std::string text = stage->text();
+  if (stage->begun()) {
+    check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
+    sys->commit(stage->packing());
+  } else {
+    sys->crunch_paused.reset();  // of what waits, a handle keeps the last
+  }
   if (status == JAM_CANCELLED || status == JAM_LIMIT) sys->paused = std::move(stage);
-  return status;
+  return text.empty() ? stopped(status, report.stop_reason) : Answer(status, std::move(text));
 }
 
-// Its searches for pairs may be left.
 std::unique_ptr<Stage> make_stage(jam_system *sys, const MdStage &stage) {
-  sys->monitor.wall_time = stage.wall_time;
-  const LeavingScope scope;
   return std::make_unique<Stage>(sys->packing, stage);
 }
 
@@ -77,34 +83,33 @@ std::unique_ptr<Stage> take_stage(jam_system *sys, bool resume, const MdStage &s
   return std::unique_ptr<Stage>(static_cast<Stage *>(sys->paused.release()));
 }
 
-// Runs a stage and those that follow it in its protocol. Where one cannot begin in time, the handle keeps the one
-// before, and a resumed call begins there.
-jam_status run_all(jam_system *sys, std::unique_ptr<Stage> stage, Limits limits, jam_md_report &report, bool &moved) {
+// Of a stage's time and that of the one which follows: growth takes (N / G) ln p collisions.
+double part_of_protocol(const MdStage &stage) {
+  if (stage.then == 0.0) return 1.0;
+  const MdStage next = next_stage(stage);
+  const double own = math::log(stage.pressure) / stage.growth;
+  return own / (own + math::log(next.pressure / stage.pressure) / next.growth);
+}
+
+// Runs a stage and those that follow it in its protocol.
+Answer run_all(jam_system *sys, std::unique_ptr<Stage> stage, Limits limits, jam_md_report &report, bool &moved) {
   const double wall_time = limits.wall_time;
+  double part = 0.0;
   for (;;) {
     const MdStage plan = stage->plan();
-    if (!plan.reached) {
-      limits.wall_time = wall_time - sys->monitor.seconds();
-      const jam_status status = run_md(sys, stage, limits, report);
-      moved = true;
-      if (status != JAM_OK || report.stop_reason != JAM_STOP_PRESSURE || plan.then == 0.0) return status;
-    }
-    MdStage next = next_stage(plan);
-    next.wall_time = wall_time;
-    try {
-      stage = make_stage(sys, next);
-    } catch (const Cancelled &) {
-      const bool cancelled = sys->monitor.cancelled();
-      stage->mark_reached();
-      sys->paused = std::move(stage);
-      report.stop_reason = cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
-      return cancelled ? JAM_CANCELLED : JAM_LIMIT;
-    }
+    const double first = part;
+    part += (1.0 - part) * part_of_protocol(plan);
+    sys->monitor.span(first, part);
+    limits.wall_time = wall_time - sys->monitor.seconds();
+    const Answer answer = run_md(sys, stage, limits, report);
+    moved = true;
+    if (answer.status != JAM_OK || report.stop_reason != JAM_STOP_PRESSURE || plan.then == 0.0) return answer;
+    stage = make_stage(sys, next_stage(plan));
   }
 }
 
 // The same, and one call is one change: after a failure the packing is that of before.
-jam_status run_stages(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &limits, jam_md_report &report) {
+Answer run_stages(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &limits, jam_md_report &report) {
   std::unique_ptr<Packing> before;
   Results results;
   if (stage->plan().then > 0.0) before = std::make_unique<Packing>(sys->packing), results = sys->results();
@@ -123,9 +128,9 @@ Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_
   check(full);
   const MdStage stage = stage_of(full);
   jam_md_report made{};
-  const jam_status status = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
+  const Answer answer = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
   give_struct(made, report);
-  return stopped(status, made.stop_reason);
+  return answer;
 }
 
 }  // namespace

@@ -24,8 +24,6 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
       stage.reset(static_cast<MonteCarloStage *>(sys->paused.release()));
     } else {
       if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
-      sys->monitor.wall_time = full.wall_time;
-      const LeavingScope scope;  // tunes the step and makes lists
       stage = std::make_unique<MonteCarloStage>(sys->packing, full);
     }
     Limits limits;
@@ -40,8 +38,12 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
       status = stage->run(limits, listeners);
     }
     const jam_monte_carlo_report made = stage->report();
-    check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
-    sys->commit(stage->packing());
+    if (stage->begun()) {
+      check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
+      sys->commit(stage->packing());
+    } else {
+      sys->crunch_paused.reset();  // of what waits, a handle keeps the last
+    }
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);
     give_struct(made, report);

@@ -13,8 +13,7 @@ class CancellationPoint {
   explicit CancellationPoint(Monitor &monitor) : monitor_(&monitor) {}
   void operator()(int64_t items = 0, double fraction = std::nan("")) const {
     if (!monitor_) return;
-    jam_progress p{};
-    p.phase = JAM_PHASE_ANALYSE;
+    jam_progress p = progress_of(JAM_PHASE_ANALYSE);
     p.steps = items;
     p.fraction = fraction;
     if (monitor_->report(p)) throw Cancelled();

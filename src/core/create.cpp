@@ -166,7 +166,6 @@ jam_create_options default_create_options() {
   o.dim = 3;
   o.seed = 1;
   o.box = 1.0;
-  o.packing_fraction = 0.2;
   o.overlap = JAM_OVERLAP_REFUSE;
   o.model = JAM_MODEL_EUCLID;
   o.frame = -1;
@@ -174,6 +173,8 @@ jam_create_options default_create_options() {
   o.mk_zeta = o.wall_time = std::numeric_limits<double>::infinity();
   return o;
 }
+
+double default_packing_fraction(int dim) { return std::ldexp(0.2, -std::max(0, dim - 3)); }
 
 // The brick of the cell repeats as the cell does, so a uniform point of it will do.
 static void random_point(const Cell &cell, Rng &rng, double *x) {
@@ -200,10 +201,8 @@ void check_create_limits(const jam_create_options &o) {
 }
 
 static void report_placed(double fraction, int64_t spheres, size_t all) {
-  jam_progress q{};
-  q.phase = JAM_PHASE_CREATE;
+  jam_progress q = progress_of(JAM_PHASE_CREATE);
   q.packing_fraction = fraction;
-  q.pressure = q.gain = q.max_step = std::numeric_limits<double>::quiet_NaN();
   q.fraction = static_cast<double>(spheres) / static_cast<double>(all);
   q.steps = spheres;
   CallScope::report(q);
@@ -307,7 +306,7 @@ void refuse_overlaps(const Packing &p, double tolerance) {
 }
 
 void settle_overlaps(Packing &p, int32_t policy) {
-  check_diameters(p.diameter, p.cell.side());
+  check_diameters(p.diameter, p.cell);
   if (policy == JAM_OVERLAP_ALLOW) {
     if (diameter_max(p) > p.cell.shortest())
       refuse_unfitting(p);  // overlaps of a sphere with its own images are not moved
@@ -318,7 +317,7 @@ void settle_overlaps(Packing &p, int32_t policy) {
 }
 
 void shrink_to_contact(Packing &p, double least, Notes *notes) {
-  check_diameters(p.diameter, p.cell.side());
+  check_diameters(p.diameter, p.cell);
   const double before = packing_fraction(p), fit = fitting_factor(p);
   double factor = fit;
   for (double &s : p.diameter) s *= fit;
@@ -343,7 +342,7 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
          "%s: to shrink means to multiply all diameters by %.3g, less than shrink_min %g; leave one of two duplicates "
          "out, or mend the unit of the diameters",
          cause, factor, least);
-  check_diameters(p.diameter, p.cell.side());
+  check_diameters(p.diameter, p.cell);
   if (notes)
     notes->warn("all diameters were multiplied by %.17g: %s; packing fraction %.12g, before %.12g", factor, cause,
                 packing_fraction(p), before);
@@ -377,11 +376,13 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
       settle_overlaps(p, o.overlap);
   } else {
     if (cell) p.cell = reduce_cell(p.dim, cell).cell;
-    if (!(o.packing_fraction > 0.0) || !std::isfinite(o.packing_fraction))
-      fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite", o.packing_fraction);
-    const double scale = math::pow(o.packing_fraction / packing_fraction(p), 1.0 / p.dim);
+    if (!(o.packing_fraction >= 0.0) || !std::isfinite(o.packing_fraction))
+      fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be positive and finite, or 0 for the default",
+           o.packing_fraction);
+    const double wanted = o.packing_fraction == 0.0 ? default_packing_fraction(p.dim) : o.packing_fraction;
+    const double scale = math::pow(wanted / packing_fraction(p), 1.0 / p.dim);
     for (double &s : p.diameter) s *= scale;
-    check_diameters(p.diameter, p.cell.side());
+    check_diameters(p.diameter, p.cell);
     if (p.overlap_allowed)
       place_uniformly(p);
     else if (p.model == JAM_MODEL_MK && p.mk_zeta > 0.0)

@@ -11,6 +11,8 @@ constexpr double overlap_tolerance = 1e-12;
 jam_create_options default_create_options();
 // wall_time and memory_limit of the options, which bound work that comes before the rest is known.
 void check_create_limits(const jam_create_options &o);
+// Of a random start, where the options leave it open: below saturation, which falls with d (create.cpp), in time.
+double default_packing_fraction(int dim);
 // Checks everything jam_create documents; positions_len == 0 means a random sequential start.
 // cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box. notes: NULL, or where changes are told.
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,

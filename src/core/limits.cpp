@@ -26,14 +26,30 @@ void check_non_additivity(double delta) {
     fail(JAM_E_ARGUMENT, "non_additivity is %g, it must be above -1 and at most %g", delta, limits::non_additivity_max);
 }
 
-void check_diameters(const std::vector<double> &diameter, double box) {
+void check_diameters(const std::vector<double> &diameter, const Cell &cell) {
   const auto [least, most] = std::minmax_element(diameter.begin(), diameter.end());
-  if (!(*least >= limits::diameter_min * box))
-    fail(JAM_E_ARGUMENT, "diameters[%td] is %g, at least %g of the box (%g) is supported", least - diameter.begin(),
-         *least, limits::diameter_min, box);
-  if (!(*most <= limits::size_ratio_max * *least))
+  double longest = 0.0;
+  for (int c = 0; c < cell.dim(); ++c) longest = std::max(longest, cell.edge(c));
+  if (!(*least >= limits::diameter_min * longest * (1.0 - limits::rounding)))
+    fail(JAM_E_ARGUMENT,
+         "diameters[%td] is %g, at least %g of the longest edge of the cell (%g) is supported: coordinates resolve "
+         "1e-16 of it",
+         least - diameter.begin(), *least, limits::diameter_min, longest);
+  if (!(*most <= limits::size_ratio_max * *least * (1.0 + limits::rounding)))
     fail(JAM_E_ARGUMENT, "diameters[%td] is %g and diameters[%td] is %g: ratios up to %g are supported",
          most - diameter.begin(), *most, least - diameter.begin(), *least, limits::size_ratio_max);
+}
+
+void check_velocities(const Packing &p, const std::vector<double> &velocity, jam_status code) {
+  constexpr double drift = 1e-6;  // of the energy, which rounding changes
+  const std::vector<double> mass = sphere_masses(p);
+  const size_t d = static_cast<size_t>(p.dim);
+  double sum = 0.0;
+  for (size_t k = 0; k < velocity.size(); ++k) sum += (mass.empty() ? 1.0 : mass[k / d]) * velocity[k] * velocity[k];
+  const double thermal = std::sqrt(sum / static_cast<double>(velocity.size()));
+  if (!(thermal <= limits::velocity_max * (1.0 + drift)))
+    fail(code, "velocities: the root of sum m v^2 / (d n) is %g, at most %g is supported", thermal,
+         limits::velocity_max);
 }
 
 }  // namespace jam

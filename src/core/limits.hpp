@@ -12,14 +12,15 @@ namespace limits {
 constexpr int64_t n_max = INT32_MAX;
 constexpr double box_min = 1e-30, box_max = 1e30;  // the eighth power and its inverse are doubles
 constexpr double cell_height_min = 1e-3;           // distance of two faces over V^(1/d), after reduction
-constexpr double diameter_min = 1e-9;              // over the box: coordinates resolve 1e-16 of it
+constexpr double diameter_min = 1e-9;              // over the longest cell edge: coordinates resolve 1e-16 of it
 constexpr double size_ratio_max = 1e4;             // largest diameter over smallest
 constexpr double non_additivity_max = 1.0;         // and above -1: contact distances are positive
 constexpr double mk_zeta_max = 1e15;               // strength of shifts, or infinity: draws of 53 bits keep a fraction
 constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
 constexpr double images_max = 1e6;       // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
 constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
-constexpr double velocity_max = 1e6;     // of a component, thermal units
+constexpr double velocity_max = 1e6;     // root of sum m v^2 / (d n): no dynamics at constant energy passes it
+constexpr double rounding = 1e-9;        // a limit that the library's own steps may exceed, relative
 constexpr double duality_gap_min = 1e-12, duality_gap_max = 1e-2;  // at which a crunch may end
 constexpr int keep_steps_max = 1000;                               // states of a crunch that are kept
 constexpr int64_t kept_coordinates = 1 << 24;  // of all of them: 64 MiB, and 90 MB in the file of a page
@@ -35,8 +36,10 @@ void check_box(double box);
 void check_non_additivity(double delta);
 // Strength of the shifts of the Mari-Kurchan model.
 inline bool is_mk_zeta(double zeta) { return zeta >= 0.0 && (zeta <= limits::mk_zeta_max || std::isinf(zeta)); }
-// Diameters in the unit of `box`: the smallest, and the ratio of the largest to it. That no sphere is wider than the
-// box is a question of overlaps (core/create.hpp).
-void check_diameters(const std::vector<double> &diameter, double box);
+// The smallest diameter in the cell, and the ratio of the largest to it. That no sphere is wider than the cell is a
+// question of overlaps (core/create.hpp).
+void check_diameters(const std::vector<double> &diameter, const Cell &cell);
+// Throws `code` where the spheres are too fast. Light spheres among heavy ones may be as fast as their masses ask.
+void check_velocities(const Packing &p, const std::vector<double> &velocity, jam_status code);
 
 }  // namespace jam

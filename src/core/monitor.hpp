@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/floating_point.hpp"
+#include "core/progress.hpp"
 #include "jam/jam.h"
 
 namespace jam {
@@ -30,8 +31,9 @@ class Monitor {
     start_ = now_seconds();
     last_ = start_ - 1.0;
     wall_time = std::numeric_limits<double>::infinity();
-    last_report_ = jam_progress{};
-    last_report_.phase = JAM_PHASE_ANALYSE;
+    last_report_ = progress_of(JAM_PHASE_ANALYSE);
+    time_left_.begin();
+    span(0.0, 1.0);
   }
   // Called by capi at the end of a verb.
   void end() { answered_.store(asked(), std::memory_order_relaxed); }
@@ -53,6 +55,8 @@ class Monitor {
   // The call must stop, by the flag or by its limit.
   bool interrupted() const { return cancelled() || seconds() > wall_time; }
 
+  // The fractions that are reported from here on are of this part of the call.
+  void span(double first, double last) { first_ = first, last_part_ = last; }
   // Returns true when the call must stop. Tells the callback at most every 0.05 s, or at once if forced.
   bool report(jam_progress p, bool force = false) {
     if (cancelled()) return true;
@@ -63,6 +67,8 @@ class Monitor {
     p.struct_size = sizeof p;
     p.seconds = t - start_;
     last_report_ = p;
+    p.fraction = first_ + (last_part_ - first_) * p.fraction;
+    time_left_.complete(p);
     const FloatingPoint::OfHost its_own;
     if (progress(&p, progress_user) != 0) cancel();
     return cancelled();
@@ -104,7 +110,9 @@ class Monitor {
   const Monitor *of_ = nullptr;                   // of the handle, for a short call
   uint32_t at_ = 0;                               // its cancels when the call began
   double start_ = 0.0, last_ = 0.0;
-  jam_progress last_report_{};
+  double first_ = 0.0, last_part_ = 1.0;
+  TimeLeft time_left_;
+  jam_progress last_report_ = progress_of(JAM_PHASE_ANALYSE);
 };
 
 }  // namespace jam

@@ -21,10 +21,8 @@ void check_packing(const Packing &p, jam_status code) {
   for (size_t i = 0; i < n; ++i)
     if (!(p.diameter[i] > 0.0 && p.diameter[i] <= widest))
       fail(code, "diameters[%zu] is %g in a box of %g", i, p.diameter[i], p.cell.side());
-  check_diameters(p.diameter, p.cell.side());
-  for (size_t k = 0; k < n * d; ++k)
-    if (!(p.velocity[k] >= -limits::velocity_max && p.velocity[k] <= limits::velocity_max))
-      fail(code, "velocities[%zu] is %g, at most %g is supported", k, p.velocity[k], limits::velocity_max);
+  check_diameters(p.diameter, p.cell);
+  check_velocities(p, p.velocity, code);
 }
 
 }  // namespace jam

@@ -221,10 +221,10 @@ class BarrierPath {
   }
 
   bool report() {
-    jam_progress progress{};
-    progress.phase = JAM_PHASE_CRUNCH;
+    jam_progress progress = progress_of(JAM_PHASE_CRUNCH);
     progress.packing_fraction = packing_fraction(p_);
-    progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
+    if (control_.done)
+      progress.fraction = control_.done(log_share(first_mu_, b_.mu, b_.mu * std::min(1.0, end_ / gap_)));
     progress.gain = gap_;
     progress.max_step = last_step_;
     progress.steps = control_.lps;

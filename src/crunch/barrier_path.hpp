@@ -21,7 +21,8 @@ struct BarrierPathControl {
   double opening = 0.0;    // of a new one: the closest pair is opened to this relative gap at least
   double least_gap = 0.0;  // it ends at this duality gap, or at Tuning::path_end where that is larger
   int threads = 1;
-  int64_t lps = 0;                                                             // solved before, for the progress
+  int64_t lps = 0;                          // solved before, for the progress
+  std::function<double(double path)> done;  // part of the call that is done at this part of the path; may be empty
   std::function<void(double gap, size_t pairs, const PathPoint &at)> on_step;  // after every move; may be empty
 };
 

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <string>
 #include <utility>
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
+#include "core/pairs.hpp"
 #include "crunch/state.hpp"
 
 namespace jam {
@@ -35,11 +37,24 @@ bool CrunchState::interrupted() {
   return false;
 }
 
+// An estimate for progress bars. A path's decades of mu take about equal times, as do decades of gain in sequential
+// LPs.
+double CrunchState::done(double path, double gain) {
+  const Tuning &t = tuning;
+  if (first_gain == 0.0) first_gain = gain;
+  double part = path_taken ? 1.0 : 0.0;
+  if (!std::isnan(path))
+    part = t.part_before_path + (1.0 - t.part_before_path) * path;
+  else if (o.method == JAM_CRUNCH_SEQUENTIAL_LP && !std::isnan(log_share(first_gain, gain, gain_tolerance)))
+    part = log_share(first_gain, gain, gain_tolerance);
+  const double rounds = o.strain == JAM_STRAIN_NONE ? 1.0 : 2.0, begun = strain.count() > 0 ? 1.0 : 0.0;
+  return (begun + t.part_before_verdict * part) / rounds;
+}
+
 bool CrunchState::show(jam_phase phase, double gain, double step, bool finished) {
-  jam_progress progress{};
-  progress.phase = phase;
+  jam_progress progress = progress_of(phase);
   progress.packing_fraction = packing_fraction(out.packing);
-  progress.pressure = progress.fraction = std::numeric_limits<double>::quiet_NaN();
+  progress.fraction = done(std::numeric_limits<double>::quiet_NaN(), gain);
   progress.gain = gain;
   progress.max_step = step;
   progress.steps = out.report.lp_solves;
@@ -61,14 +76,35 @@ static Phase first_phase(CrunchState &s) {
   return from.path.mu > 0.0 ? Phase::barrier_path : Phase::approach;
 }
 
+// Nothing touches but spheres their own images: at fixed cell no diameter can grow, and no LP is needed to see it.
+static bool fills_cell(CrunchState &s) {
+  const Packing &p = s.out.packing;
+  if (s.o.strain != JAM_STRAIN_NONE || diameter_max(p) < p.cell.shortest() * (1.0 - contact_gap_limit)) return false;
+  const PairList touching = find_pairs(p, 0.0, 1.0 + contact_gap_limit);
+  for (size_t k = 0; k < touching.size(); ++k)
+    if (!touching.own_image(k)) return false;
+  s.stop(JAM_STOP_UNJAMMED, JAM_NOT_JAMMED);
+  return true;
+}
+
+// What stands behind a status above 0.
+static void explain(CrunchState &s) {
+  const Packing &p = s.out.packing;
+  const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());
+  if (s.out.status <= 0 || s.o.strain != JAM_STRAIN_NONE || *largest < p.cell.shortest() * (1.0 - contact_gap_limit))
+    return;
+  s.out.text = "sphere " + std::to_string(largest - p.diameter.begin()) +
+               " touches its own image, nothing can grow here; a free cell (strain) gives way";
+  s.monitor.log(JAM_LOG_WARNING, "%s", s.out.text.c_str());
+}
+
 // Searches for pairs and factorisations may throw Cancelled here.
 static void run_phases(CrunchState &s) {
-  jam_progress begun{};
-  begun.phase = JAM_PHASE_CRUNCH;
+  jam_progress begun = progress_of(JAM_PHASE_CRUNCH);
   begun.packing_fraction = packing_fraction(s.out.packing);
-  begun.pressure = begun.fraction = std::numeric_limits<double>::quiet_NaN();
   s.monitor.expect(begun);
   const LeavingScope scope(CallScope::memory_limit(), &s.monitor);
+  if (fills_cell(s)) return;
   s.bound = first_bound(s.out.packing, s.o, s.tuning);
   for (Phase phase = first_phase(s); phase != Phase::done;) {
     switch (phase) {
@@ -122,6 +158,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   try {
     run_phases(s);
     finish(s);
+    explain(s);
   } catch (const Cancelled &) {  // in a search for pairs, or a factorisation
     s.interrupted();
     finish_failed(s);

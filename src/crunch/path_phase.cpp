@@ -42,6 +42,7 @@ Phase follow_path(CrunchState &s) {
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;
   control.from = s.history.stage.path;
+  control.done = [&s](double part) { return s.done(part, 0.0); };
   control.on_step = [&s](double gap, size_t pairs, const PathPoint &at) { add_history_row(s, gap, pairs, at); };
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
   // Forces do not balance at every point of the path: then it goes on to a smaller gap.

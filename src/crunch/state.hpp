@@ -38,6 +38,8 @@ struct CrunchState {
   void stop(jam_stop_reason reason, jam_status status) { out.report.stop_reason = reason, out.status = status; }
   // True where the call was cancelled or its time is over; the stop reason then says which.
   bool interrupted();
+  // Part of the crunch that is done: at this part of a path (NaN: off it), or after an LP with this gain.
+  double done(double path, double gain);
   // Calls the progress callback at once; with `finished` it may ask for the details of the last step. True: stop.
   bool show(jam_phase phase, double gain, double step, bool finished = true);
 
@@ -62,6 +64,7 @@ struct CrunchState {
   StrainBasis strain;       // of the LPs, once the cell is free
   double moved = 1.0;       // longest step since `multipliers`; 0 after a path that reached its end
   int stalled = 0, kicks = 0;
+  double first_gain = 0.0;
   bool path_taken = false;
   bool exact = false;     // the last LPs were narrow ones
   bool polished = false;  // the last polish closed its contacts

@@ -77,6 +77,9 @@ struct Tuning {
   int max_kicks = 10;  // motions along a flex
   double kick = 0.02;  // the longest
 
+  // ---- progress: parts of the time, before the path and until the verdict
+  double part_before_path = 0.05, part_before_verdict = 0.95;
+
   // Rounding of closed contacts grows with the box over the diameter.
   double closed_limit(const Packing &p) const {
     return closed_gap * std::max(1.0, 0.1 * p.cell.side() / diameter_mean(p));

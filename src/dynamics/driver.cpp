@@ -72,6 +72,7 @@ std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o
 std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from) {
   int64_t images = 0;
   from(images);
+  if (images == not_begun) return nullptr;
   Archive::check(images == 1 || (images == 0 && p.model == JAM_MODEL_EUCLID && p.cell.cube()));
   return choose(p, EngineOptions{}, images == 1, &from);
 }
@@ -151,7 +152,6 @@ MdStage next_stage(const MdStage &stage) {
   next.growth = last_rate;
   next.pressure = stage.then;
   next.then = 0.0;
-  next.reached = 0;
   return next;
 }
 

@@ -13,6 +13,7 @@
 namespace jam {
 
 class Observer;
+constexpr int64_t not_begun = -1;  // in an archive: it was stopped before it had an engine
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 // The first limit that is reached ends a call of Dynamics::run.

@@ -97,7 +97,8 @@ struct EngineOptions {
 // Shift: list entries carry their own shift: an image when a pair can meet through several, the quenched shift in the
 // Mari-Kurchan model.
 std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o);
-// One that goes on where another was archived; p is the packing that it was made from.
+// One that goes on where another was archived; p is the packing that it was made from. Null where `not_begun`
+// (dynamics.hpp) stands in its place.
 std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from);
 
 template <int D, bool Shift>
@@ -160,6 +161,7 @@ class Engine final : public EngineBase, private Units<Shift> {
   void collide(int32_t i, int32_t k);
   void separation(int32_t i, int32_t k, double *r) const;
   void next_event(int32_t i);
+  double longest_wait() const;
 
   // -- engine_prefetch.hpp
   void look_ahead() const;

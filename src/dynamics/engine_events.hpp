@@ -4,6 +4,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
+#include "core/math.hpp"
 #include "dynamics/engine.hpp"
 
 namespace jam {
@@ -207,12 +208,28 @@ void Engine<D, Shift>::next_event(int32_t i) {
   calendar_.put_in(k);
 }
 
+// A hundred times the mean time between two collisions of an ideal gas of this density and temperature: so many chances
+// are not missed. 0 where no sphere moves against another.
+template <int D, bool Shift>
+double Engine<D, Shift>::longest_wait() const {
+  constexpr double chances = 100.0, rounding = 1e-20;
+  double all = 0.0;  // with the motion of the centre of mass
+  for (int32_t i = 0; i < n_; ++i)
+    for (const double v : body_[i].v) all += (mass_.empty() ? 1.0 : mass_[i]) * (v * unit) * (v * unit);
+  if (n_ < 2 || !(twice_kinetic_ > rounding * all)) return 0.0;
+  const double n = static_cast<double>(n_), speed = std::sqrt(2.0 * twice_kinetic_ / n);
+  const double cross_section = unit_sphere_volume(D - 1) * math::pow(2.0 * mean_diameter(), D - 1);
+  return chances / (0.5 * n * (n - 1.0) * cross_section * speed);
+}
+
 template <int D, bool Shift>
 Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, double wall_end) {
   const int64_t goal = sums.collisions + collisions;
-  // Without a collision in so many events none will come: the spheres have no partners, or their paths never meet.
+  // Without a collision in so many events and so long a time none will come: the spheres move as one, or their paths
+  // never meet.
   const int64_t max_stalled_events = 1000000 + 200 * static_cast<int64_t>(n_);
   int64_t last_progress = sums.events, last_collisions = sums.collisions;
+  double last_time = elapsed();
   if (wants_images_) return Halt::needs_images;
   while (sums.collisions < goal) {
     if ((sums.events & 1023) == 0) {
@@ -220,8 +237,8 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
       if (monitor.cancelled()) return Halt::cancelled;
       if (now_seconds() > wall_end) return Halt::wall_time;
       if (sums.collisions != last_collisions)
-        last_collisions = sums.collisions, last_progress = sums.events;
-      else if (sums.events - last_progress > max_stalled_events)
+        last_collisions = sums.collisions, last_progress = sums.events, last_time = elapsed();
+      else if (sums.events - last_progress > max_stalled_events && elapsed() - last_time > longest_wait())
         return Halt::stalled;
     }
     ++sums.events;
@@ -231,8 +248,7 @@ Halt Engine<D, Shift>::advance(int64_t collisions, const Monitor &monitor, doubl
         std::min(std::min(lists_end_, step_end_), std::min(std::min(fraction_time_, full_time_), time_end_));
     // Also after many events: when they come faster and faster, times must stay small to be sharp.
     if ((i < 0 && !(special < calendar_.horizon())) || sums.events > rebase_at_) {
-      // Without a horizon nothing will ever happen, or all of it at this very moment.
-      if (calendar_.horizon() == never && (i < 0 || !options_.heap_only)) return Halt::stalled;
+      if (i < 0 && calendar_.horizon() == never && special == never) return Halt::stalled;  // nothing will ever happen
       rebase();
       if (wants_images_) return Halt::needs_images;
       continue;

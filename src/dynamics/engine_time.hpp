@@ -65,7 +65,8 @@ Engine<D, Shift>::Engine(const Packing &p, const EngineOptions &o, Archive *from
     double largest = 0.0;
     for (const Body<D> &b : body_) largest = std::max(largest, static_cast<double>(b.radius));
     // A sphere touches its own image, or the largest contact distance reaches the shortest lattice vector.
-    full_time_ = (0.5 * scale * lattice_.shortest() / (largest * reach_factor_) - 1.0) / rate_;
+    // Two units before it, so that rounding takes no sphere beyond.
+    full_time_ = std::max(0.0, ((0.5 * scale * lattice_.shortest() - 2.0) / (largest * reach_factor_) - 1.0) / rate_);
     if (o.target_fraction < never) {
       target_radius_ = static_cast<double>(body_[0].radius) * math::pow(o.target_fraction / fraction, 1.0 / D);
       fraction_time_ = (target_radius_ / static_cast<double>(body_[0].radius) - 1.0) / rate_;
@@ -164,10 +165,18 @@ void Engine<D, Shift>::sort_calendar() {
     time_before_ = sums.time;
     events_before_ = sums.events;
   } else if (bucket_width_ == 0.0) {
-    std::vector<double> times(n_);
-    for (int32_t i = 0; i < n_; ++i) times[i] = calendar_.time(i);
-    std::nth_element(times.begin(), times.begin() + n_ / 2, times.end());
-    bucket_width_ = times[n_ / 2] / n_;
+    // The median of the times to come. On a lattice most spheres may stand at an edge of their cell and leave it now:
+    // then a part of the mean, which costs at most a longer heap.
+    constexpr double least_part = 0.1;
+    std::vector<double> times;
+    double mean = 0.0;
+    for (int32_t i = 0; i < n_; ++i)
+      if (const double t = calendar_.time(i); t < never) times.push_back(t), mean += t / n_;
+    if (!times.empty()) {
+      const auto median = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+      std::nth_element(times.begin(), median, times.end());
+      bucket_width_ = std::max(*median, least_part * mean) / n_;
+    }
   }
   double earliest = never;
   for (int32_t i = 0; i < n_; ++i) earliest = std::min(earliest, calendar_.time(i));

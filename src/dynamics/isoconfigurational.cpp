@@ -50,7 +50,6 @@ Isoconfigurational::Isoconfigurational(const Packing &p, bool jammed, const jam_
   if (mc) {
     plan_.metropolis = true;
     plan_.monte_carlo = *mc;
-    if (plan_.monte_carlo.step == 0.0) plan_.monte_carlo.step = tuned_step(plan_.start, plan_.monte_carlo);
     check_monte_carlo(plan_.start, plan_.monte_carlo);
   }
   kept_.resize(kept_instants_.size());
@@ -166,7 +165,7 @@ void Isoconfigurational::archive(Archive &a) {
     if (plan_.metropolis) {
       check_monte_carlo_options(plan_.monte_carlo);
       check_monte_carlo(plan_.start, plan_.monte_carlo);
-      Archive::check(plan_.monte_carlo.step > 0.0);
+      Archive::check(plan_.monte_carlo.step > 0.0 || report_.runs == 0);
     }
     Archive::check(!plan_.instants.empty() && plan_.instants[0] > 0.0 &&
                    std::is_sorted(plan_.instants.begin(), plan_.instants.end()));

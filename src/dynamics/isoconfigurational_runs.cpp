@@ -49,10 +49,8 @@ void Isoconfigurational::fold(int64_t run, const RunRecord &record) {
 
 // Tells the progress callback; true: stop.
 bool Isoconfigurational::tick(Monitor &monitor) const {
-  jam_progress p{};
-  p.phase = phase();
+  jam_progress p = progress_of(phase());
   p.packing_fraction = plan_.fraction;
-  p.pressure = p.gain = p.max_step = std::numeric_limits<double>::quiet_NaN();
   p.fraction = static_cast<double>(report_.runs) / static_cast<double>(plan_.options.runs);
   p.steps = report_.runs;
   return monitor.report(p);
@@ -114,6 +112,14 @@ void Isoconfigurational::work(Queue &queue, const RunControl &control) {
 jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listeners) {
   Monitor &monitor = *listeners.monitor;
   const double begin = now_seconds(), wall_end = begin + limits.wall_time;
+  if (plan_.metropolis && plan_.monte_carlo.step == 0.0) {
+    const LeavingScope scope;
+    try {
+      plan_.monte_carlo.step = report_.step = tuned_step(plan_.start, plan_.monte_carlo);
+    } catch (const Cancelled &) {
+      return finish(monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME, begin);
+    }
+  }
   // All memory of the sets now: no run is lost for want of it.
   for (std::vector<double> &set : kept_) set.reserve(static_cast<size_t>(plan_.options.runs) * n() * dim());
   Queue queue;

@@ -15,7 +15,6 @@ struct MdStage {
   double growth_end = 0.0;               // > 0: growth falls as a power of p, to this at the target pressure
   int64_t relative = 0;                  // 1: constant relative rate of growth
   double then = 0.0;                     // > 0: the protocol goes on after this stage, up to this pressure
-  int64_t reached = 0;                   // 1: its pressure is reached, the next stage has not begun
   Limits limits() const { return {collisions_per_particle, time, wall_time}; }
 };
 

@@ -77,7 +77,7 @@ class MonteCarloMeans {
 // A Monte Carlo run as it goes on. Per particle, the limits count sweeps since it began.
 class MonteCarloStage final : public Dynamics {
  public:
-  MonteCarloStage(const Packing &p, const jam_monte_carlo_options &o);  // tunes the step if it is 0
+  MonteCarloStage(const Packing &p, const jam_monte_carlo_options &o);
   MonteCarloStage(const Packing &p, Archive &from);
 
   int32_t phase() const override { return JAM_PHASE_MONTE_CARLO; }
@@ -86,13 +86,15 @@ class MonteCarloStage final : public Dynamics {
   Packing current() const override;
   void archive(Archive &a) override;
   jam_monte_carlo_report report() const;
+  bool begun() const { return engine_ != nullptr; }
 
  private:
+  int32_t begin(Monitor &monitor);
   bool tell(Monitor &monitor, double goal) const;
   void take_displacement(Observer *observer);
   Packing p_;
   jam_monte_carlo_options options_;
-  std::unique_ptr<MonteCarlo> engine_;
+  std::unique_ptr<MonteCarlo> engine_;  // made by the first run, which may be stopped meanwhile
   MonteCarloMeans means_;
   std::vector<double> seen_;  // displacement that observers were told
   int64_t done_ = 0;

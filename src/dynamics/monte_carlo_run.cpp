@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "dynamics/isoconfigurational.hpp"
 #include "dynamics/monte_carlo.hpp"
 #include "dynamics/observer.hpp"
@@ -54,13 +55,30 @@ void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control,
 
 MonteCarloStage::MonteCarloStage(const Packing &p, const jam_monte_carlo_options &o)
     : p_(p), options_(o), means_(p, o), seen_(p.position.size(), 0.0) {
-  if (options_.step == 0.0) options_.step = tuned_step(p_, options_);
   check_monte_carlo(p_, options_);
-  // Velocities of before belong to another state.
-  p_.has_velocity = false;
-  if (options_.alpha > 0.0) p_.overlap_allowed = true;  // soft spheres leave overlaps: calls for hard ones must look
-  std::fill(p_.velocity.begin(), p_.velocity.end(), 0.0);
-  engine_ = make_monte_carlo(p_, options_, options_.run);
+}
+
+// Tunes the step if it is 0, and makes lists. A reason to stop: the next run begins anew.
+int32_t MonteCarloStage::begin(Monitor &monitor) {
+  if (engine_) return JAM_STOP_NONE;
+  jam_progress q = progress_of(phase());
+  q.packing_fraction = packing_fraction(p_);
+  monitor.expect(q);
+  const LeavingScope scope;
+  try {
+    jam_monte_carlo_options tuned = options_;
+    if (tuned.step == 0.0) tuned.step = tuned_step(p_, tuned);
+    check_monte_carlo(p_, tuned);
+    engine_ = make_monte_carlo(p_, tuned, tuned.run);
+    options_ = tuned;
+    // Velocities of before belong to another state.
+    p_.has_velocity = false;
+    if (options_.alpha > 0.0) p_.overlap_allowed = true;  // soft spheres leave overlaps: calls for hard ones must look
+    std::fill(p_.velocity.begin(), p_.velocity.end(), 0.0);
+  } catch (const Cancelled &) {
+    return monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+  }
+  return JAM_STOP_NONE;
 }
 
 MonteCarloStage::MonteCarloStage(const Packing &p, Archive &from)
@@ -69,31 +87,34 @@ MonteCarloStage::MonteCarloStage(const Packing &p, Archive &from)
 }
 
 void MonteCarloStage::archive(Archive &a) {
+  int64_t done = engine_ ? done_ : not_begun;
   a(options_);
-  a(done_);
+  a(done);
   a(stop_reason_);
   a(seen_);
   means_.archive(a);
   if (a.reading()) {
     check_monte_carlo_options(options_);
-    Archive::check(options_.step > 0.0 && done_ >= 0 && seen_.size() == p_.position.size());
+    Archive::check(done >= not_begun && seen_.size() == p_.position.size());
     check_monte_carlo(p_, options_);
+    if (done == not_begun) return;
+    done_ = done;
+    Archive::check(options_.step > 0.0);
     engine_ = make_monte_carlo(p_, options_, options_.run);
   }
-  engine_->archive(a);
+  if (engine_) engine_->archive(a);
 }
 
 Packing MonteCarloStage::current() const {
   Packing p = p_;
+  if (!engine_) return p;
   engine_->write_state(p);
   return p;
 }
 
 bool MonteCarloStage::tell(Monitor &monitor, double goal) const {
-  jam_progress q{};
-  q.phase = phase();
+  jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
-  q.pressure = q.gain = q.max_step = std::numeric_limits<double>::quiet_NaN();
   q.fraction = static_cast<double>(done_) / goal;
   q.steps = done_;
   return monitor.report(q);
@@ -110,7 +131,10 @@ void MonteCarloStage::take_displacement(Observer *observer) {
 
 jam_status MonteCarloStage::run(const Limits &limits, const Listeners &listeners) {
   constexpr int64_t sample_every = 10;  // sweeps; a sample takes about the time of a sweep
-  const double begin = now_seconds(), wall_end = begin + limits.wall_time;
+  const double started = now_seconds(), wall_end = started + limits.wall_time;
+  listeners.monitor->wall_time = limits.wall_time;
+  stop_reason_ = begin(*listeners.monitor);
+  if (stop_reason_ != JAM_STOP_NONE) return stop_reason_ == JAM_STOP_CANCELLED ? JAM_CANCELLED : JAM_LIMIT;
   const int64_t goal = static_cast<int64_t>(std::min(limits.per_particle, 9e15)), before = done_;
   stop_reason_ = JAM_STOP_COLLISIONS;
   while (done_ < goal) {
@@ -124,7 +148,7 @@ jam_status MonteCarloStage::run(const Limits &limits, const Listeners &listeners
   }
   take_displacement(listeners.observer);
   engine_->write_state(p_);
-  seconds_ = now_seconds() - begin;
+  seconds_ = now_seconds() - started;
   trials_ = static_cast<double>(done_ - before) * static_cast<double>(p_.n());
   p_.pressure = report().pressure;
   if (stop_reason_ == JAM_STOP_CANCELLED) return JAM_CANCELLED;
@@ -136,6 +160,8 @@ jam_monte_carlo_report MonteCarloStage::report() const {
   r.struct_size = sizeof r;
   r.stop_reason = stop_reason_;
   r.step = options_.step;
+  r.next_sweep = options_.first_sweep;
+  if (!engine_) return r;
   double msd = 0.0;
   for (const double x : engine_->displacement()) msd += x * x;
   r.msd = msd / static_cast<double>(p_.n()) * p_.cell.side() * p_.cell.side();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
@@ -68,21 +69,35 @@ int32_t reason_of(Halt halt) {
 }  // namespace
 
 Stage::Stage(Packing p, const MdStage &stage) : p_(std::move(p)), stage_(stage), n_(static_cast<double>(p_.n())) {
+  growth_ = stage_.growth;
+  if (stage_.relative) growth_ *= diameter_mean(p_) / p_.cell.side() * math::pow(n_, 1.0 / p_.dim);
+  take_limits(stage.limits());
+}
+
+// Searches for overlaps and makes the engine. A reason to stop: the next run begins anew.
+int32_t Stage::begin(Monitor &monitor) {
+  if (engine_) return JAM_STOP_NONE;
   const bool drawn = !p_.has_velocity || (growing() && !(twice_kinetic(p_) > 0.0));
   if (drawn) draw_velocities(p_);
   // Velocities that a compression has scaled at its end stay as they are.
   const bool scaled = std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12;
   if (growing() && (drawn || !scaled)) scale_velocities(p_);
-  growth_ = stage_.growth;
-  if (stage_.relative) growth_ *= diameter_mean(p_) / p_.cell.side() * math::pow(n_, 1.0 / p_.dim);
-  take_limits(stage.limits());
-  if (p_.overlap_allowed) refuse_overlaps(p_, 1e-10);
-  engine_ = make_engine(p_, options());
+  jam_progress q = progress_of(phase());
+  q.packing_fraction = packing_fraction(p_);
+  monitor.expect(q);
+  const LeavingScope scope;
+  try {
+    if (p_.overlap_allowed) refuse_overlaps(p_, 1e-10);
+    engine_ = make_engine(p_, options());
+  } catch (const Cancelled &) {
+    return monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+  }
   if (engine_->max_overlap > 1e-10)
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of molecular dynamics", engine_->max_overlap);
   kinetic_ = engine_->twice_kinetic();
   plan_window();
   begin_part();
+  return JAM_STOP_NONE;
 }
 
 Stage::Stage(Packing p, Archive &from) : p_(std::move(p)), n_(static_cast<double>(p_.n())) { archive(from); }
@@ -105,9 +120,9 @@ void Stage::archive(Archive &a) {
       Archive::check(k > -(int64_t{1} << 60) && k < int64_t{1} << 60);  // sums and differences are taken of them
     engine_ = make_engine(p_, a);
   } else {
-    int64_t images = engine_->with_images();
+    int64_t images = engine_ ? engine_->with_images() : not_begun;
     a(images);
-    engine_->archive(a);
+    if (engine_) engine_->archive(a);
   }
 }
 
@@ -171,17 +186,23 @@ int32_t Stage::advance_part(const Listeners &listeners, double wall_end) {
     else if (halt == Halt::time && histograms <= stage_.time) {
       if (!sample_histograms(*observer, histograms))
         return listeners.monitor->cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
-    } else if (halt != Halt::window)
+    } else if (halt != Halt::window) {
+      box_full_ = halt == Halt::box_full;
       return reason_of(halt);
-    else if (observer && observe(listeners))
-      return JAM_STOP_CANCELLED;
+    }
+    if (halt == Halt::window && observer && observe(listeners)) return JAM_STOP_CANCELLED;
   }
   return JAM_STOP_NONE;
 }
 
 int32_t Stage::go_on(const Listeners &listeners, double wall_end) {
   for (;;) {
-    const int32_t reason = advance_part(listeners, wall_end);
+    int32_t reason = advance_part(listeners, wall_end);
+    // Collisions at contact, in which no time has passed, are no run.
+    if (reason == JAM_STOP_COLLISIONS && !(kinetic_integral() > 0.0) && virial() > 0.0) {
+      ++frozen_;
+      reason = JAM_STOP_STALLED;
+    }
     if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
       const double v = window_virial_ + part_virial_ + engine_->sums.virial,
                    a = window_kinetic_integral_ + part_kinetic_integral_ + engine_->sums.kinetic_integral;
@@ -207,14 +228,19 @@ int32_t Stage::go_on(const Listeners &listeners, double wall_end) {
   }
 }
 
+// Gaps are about sigma / p. Below 40 units of the coordinates they are noise.
+double Stage::finest_pressure() const { return engine_->mean_diameter() / (40.0 * engine_->resolution()); }
+
 // At the end of a window: the reason why the stage ends here, or JAM_STOP_NONE. Limits are checked in advance_part,
 // which leaves a stage that can go on.
 int32_t Stage::judge() {
   if (window_kinetic_integral_ <= 0.0 && window_virial_ > 0.0) return ++frozen_ > 20 ? JAM_STOP_STALLED : JAM_STOP_NONE;
   if (growing() && steady_ && pressure_ >= stage_.pressure) return JAM_STOP_PRESSURE;
-  // Gaps are about sigma / p. Below 40 units of the coordinates they are noise.
-  if (growing() && pressure_ > 1.0 && engine_->mean_diameter() / pressure_ < 40.0 * engine_->resolution())
-    return JAM_STOP_PRECISION;
+  if (pressure_ > 1.0 && pressure_ > finest_pressure()) {
+    if (growing()) return JAM_STOP_PRECISION;
+    ++frozen_;
+    return JAM_STOP_STALLED;
+  }
   return JAM_STOP_NONE;
 }
 
@@ -233,8 +259,9 @@ void Stage::thermostat() {
 // The quasi-static mode: G = growth (p / p_0)^-a from the first window on, with a such that G = growth_end at the
 // target.
 void Stage::slow_down() {
-  if (!(stage_.growth_end > 0.0) || !(pressure_ > 1.0)) return;
+  if (!(pressure_ > 1.0)) return;
   if (first_pressure_ == 0.0) first_pressure_ = pressure_;
+  if (!(stage_.growth_end > 0.0)) return;
   if (stage_.pressure <= first_pressure_) return;
   const double part = std::min(
       1.0, std::max(0.0, math::log(pressure_ / first_pressure_) / math::log(stage_.pressure / first_pressure_)));
@@ -268,19 +295,25 @@ void Stage::change_engine(Observer *observer) {
 
 Packing Stage::current() const {
   Packing p = p_;
+  if (!engine_) return p;
   engine_->write_state(p);
   p.pressure = pressure_;
   return p;
 }
 
 jam_status Stage::run(const Limits &limits, const Listeners &listeners) {
-  const double begin = now_seconds(), begin_time = time(), wall_end = begin + limits.wall_time;
+  const double started = now_seconds(), wall_end = started + limits.wall_time;
+  listeners.monitor->wall_time = listeners.monitor->seconds() + limits.wall_time;  // for searches for pairs
+  if (const int32_t stopped = begin(*listeners.monitor); stopped != JAM_STOP_NONE) {
+    report.stop_reason = stopped;
+    return status_of(stopped);
+  }
+  const double begin_time = time();
   const int64_t begin_events = events();
   call_collisions_ = collisions();
   report_collisions_ = report.collisions;
   take_limits(limits);
   listeners.monitor->expect(progress());
-  listeners.monitor->wall_time = listeners.monitor->seconds() + limits.wall_time;  // for searches for pairs
   engine_->set_time_limit(stage_.time - time());
   attach(listeners.observer);
   const bool there = growing() && engine_->packing_fraction() >= stage_.packing_fraction;
@@ -293,7 +326,7 @@ jam_status Stage::run(const Limits &limits, const Listeners &listeners) {
   report.collisions += collisions() - call_collisions_;
   report.events += events() - begin_events;
   report.time += time() - begin_time;
-  report.seconds += now_seconds() - begin;
+  report.seconds += now_seconds() - started;
   finish(reason);
   return status_of(reason);
 }

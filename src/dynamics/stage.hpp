@@ -1,6 +1,8 @@
 // One stage of molecular dynamics: windows of pressure, thermostat, limits, report. It can stop between any two events
 // and go on to the same bits, in this process or another. So every value that a decision uses is in archive().
 #pragma once
+#include <string>
+
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
 #include "dynamics/observer.hpp"
@@ -12,7 +14,7 @@ double twice_kinetic(const Packing &p);
 
 class Stage final : public Dynamics {
  public:
-  Stage(Packing p, const MdStage &stage);
+  Stage(Packing p, const MdStage &stage);  // the engine is made by the first run, which may be stopped meanwhile
   Stage(Packing p, Archive &from);
 
   int32_t phase() const override { return growing() ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN; }
@@ -20,8 +22,10 @@ class Stage final : public Dynamics {
   const Packing &packing() const override { return p_; }
   Packing current() const override;
   const MdStage &plan() const { return stage_; }
-  void mark_reached() { stage_.reached = 1; }
   void archive(Archive &a) override;
+  bool begun() const { return engine_ != nullptr; }
+  // Why the last run ended before its aim, in a sentence; empty where it did not.
+  std::string text() const;
   // Each run adds to it, so that stages that follow each other give one report. Not part of the archive.
   jam_md_report report{};
 
@@ -29,12 +33,14 @@ class Stage final : public Dynamics {
   bool growing() const { return stage_.growth > 0.0; }
   void take_limits(const Limits &limits);
   EngineOptions options() const;
+  int32_t begin(Monitor &monitor);
   int32_t go_on(const Listeners &listeners, double wall_end);
   int32_t advance_part(const Listeners &listeners, double wall_end);
   void begin_part();
   void end_part();
   void plan_window();
   int32_t judge();
+  double finest_pressure() const;
   void thermostat();
   void slow_down();
   void change_engine(Observer *observer);
@@ -46,6 +52,7 @@ class Stage final : public Dynamics {
   void sample(Observer &observer) const;
   double until_histograms(const Observer *observer) const;  // as time() will be then
   bool sample_histograms(Observer &observer, double at) const;
+  double fraction() const;
   jam_progress progress() const;
 
   void finish(int32_t reason);
@@ -79,6 +86,7 @@ class Stage final : public Dynamics {
   int64_t cooled_collisions_ = 0, frozen_ = 0;
 
   // of this call, not in the archive
+  bool box_full_ = false;
   double block_virial_ = 0.0, block_kinetic_integral_ = 0.0, seen_time_ = 0.0;
   int64_t seen_collisions_ = 0, call_collisions_ = 0, report_collisions_ = 0;
 };

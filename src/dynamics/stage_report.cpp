@@ -1,6 +1,7 @@
 // What a stage tells while it runs and at its end: observers, progress, report.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/call_scope.hpp"
 #include "dynamics/stage.hpp"
@@ -73,14 +74,24 @@ void Stage::sample(Observer &observer) const {
 
 // ---- progress and report
 
+// Of the aim that comes first. Growth takes about equal times for equal factors of pressure.
+double Stage::fraction() const {
+  double most = std::numeric_limits<double>::quiet_NaN();  // fmax leaves it out
+  if (goal_ < no_limit) most = static_cast<double>(collisions()) / goal_;
+  if (stage_.time < no_limit) most = std::fmax(most, time() / stage_.time);
+  if (!growing()) return most;
+  most = std::fmax(most, log_share(first_pressure_, pressure_, std::min(stage_.pressure, finest_pressure())));
+  if (stage_.packing_fraction < no_limit)
+    most = std::fmax(most, log_share(jam::packing_fraction(p_), engine_->packing_fraction(), stage_.packing_fraction));
+  return most;
+}
+
 jam_progress Stage::progress() const {
-  jam_progress q{};
-  q.phase = growing() ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN;
+  jam_progress q = progress_of(phase());
   q.packing_fraction = engine_->packing_fraction();
   q.pressure = pressure_;
-  q.gain = q.max_step = std::numeric_limits<double>::quiet_NaN();
   q.collisions = report_collisions_ + collisions() - call_collisions_;
-  q.fraction = goal_ < no_limit ? static_cast<double>(collisions()) / goal_ : std::numeric_limits<double>::quiet_NaN();
+  q.fraction = fraction();
   return q;
 }
 
@@ -104,6 +115,56 @@ double Stage::standard_error() const {
   for (double p : windows_) mean += p / m;
   for (double p : windows_) square += (p - mean) * (p - mean) / (m - 1.0);
   return std::sqrt(square / (growing() ? 4.0 : m));
+}
+
+std::string Stage::text() const {
+  char line[300] = "";
+  const auto largest = std::max_element(p_.diameter.begin(), p_.diameter.end());
+  const long long sphere = largest - p_.diameter.begin();
+  const double phi = jam::packing_fraction(p_);
+  switch (report.stop_reason) {
+    case JAM_STOP_STALLED:
+      if (box_full_ && *largest > 0.999 * p_.cell.shortest())
+        std::snprintf(line, sizeof line,
+                      "sphere %lld touches its own image, nothing can grow here (packing fraction %.6g)", sphere, phi);
+      else if (box_full_)
+        std::snprintf(line, sizeof line,
+                      "two unlike spheres of the largest sizes would fill the cell, nothing can grow here (packing "
+                      "fraction %.6g)",
+                      phi);
+      else if (frozen_ > 0)
+        std::snprintf(
+            line, sizeof line,
+            "no time passes between collisions at pressure %.4g, packing fraction %.6g: spheres are in contact or "
+            "grow too fast; crunch from here",
+            pressure_, phi);
+      else
+        std::snprintf(line, sizeof line, "no collision comes: the spheres are at rest, move as one, or never meet");
+      break;
+    case JAM_STOP_PRECISION:
+      std::snprintf(line, sizeof line,
+                    "at pressure %.4g, packing fraction %.6g, gaps are as small as coordinates resolve; crunch from "
+                    "here",
+                    pressure_, phi);
+      break;
+    case JAM_STOP_WALL_TIME:
+      std::snprintf(line, sizeof line, "wall_time ended at packing fraction %.6g; resume = 1 goes on", phi);
+      break;
+    case JAM_STOP_CANCELLED:
+      std::snprintf(line, sizeof line, "cancelled at packing fraction %.6g; resume = 1 goes on", phi);
+      break;
+    case JAM_STOP_TIME:
+    case JAM_STOP_COLLISIONS:
+      if (growing())
+        std::snprintf(line, sizeof line,
+                      "the limit of %s came at pressure %.4g, packing fraction %.6g; resume = 1 with a larger one goes "
+                      "on",
+                      report.stop_reason == JAM_STOP_TIME ? "time" : "collisions_per_particle", pressure_, phi);
+      break;
+    default:
+      break;
+  }
+  return line;
 }
 
 jam_status Stage::status_of(int32_t reason) const {

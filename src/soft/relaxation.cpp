@@ -50,13 +50,11 @@ bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {
     return true;
   }
   if (effort.monitor && (long_steps || effort.evaluations % 64 == 1)) {
-    jam_progress p{};
-    p.phase = effort.phase;
+    jam_progress p = progress_of(effort.phase);
     p.packing_fraction = effort.packing_fraction;
     p.pressure = effort.pressure;
     p.steps = effort.steps;
     p.factorisations = effort.factorisations;
-    p.gain = p.max_step = p.fraction = std::nan("");
     if (effort.monitor->report(p) || effort.monitor->interrupted()) {
       end = DescentEnd::interrupted;
       return true;

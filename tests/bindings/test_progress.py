@@ -78,6 +78,18 @@ class Showing(unittest.TestCase):
         self.assertGreater(bars[0].seen[-1], bars[0].seen[0])
         self.assertRegex(bars[0].texts[-1], r"^run .*collisions")
 
+    def test_bar_follows_growth_and_crunch(self):
+        def call():
+            s = jam.System.random(n=800, seed=1)
+            s.compress(growth_rate=3e-3, pressure=1e3, progress=True)
+            s.crunch(progress=True)
+
+        _, bars = self.shown(call, tqdm=True, notebook=True, terminal=False)
+        for bar in bars:
+            self.assertEqual(bar.seen, sorted(bar.seen))
+            self.assertGreater(bar.seen[-1], 0.5)
+            self.assertRegex(bar.texts[-1], r"\d+ %(, [\d.e+-]+ s left \([\d.e+-]+ to [\d.e+-]+\))?$")
+
     def test_each_call_has_its_bar_and_closes_it_when_it_fails(self):
         def stages():
             s = work()

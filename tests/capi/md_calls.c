@@ -187,10 +187,10 @@ static void starts_at_contact(void **state) {
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
   assert_true(report.max_overlap < 1e-13);
   jam_destroy(sys);
-  /* All at exact contact: nothing can move, time stands still, and that is said. */
+  /* All at contact, but for the rounding of thirds to doubles: the engine resolves these gaps, at p = 1e16. */
   sys = lattice(1.0 / 3.0);
-  assert_int_equal(jam_run(sys, &r, &report), JAM_NOT_CONVERGED);
-  assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
+  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
+  assert_true(report.pressure > 1e15 && report.time > 0.0 && report.energy_drift < 1e-12);
   status = jam_compress(sys, &c, &report);
   assert_true(status >= 0 && report.seconds < 15.0 && report.max_overlap < 1e-13);
   jam_destroy(sys);

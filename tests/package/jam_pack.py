@@ -365,6 +365,18 @@ class JamPack(unittest.TestCase):
         self.assertGreater(report["collisions"], 20 * 200 / 2)
         self.assertGreaterEqual(report["pressure"], 100)
 
+    def test_a_stage_that_falls_short_is_seen(self):
+        start, out = self.dir / "start.dat", self.dir / "out.dat"
+        start.write_text("3\n2\ndiameters\n0.0 0.0 0.0 1.0\n0.5 0.5 0.5 0.01\n")
+        stages = ("--growth", "1e-2:50", "--growth", "1e-3:500", "--no-crunch", "--quiet", "--output", out)
+        done = run("--input", start, *stages, "--report", "-")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("warning: growth"), 2, done.stderr)
+        self.assertIn("sphere 0 touches its own image, nothing can grow here", done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual([s["stop_reason"] for s in report["protocol"]], ["stalled", "stalled"])
+        self.assertTrue(out.exists())
+
     def test_mari_kurchan(self):
         report = self.report("--n", 200, "--plant", 1.5, "--growth", "1e-2:1e5")
         self.assertTrue(report["jammed"])

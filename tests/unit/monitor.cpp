@@ -147,6 +147,47 @@ void factors_keep_to_the_memory(void **) {
   assert_false(refused(2.0 * static_cast<double>(factor.bytes())));
 }
 
+// The fraction never falls, also where its source does; a steady call's time is extrapolated; a jump widens the spread.
+void time_left_follows_the_fraction(void **) {
+  TimeLeft left;
+  left.begin();
+  jam_progress p = progress_of(JAM_PHASE_CRUNCH);
+  left.complete(p);
+  assert_true(std::isnan(p.fraction) && std::isnan(p.seconds_left));
+  double last = 0.0;
+  for (int k = 0; k <= 1000; ++k) {  // 100 s in all
+    p = progress_of(JAM_PHASE_CRUNCH);
+    p.seconds = 0.08 * k;
+    p.fraction = k % 7 == 3 ? 0.0 : k % 11 == 5 ? std::nan("") : 0.0008 * k;
+    left.complete(p);
+    assert_true(p.fraction >= last);
+    last = p.fraction;
+    if (k < 100) continue;
+    const double right = 100.0 - p.seconds;
+    assert_true(p.seconds_left_spread > 1.0);
+    assert_true(p.seconds_left < 1.1 * right && p.seconds_left > 0.9 * right);
+  }
+  const double before = p.seconds_left_spread;
+  for (int k = 1; k < 500; ++k) {  // stands still
+    p = progress_of(JAM_PHASE_CRUNCH);
+    p.seconds = 80.0 + 0.08 * k;
+    p.fraction = 0.8 + 1e-6 * k;
+    left.complete(p);
+  }
+  assert_true(p.seconds_left_spread > 3.0 * before);
+  p.fraction = 2.0;
+  left.complete(p);
+  assert_true(p.fraction == 1.0);
+}
+
+void logarithms_of_a_way(void **) {
+  assert_true(std::fabs(log_share(10.0, 100.0, 1000.0) - 0.5) < 1e-15);
+  assert_true(std::fabs(log_share(1e-2, 1e-5, 1e-8) - 0.5) < 1e-15);
+  assert_true(log_share(1.0, 5.0, HUGE_VAL) == 0.0 && log_share(3.0, 3.0, 3.0) == 1.0);
+  assert_true(log_share(10.0, 1.0, 100.0) == 0.0 && log_share(10.0, 1e5, 100.0) == 1.0);
+  assert_true(std::isnan(log_share(0.0, 5.0, 10.0)) && std::isnan(log_share(1.0, std::nan(""), 10.0)));
+}
+
 }  // namespace
 
 int main() {
@@ -156,6 +197,9 @@ int main() {
                               cmocka_unit_test(a_large_product_tells),
                               cmocka_unit_test(factorisations_are_left),
                               cmocka_unit_test(short_calls_beside_a_handle),
-                              cmocka_unit_test(factors_keep_to_the_memory)};
+                              cmocka_unit_test(factors_keep_to_the_memory),
+
+                              cmocka_unit_test(time_left_follows_the_fraction),
+                              cmocka_unit_test(logarithms_of_a_way)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -406,11 +406,13 @@ class Progress(Report):
     gain: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     max_step: crunch: largest |s_i| over mean diameter
     seconds: since the call began
-    fraction: 0..1 where known, else NaN
+    fraction: of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
     collisions: MD: so far in this call
     steps: crunch: LPs so far; analysis: items done
     factorisations: crunch: so far
-    snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report"""
+    snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    seconds_left: until the aim, from how `fraction` grew; NaN before a few reports
+    seconds_left_spread: a factor above 1: about two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left"""
     phase: Phase
     packing_fraction: float
     pressure: float
@@ -422,6 +424,8 @@ class Progress(Report):
     steps: int
     factorisations: int
     snapshot: int
+    seconds_left: float
+    seconds_left_spread: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -930,7 +934,7 @@ OPTIONS = {
         "n": ("int", 'number of spheres, 1..2^31-1; default 0: taken from the arrays'),
         "seed": ("int", 'of every random stream, default 1; recorded'),
         "box": ("float", 'side of the cube, > 0, default 1'),
-        "packing_fraction": ("float", 'of a random start, > 0, default 0.2'),
+        "packing_fraction": ("float", 'of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3'),
         "overlap": ("OverlapPolicy", 'OverlapPolicy for given positions, default REFUSE'),
         "model": ("Model", 'Model, default EUCLID'),
         "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium'),

@@ -5,13 +5,14 @@ ABOUT = (
     'Makes a jammed packing of hard spheres: random start, event-driven molecular dynamics with '
     'growth, then iterated linear programming down to the jamming point. '
 )
+STAGES = ((0.01, 500.0), (0.003, 10000000.0))  # rate and pressure of the stages of growth by default
 EXAMPLE = '--n 1024 --seed 1 --output packing.xyz --page packing.html --report -'
 NOTES = (
     'Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file '
     'progress goes as a line every ten seconds, on a terminal as one line that changes. '
-    'Exit status 0: done, and jammed unless --no-crunch. 1: stopped early or not jammed; the valid '
-    'state reached is written. 2: wrong command line. 3: request or input refused, or the computation '
-    'failed. 4: an output cannot be written. '
+    'Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not '
+    'jammed; the valid state reached is written. 2: wrong command line. 3: request or input refused, '
+    'or the computation failed. 4: an output cannot be written. '
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the "
     'packing of a file as it is and moves nothing. It takes --box, --frame, --non-additivity, --wall- '
     'time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or '

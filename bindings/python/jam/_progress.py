@@ -7,18 +7,29 @@ import time
 from typing import Any, Callable
 
 
+def _time_left(p: Any) -> str:
+    if math.isnan(p.fraction):
+        return ""
+    part = f"{100 * p.fraction:.0f} %"
+    if math.isnan(p.seconds_left):
+        return part
+    low, high = p.seconds_left / p.seconds_left_spread, p.seconds_left * p.seconds_left_spread
+    return f"{part}, {p.seconds_left:.2g} s left ({low:.2g} to {high:.2g})"
+
+
 def _text(p: Any) -> str:
     word = getattr(p.phase, "name", str(p.phase)).lower()
-    parts = [f"{word:8s} phi {p.packing_fraction:.8f}"]
+    parts = [f"{word:8s}"] + ([] if math.isnan(p.packing_fraction) else [f"phi {p.packing_fraction:.8f}"])
     if word in ("run", "compress"):
         if not math.isnan(p.pressure):
             parts.append(f"p {p.pressure:.4g}")
         parts.append(f"{p.collisions:.3g} collisions")
     else:
         parts.append(f"step {p.steps}")
-        if p.gain:
+        if p.gain > 0:
             parts.append(f"gain {p.gain:.1e}")
-    return "  ".join(parts + [f"{p.seconds:.1f} s"])
+    parts += [f"{p.seconds:.1f} s", _time_left(p)]
+    return "  ".join(part for part in parts if part)
 
 
 def _in_notebook() -> bool:

@@ -86,5 +86,5 @@ def start(o: argparse.Namespace) -> System:
         )
     sizes = _diameters(o, 1024 if o.n is None else o.n)
     n = 1024 if o.n is None and sizes is None else o.n if sizes is None else len(sizes)
-    phi0 = o.plant or o.phi0 or 0.2 * 0.5 ** max(0, o.dim - 3)
+    phi0 = o.plant or o.phi0 or 0.0  # 0: the library's own, by dimension
     return System.random(n, o.dim, o.seed, packing_fraction=phi0, diameters=sizes, box=o.box, **model)

@@ -11,7 +11,7 @@ from typing import Any, Callable
 
 from . import files, raw
 from ._generated import LogLevel, Phase, StopReason, Verdict
-from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS
+from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS, STAGES
 from ._paths import replacing
 from ._progress import every_ten_seconds
 from ._start import start, take_diameters
@@ -19,7 +19,7 @@ from .errors import JamError
 from .system import System
 
 DONE, EARLY, USAGE, FAILED, OUTPUT = range(5)  # exit status, as jam-pack
-CANCELLED, LIMIT = 1, 2
+CANCELLED, LIMIT, NOT_CONVERGED, PRECISION = 1, 2, 3, 4
 PACKINGS = (".xyz", ".extxyz", ".data", ".lmp", ".vtp", ".gsd", ".dat", ".txt")
 
 
@@ -191,7 +191,11 @@ class _Work:
             [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 and not o.resume else []
         )
         if not o.no_md and (o.growth or not o.input):
-            chosen = o.growth or [(1e-2, min(500.0, o.pressure)), (3e-3, None)][: 2 if o.pressure > 500 else 1]
+            # By default those stages that --pressure lies beyond, and the one that leads there.
+            before = (1.0, *(p for _, p in STAGES[:-1]))
+            ends = (*(p for _, p in STAGES[:-1]), math.inf)
+            own = zip((g for g, _ in STAGES), before, ends)
+            chosen = o.growth or [(g, min(end, o.pressure)) for g, begin, end in own if o.pressure > begin]
             steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in chosen]
         if o.resume:  # what the checkpoint was in the middle of; then the stages that lead beyond its pressure, or none
             if self.system.info.paused == Phase.CRUNCH:
@@ -213,6 +217,14 @@ class _Work:
                 out["protocol"].append({"stage": stage} | {k: float(x) for k, x in options.items()})
             status = self.stage(verb, **options)
             reached = self.system.pressure
+            if not options.get("resume") and verb == "compress":
+                out["protocol"][-1]["stop_reason"] = out["md_stop_reason"]
+            if status in (NOT_CONVERGED, PRECISION):  # no reason to stop, but never unseen
+                if status == NOT_CONVERGED:
+                    out["fell_short"] = True
+                name = f"growth {options['growth_rate']:g}" if "growth_rate" in options else verb
+                why = f"{out['md_stop_reason']}: {raw.jam_last_error()}"
+                print(f"python3 -m jam: warning: {name} ended at p = {reached:.4g}: {why}", file=sys.stderr)
             if status in (CANCELLED, LIMIT):
                 return status
         if not o.no_crunch:
@@ -422,7 +434,7 @@ def main(arguments: list[str] | None = None) -> int:
     log = _Log(o.log)
     try:
         log.follow(system)
-        code = EARLY if _Work(system, o, out).run() > 0 else DONE
+        code = EARLY if _Work(system, o, out).run() > 0 or "fell_short" in out else DONE
     except KeyboardInterrupt:
         print("jam: interrupted; writing the state reached", file=sys.stderr)
         code = EARLY

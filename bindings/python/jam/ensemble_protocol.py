@@ -21,6 +21,7 @@ import numpy as np
 
 from ._types import Array
 from . import _calls, _generated, errors, raw
+from . import _options as _programs
 from ._generated import OPTIONS, StatusCode
 from ._start import _uniform
 from .system import System
@@ -29,7 +30,7 @@ PARTS = ("start", "stages", "crunch", "analysis")
 LATTICES = ("fcc",)
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
 #: Growth that avoids crystals: fast through the fluid, slower in the glass (the stages of `python3 -m jam`).
-STAGES = ({"growth_rate": 1e-2, "pressure": 500.0}, {"growth_rate": 3e-3, "pressure": 1e7})
+STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in _programs.STAGES)
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 
@@ -73,9 +74,12 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     lattice, sizes = rest.pop("lattice", None), rest.pop("diameters", None)
     rest.setdefault("n", 1024)
     rest.setdefault("dim", 3)
-    if "packing_fraction" not in rest:  # a random start gets harder with d (the same rule as `python3 -m jam`)
-        rest["packing_fraction"] = 0.2 * 0.5 ** max(0, rest["dim"] - 3)
     made = _options("jam_create_options", rest, "start", _NOT_IN_START)
+    if made["packing_fraction"] == 0:  # the library's own, spelled out
+        try:
+            made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
+        except errors.JamError as error:
+            raise ProtocolError(f"start: {error}") from None
     if made["n"] < 1:
         raise ProtocolError(f"start: n = {made['n']} must be >= 1")
     if lattice is not None:

@@ -83,7 +83,7 @@ class System(State, Verbs, Network):
         """
         sizes = None if diameters is None else _calls.as_array(diameters, name="diameters").reshape(-1)
         if packing_fraction is None:
-            packing_fraction = 0.2 * 0.5 ** max(0, dim - 3)
+            packing_fraction = 0.0  # the library's own, by dimension
         made = dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction)
         return cls._create(made, None, sizes, progress)
 

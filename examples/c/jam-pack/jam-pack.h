@@ -36,8 +36,9 @@ typedef struct outcome {
   int has_md, has_crunch;
   int32_t md_stop;
   int64_t collisions;
-  double pressure;            /* that dynamics reached; the crunch ends at infinite pressure */
-  int stage_done[MAX_STAGES]; /* which of the stages were begun */
+  double pressure;                /* that dynamics reached; the crunch ends at infinite pressure */
+  int32_t stage_stop[MAX_STAGES]; /* jam_stop_reason of the stages that were begun, else NONE */
+  int fell_short;                 /* dynamics stalled before their aim, and the job went on */
   double seconds_md;
   const char *notes; /* jam_notes: what reading changed */
 } outcome;

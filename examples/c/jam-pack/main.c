@@ -123,6 +123,14 @@ static void keep(const jam_system *sys, const char *path) {
   if (path && (stat(path, &there) || S_ISREG(there.st_mode))) jam_write(sys, path, JAM_FORMAT_AUTO);
 }
 
+/* Dynamics that end before their aim are no reason to stop, but never go unseen. */
+static void warn(const terminal *t, jam_status status, outcome *result) {
+  if (status != JAM_NOT_CONVERGED && status != JAM_PRECISION) return;
+  if (status == JAM_NOT_CONVERGED) result->fell_short = 1;
+  complain("warning: %s ended at p = %.4g: %s: %s", t->stage, result->pressure, jam_stop_string(result->md_stop),
+           jam_last_error());
+}
+
 /* Molecular dynamics may end by precision or by stalling, and the crunch goes on from there; limits and Ctrl-C end the
  * job. */
 static int ends_job(jam_status status) {
@@ -140,12 +148,14 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
     status = finish_paused(sys, o, t, deadline, result, &stages_left);
   else if (o->nve > 0)
     status = run_nve(sys, o, 0, deadline, result);
+  warn(t, status, result);
   t->stage = name;
   for (k = 0; k < stages_left && !ends_job(status); ++k) {
     if (o->resume && o->given.stages[k].pressure <= result->pressure) continue;
     snprintf(name, sizeof name, "growth %g", o->given.stages[k].growth);
     status = run_stage(sys, o, &o->given.stages[k], deadline, result);
-    result->stage_done[k] = 1;
+    if (status >= 0) result->stage_stop[k] = result->md_stop;
+    warn(t, status, result);
   }
   if (o->no_crunch || ends_job(status)) return status;
   if (result->has_md) keep(sys, o->output);
@@ -213,9 +223,11 @@ int main(int argc, char **argv) {
     complain("interrupted; writing the state reached");
   else if (status > 0)
     complain("stopped early: %s", jam_last_error());
+  else if (result.fell_short)
+    complain("dynamics fell short of their aim: see the warning above");
   bad |= write_all(sys, &o, &result);
   jam_destroy(sys);
   if (bad) return EXIT_OUTPUT;
   if (status < 0) return EXIT_FAILED;
-  return status > 0 || interrupted ? EXIT_EARLY : EXIT_DONE;
+  return status > 0 || interrupted || result.fell_short ? EXIT_EARLY : EXIT_DONE;
 }

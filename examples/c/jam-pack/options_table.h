@@ -181,6 +181,9 @@ static const options defaults = {
     .wall_time = INFINITY,
 };
 
+/* Stages of growth where --growth is not given; the last one goes to --pressure. */
+static const stage default_stages[] = {{0.01, 500.0}, {0.003, 10000000.0}};
+
 static const char *const help[] = {
     "Usage: jam-pack [options]",
     "Makes a jammed packing of hard spheres: random start, event-driven molecular",
@@ -270,9 +273,9 @@ static const char *const help[] = {
     "Ctrl-C stops the computation, and what was asked for is still written. Into a pipe or a file",
     "progress goes as a line every ten seconds, on a terminal as one line that changes.",
     "",
-    "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early or not jammed; the",
-    "valid state reached is written. 2: wrong command line. 3: request or input refused, or the",
-    "computation failed. 4: an output cannot be written.",
+    "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or",
+    "not jammed; the valid state reached is written. 2: wrong command line. 3: request or input",
+    "refused, or the computation failed. 4: an output cannot be written.",
     "",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the",
     "packing of a file as it is and moves nothing. It takes --box, --frame, --non-additivity,",

@@ -1,6 +1,7 @@
 /* What jam-pack tells while it works: progress on stderr, and the log. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -25,6 +26,15 @@ static void keep_crunch(terminal *t, const jam_progress *p, double now) {
   write_checkpoint(t->sys, t->o);
 }
 
+/* "  42 %, 30 s left (20 to 45 s)" as far as it is known. */
+static void show_time_left(const jam_progress *p) {
+  if (isnan(p->fraction)) return;
+  fprintf(stderr, "  %.0f %%", floor(100 * p->fraction));
+  if (isnan(p->seconds_left)) return;
+  fprintf(stderr, ", %.2g s left (%.2g to %.2g)", p->seconds_left, p->seconds_left / p->seconds_left_spread,
+          p->seconds_left * p->seconds_left_spread);
+}
+
 static int32_t show_progress(const jam_progress *p, void *user) {
   terminal *t = user;
   const double now = seconds_now();
@@ -39,6 +49,7 @@ static int32_t show_progress(const jam_progress *p, void *user) {
   else
     fprintf(stderr, "%s  %lld LPs  %lld factorisations  gain %.3e  phi %.12f  %.1f s", t->stage, (long long)p->steps,
             (long long)p->factorisations, p->gain, p->packing_fraction, now - t->begin);
+  show_time_left(p);
   if (!t->is_terminal) fputc('\n', stderr);
   fflush(stderr);
   return 0;

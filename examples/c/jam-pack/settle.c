@@ -202,11 +202,16 @@ int settle(options *o) {
   if (!g->n) o->n = 1024;
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;
   if (isfinite(o->plant)) o->phi0 = o->plant;
-  if (!isfinite(o->phi0)) o->phi0 = 0.2 * pow(0.5, o->dim > 3 ? (double)o->dim - 3 : 0);
+  if (!isfinite(o->phi0)) o->phi0 = 0; /* the library's own */
   if (o->no_md || (o->input && !g->stage_count)) return settle_stages(o);
-  if (!g->stage_count) { /* the two stages that avoid crystals in d = 3 */
-    g->stages[g->stage_count++] = (stage){1e-2, o->pressure < 500 ? o->pressure : 500};
-    if (o->pressure > 500) g->stages[g->stage_count++] = (stage){3e-3, o->pressure};
+  if (!g->stage_count) { /* those stages that --pressure lies beyond, and the one that leads there */
+    const size_t stages = sizeof default_stages / sizeof *default_stages;
+    size_t j = 0;
+    do {
+      g->stages[j] = default_stages[j];
+      if (j + 1 == stages || o->pressure < default_stages[j].pressure) g->stages[j].pressure = o->pressure;
+    } while (o->pressure > default_stages[j].pressure && ++j < stages);
+    g->stage_count = (int)(j < stages ? j + 1 : stages);
     return 0;
   }
   return settle_stages(o);

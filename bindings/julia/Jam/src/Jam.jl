@@ -240,9 +240,23 @@ function note!(s::System, status::Integer)
     return s.status
 end
 
-# Runs f(handle) with the callback set; progress(p) returns true to stop.
+# What progress = true shows: one line on stderr that is rewritten, with the part that is done and the time left.
+function progress_line(p)
+    isnan(p.fraction) && return false
+    number(x) = string(round(x; sigdigits = 2))
+    text = string(floor(Int, 100 * p.fraction), " %")
+    if !isnan(p.seconds_left)
+        low, high = p.seconds_left / p.seconds_left_spread, p.seconds_left * p.seconds_left_spread
+        text = string(text, ", ", number(p.seconds_left), " s left (", number(low), " to ", number(high), ")")
+    end
+    print(stderr, "\r", rpad(text, 60))
+    return false
+end
+
+# Runs f(handle) with the callback set; progress(p) returns true to stop. true: progress_line.
 function verb(f, s::System, progress)
     h = handle(s)
+    progress === true && (progress = progress_line)
     if progress === nothing
         note!(s, GC.@preserve s f(h))
         return nothing

@@ -299,7 +299,7 @@ mutable struct jam_create_options
     n::Int64  # number of spheres, 1..2^31-1; default 0: taken from the arrays
     seed::Int64  # of every random stream, default 1; recorded
     box::Cdouble  # side of the cube, > 0, default 1
-    packing_fraction::Cdouble  # of a random start, > 0, default 0.2
+    packing_fraction::Cdouble  # of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3
     overlap::Int32  # jam_overlap_policy for given positions, default REFUSE
     model::Int32  # jam_model, default EUCLID
     mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
@@ -344,12 +344,14 @@ mutable struct jam_progress
     gain::Cdouble  # crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
     max_step::Cdouble  # crunch: largest |s_i| over mean diameter
     seconds::Cdouble  # since the call began
-    fraction::Cdouble  # 0..1 where known, else NaN
+    fraction::Cdouble  # of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
     collisions::Int64  # MD: so far in this call
     steps::Int64  # crunch: LPs so far; analysis: items done
     factorisations::Int64  # crunch: so far
     snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
-    jam_progress() = new(88, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    seconds_left::Cdouble  # until the aim, from how `fraction` grew; NaN before a few reports
+    seconds_left_spread::Cdouble  # a factor above 1: about two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    jam_progress() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1226,10 +1228,12 @@ Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)).
 drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
 report may be NULL. A run or stage that ends with
 JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
+So does one that was stopped while its lists were made, when nothing has moved.
 With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
 run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
 Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-JAM_NOT_CONVERGED (no collision can happen: one sphere, or zero velocities). Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
+JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
+says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 """
 function jam_run(sys, o, report)
@@ -1242,7 +1246,8 @@ the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then 
 by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
 may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
 to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
-JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled). Errors as jam_run. A resumed call of the
+JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
+no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
 protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
 Threads: alone. @since 0.1
 """

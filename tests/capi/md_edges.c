@@ -1,0 +1,194 @@
+/* Growth and dynamics at the edges of what is supported: size ratio, masses, cells like rods, a sphere as wide as its
+ * cell. Work is never lost at the end of a call. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "jam/jam.h"
+#include "test.h"
+
+static double volume_of_sphere(int d, double sigma) {
+  return pow(M_PI, 0.5 * d) / tgamma(0.5 * d + 1.0) * pow(0.5 * sigma, d);
+}
+
+/* The largest ratio of diameters, 1e4, at every seed: rounding of the library's own takes it over no limit. */
+static void the_largest_ratio_stays_supported(void **state) {
+  double sizes[20];
+  int64_t seed;
+  int k;
+  (void)state;
+  for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? 1e4 : 1.0;
+  for (seed = 1; seed <= 20; ++seed) {
+    jam_create_options o;
+    jam_compress_options c;
+    jam_system *sys = NULL;
+    jam_create_options_init(&o, sizeof o);
+    jam_compress_options_init(&c, sizeof c);
+    o.dim = 2, o.n = 20, o.seed = seed, o.packing_fraction = 0.1;
+    assert_int_equal(jam_create(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
+    c.growth_rate = 1.0, c.packing_fraction = 0.11, c.collisions_per_particle = 20.0;
+    assert_true(jam_compress(sys, &c, NULL) >= 0);
+    for (k = 0; k < 20; ++k) assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
+    jam_destroy(sys);
+  }
+}
+
+/* Masses as volumes: light spheres are as fast as kT says, and the energy stays. */
+static void light_spheres_may_be_fast(void **state) {
+  const struct {
+    int32_t dim;
+    double ratio, fraction;
+  } cases[] = {{2, 1e4, 0.05}, {3, 9e3, 0.05}, {4, 1e3, 0.02}, {5, 300.0, 0.005}, {8, 30.0, 1e-4}};
+  size_t q;
+  (void)state;
+  for (q = 0; q < sizeof cases / sizeof *cases; ++q) {
+    double sizes[20], kinetic = 0.0, mean = 0.0;
+    const double *v = NULL;
+    size_t len = 0, k;
+    jam_create_options o;
+    jam_run_options r;
+    jam_md_report report;
+    jam_system *sys = NULL;
+    const size_t d = (size_t)cases[q].dim;
+    jam_create_options_init(&o, sizeof o);
+    jam_run_options_init(&r, sizeof r);
+    report.struct_size = sizeof report;
+    for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? cases[q].ratio : 1.0;
+    o.dim = cases[q].dim, o.n = 20, o.packing_fraction = cases[q].fraction, o.masses = JAM_MASSES_VOLUME;
+    assert_int_equal(jam_create(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
+    r.collisions_per_particle = 5.0;
+    if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("d = %zu: %s", d, jam_last_error());
+    assert_true(report.energy_drift < 1e-9);
+    assert_int_equal(jam_velocities_view(sys, &v, &len), JAM_OK);
+    for (k = 0; k < 20; ++k) mean += pow(sizes[k] / cases[q].ratio, (double)d) / 20.0;
+    for (k = 0; k < len; ++k) kinetic += pow(sizes[k / d] / cases[q].ratio, (double)d) / mean * v[k] * v[k];
+    assert_true(fabs(kinetic / (20.0 * (double)d) - 1.0) < 1e-9);
+    { /* what the library made may be given back, but not a hundred million times as fast */
+      double w[20 * 8];
+      memcpy(w, v, len * sizeof *w);
+      assert_int_equal(jam_set_velocities(sys, w, len), JAM_OK);
+      for (k = 0; k < len; ++k) w[k] *= 1e8;
+      assert_int_equal(jam_set_velocities(sys, w, len), JAM_E_ARGUMENT);
+      assert_non_null(strstr(jam_last_error(), "sum m v^2"));
+    }
+    jam_destroy(sys);
+  }
+}
+
+/* Growth ends where a sphere touches its own image: a status, a sentence and the state. */
+static void growth_ends_at_the_own_image(void **state) {
+  int64_t seed;
+  int met = 0;
+  (void)state;
+  for (seed = 0; seed < 60; ++seed) {
+    const int d = 2 + (int)(seed % 5), n = 2 + (int)(seed % 3);
+    const double h = pow(10.0, -0.2 - 0.03 * (double)(seed % 40));
+    double cell[64] = {0};
+    const double *sigma = NULL;
+    size_t len = 0;
+    int c;
+    jam_create_options o;
+    jam_compress_options g;
+    jam_md_report r;
+    jam_system *sys = NULL;
+    jam_status status;
+    jam_create_options_init(&o, sizeof o);
+    jam_compress_options_init(&g, sizeof g);
+    r.struct_size = sizeof r;
+    for (c = 0; c < d; ++c) cell[c * d + c] = c == d - 1 ? pow(h, 1.0 - d) : h;
+    o.dim = d, o.n = n, o.seed = seed, o.packing_fraction = n * volume_of_sphere(d, 0.25 * h);
+    status = jam_create_in_cell(&o, cell, (size_t)d * (size_t)d, NULL, 0, NULL, 0, &sys);
+    if (status != JAM_OK) { /* a rod too long for its spheres is refused before anything runs */
+      assert_int_equal(status, JAM_E_ARGUMENT);
+      assert_non_null(strstr(jam_last_error(), "longest edge"));
+      continue;
+    }
+    g.growth_rate = pow(10.0, -1.0 + (double)(seed % 4)), g.pressure = 1e5;
+    status = jam_compress(sys, &g, &r);
+    if (status < 0) fail_msg("d = %d, h = %g: %s", d, h, jam_last_error());
+    assert_int_equal(jam_diameters_view(sys, &sigma, &len), JAM_OK);
+    assert_true(sigma[0] <= h * (1.0 + 1e-12));
+    if (status == JAM_NOT_CONVERGED && sigma[0] > 0.999 * h) {
+      ++met;
+      assert_int_equal(r.stop_reason, JAM_STOP_STALLED);
+      assert_non_null(strstr(jam_last_error(), "own image"));
+      assert_int_equal(jam_compress(sys, &g, &r), JAM_NOT_CONVERGED); /* there from the beginning */
+      assert_non_null(strstr(jam_last_error(), "sphere 0 touches its own image, nothing can grow here"));
+    }
+    jam_destroy(sys);
+  }
+  print_message("%d of 60 met their own images\n", met);
+  assert_true(met > 10);
+}
+
+/* A crunch from there says the same; a free cell gives way. */
+static void a_sphere_fills_the_cell(void **state) {
+  int n;
+  (void)state;
+  for (n = 2; n < 5; ++n) {
+    double x[12] = {0, 0, 0, 0.5, 0.5, 0.5, 0.54, 0.54, 0.54, 0.46, 0.5, 0.54}, sizes[4] = {1.0, 0.01, 0.01, 0.01};
+    jam_create_options o;
+    jam_crunch_options c;
+    jam_crunch_report r;
+    jam_system *sys = NULL;
+    jam_create_options_init(&o, sizeof o);
+    jam_crunch_options_init(&c, sizeof c);
+    r.struct_size = sizeof r;
+    assert_int_equal(jam_create(&o, x, 3 * (size_t)n, sizes, (size_t)n, &sys), JAM_OK);
+    assert_int_equal(jam_compress(sys, NULL, NULL), JAM_NOT_CONVERGED);
+    assert_non_null(strstr(jam_last_error(), "sphere 0 touches its own image, nothing can grow here"));
+    assert_int_equal(jam_crunch(sys, &c, &r), JAM_NOT_JAMMED);
+    assert_int_equal(r.lp_solves, 0);
+    assert_non_null(strstr(jam_last_error(), "sphere 0 touches its own image, nothing can grow here"));
+    c.strain = JAM_STRAIN_FREE;
+    assert_true(jam_crunch(sys, &c, &r) >= 0);
+    assert_true(r.packing_fraction > 0.523); /* it can, and never loses density */
+    jam_destroy(sys);
+  }
+}
+
+/* Spheres that coordinates cannot resolve are refused, in every call that makes or changes a system. */
+static void a_rod_too_long_for_its_spheres_is_refused(void **state) {
+  const double heights[] = {1.1e-3, 1e-2, 5e-2};
+  size_t k;
+  (void)state;
+  for (k = 0; k < 3; ++k) {
+    double cell[64] = {0};
+    int c;
+    jam_create_options o;
+    jam_system *sys = NULL;
+    jam_create_options_init(&o, sizeof o);
+    for (c = 0; c < 8; ++c) cell[c * 9] = c == 7 ? pow(heights[k], -7.0) : heights[k];
+    o.dim = 8, o.n = 10, o.packing_fraction = 10.0 * volume_of_sphere(8, 0.7 * heights[k]);
+    assert_int_equal(jam_create_in_cell(&o, cell, 64, NULL, 0, NULL, 0, &sys), JAM_E_ARGUMENT);
+    assert_non_null(strstr(jam_last_error(), "longest edge"));
+  }
+}
+
+/* The default start lies below saturation in every dimension. */
+static void default_starts_in_every_dimension(void **state) {
+  int d;
+  (void)state;
+  for (d = 2; d <= 8; ++d) {
+    const double expected = 0.2 * pow(0.5, d > 3 ? d - 3 : 0);
+    jam_create_options o;
+    jam_info i;
+    jam_system *sys = NULL;
+    i.struct_size = sizeof i;
+    jam_create_options_init(&o, sizeof o);
+    o.dim = d, o.n = 300;
+    assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+    assert_int_equal(jam_info_get(sys, &i), JAM_OK);
+    assert_true(fabs(i.packing_fraction / expected - 1.0) < 1e-12);
+    jam_destroy(sys);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_largest_ratio_stays_supported),
+                                     cmocka_unit_test(light_spheres_may_be_fast),
+                                     cmocka_unit_test(growth_ends_at_the_own_image),
+                                     cmocka_unit_test(a_sphere_fills_the_cell),
+                                     cmocka_unit_test(a_rod_too_long_for_its_spheres_is_refused),
+                                     cmocka_unit_test(default_starts_in_every_dimension)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

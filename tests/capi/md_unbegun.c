@@ -1,0 +1,154 @@
+/* A call that is stopped before its dynamics have begun can be resumed, to the bits of a call that was not stopped. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "jam/jam.h"
+#include "test.h"
+
+static const char *path = "md_unbegun_checkpoint.bin";
+
+static jam_system *dense(int32_t dim, int64_t n) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
+  o.dim = dim, o.n = n, o.seed = 5;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  return sys;
+}
+
+/* How a stopped call is continued: on the handle, on a copy, from a checkpoint. */
+enum { HERE, COPY, FILE_, WAYS };
+static jam_system *move(jam_system *sys, int way) {
+  jam_system *next = NULL;
+  if (way == HERE) return sys;
+  if (way == COPY) assert_int_equal(jam_copy(sys, &next), JAM_OK);
+  if (way == FILE_) {
+    assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+    assert_int_equal(jam_checkpoint_read(path, &next), JAM_OK);
+    remove(path);
+  }
+  jam_destroy(sys);
+  return next;
+}
+
+static void assert_same(jam_system *a, jam_system *b) {
+  const double *x, *y;
+  size_t m, n;
+  assert_int_equal(jam_positions_view(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_positions_view(b, &y, &n), JAM_OK);
+  assert_true(m == n && !memcmp(x, y, n * sizeof *x));
+  assert_int_equal(jam_velocities_view(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_velocities_view(b, &y, &n), JAM_OK);
+  assert_true(m == n && !memcmp(x, y, n * sizeof *x));
+  assert_int_equal(jam_diameters_view(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_diameters_view(b, &y, &n), JAM_OK);
+  assert_true(m == n && !memcmp(x, y, n * sizeof *x));
+}
+
+static int32_t paused(const jam_system *sys) {
+  jam_info i;
+  i.struct_size = sizeof i;
+  assert_int_equal(jam_info_get(sys, &i), JAM_OK);
+  return i.paused;
+}
+
+/* Stops a call with this verb twice before it has begun, then lets it end. */
+static jam_status md(jam_system *sys, int verb, int32_t resume, double wall_time, int32_t *reason) {
+  jam_md_report r;
+  jam_monte_carlo_report mc;
+  jam_run_options run;
+  jam_compress_options compress;
+  jam_monte_carlo_options carlo;
+  jam_status status;
+  r.struct_size = sizeof r, mc.struct_size = sizeof mc;
+  jam_run_options_init(&run, sizeof run);
+  jam_compress_options_init(&compress, sizeof compress);
+  jam_monte_carlo_options_init(&carlo, sizeof carlo);
+  run.collisions_per_particle = 3.0, run.resume = resume, run.wall_time = wall_time;
+  compress.pressure = 20.0, compress.growth_rate = 0.1, compress.resume = resume, compress.wall_time = wall_time;
+  carlo.sweeps = 20, carlo.resume = resume, carlo.wall_time = wall_time;
+  if (verb == JAM_PHASE_RUN)
+    status = jam_run(sys, &run, &r);
+  else if (verb == JAM_PHASE_COMPRESS)
+    status = jam_compress(sys, &compress, &r);
+  else
+    status = jam_monte_carlo(sys, &carlo, &mc), r.stop_reason = mc.stop_reason;
+  if (reason) *reason = r.stop_reason;
+  return status;
+}
+
+static void a_call_that_has_not_begun_is_resumed(void **state) {
+  const int32_t verbs[] = {JAM_PHASE_RUN, JAM_PHASE_COMPRESS, JAM_PHASE_MONTE_CARLO};
+  size_t v;
+  int way, cut;
+  (void)state;
+  for (v = 0; v < 3; ++v) {
+    jam_system *whole = dense(3, 2000);
+    assert_int_equal(md(whole, verbs[v], 0, INFINITY, NULL), JAM_OK);
+    for (way = 0; way < WAYS; ++way)
+      for (cut = 0; cut < 2; ++cut) { /* by wall_time, by a cancel that came before */
+        jam_system *sys = dense(3, 2000);
+        const int32_t why = cut ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+        int32_t reason = 0;
+        int k;
+        for (k = 0; k < 2; ++k) {
+          if (cut) jam_cancel(sys);
+          assert_int_equal(md(sys, verbs[v], k, cut ? INFINITY : 1e-9, &reason), cut ? JAM_CANCELLED : JAM_LIMIT);
+          assert_int_equal(reason, why);
+          assert_true(strlen(jam_last_error()) > 0 || verbs[v] == JAM_PHASE_MONTE_CARLO);
+          assert_int_equal(paused(sys), verbs[v]);
+          sys = move(sys, way);
+          assert_int_equal(paused(sys), verbs[v]);
+        }
+        assert_int_equal(md(sys, verbs[v], 1, INFINITY, NULL), JAM_OK);
+        assert_same(sys, whole);
+        jam_destroy(sys);
+      }
+    jam_destroy(whole);
+  }
+}
+
+/* The whole protocol of NULL: what its first stage made is kept. */
+static void isoconfigurational_runs_resume(void **state) {
+  jam_isoconf_options o;
+  jam_monte_carlo_options mc;
+  jam_isoconf_report r;
+  const double instants[] = {2.0, 5.0};
+  jam_system *sys = dense(3, 1000);
+  (void)state;
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_isoconf_options_init(&o, sizeof o), JAM_OK);
+  assert_int_equal(jam_monte_carlo_options_init(&mc, sizeof mc), JAM_OK);
+  o.runs = 2, o.wall_time = 1e-9;
+  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
+  assert_int_equal(r.stop_reason, JAM_STOP_WALL_TIME);
+  o.resume = 1;
+  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_LIMIT);
+  sys = move(sys, FILE_);
+  o.wall_time = INFINITY;
+  assert_int_equal(jam_isoconfigurational(sys, &o, &mc, instants, 2, NULL, 0, &r), JAM_OK);
+  assert_int_equal(r.runs, 2);
+  assert_true(r.step > 0.0);
+  jam_destroy(sys);
+}
+
+/* A call that has not begun leaves the results of a crunch: nothing has moved. */
+static void results_stay_until_something_moves(void **state) {
+  jam_crunch_report r;
+  size_t pairs = 0;
+  jam_system *sys = dense(2, 30);
+  (void)state;
+  r.struct_size = sizeof r;
+  assert_true(jam_crunch(sys, NULL, &r) >= 0);
+  assert_int_equal(md(sys, JAM_PHASE_RUN, 0, 1e-9, NULL), JAM_LIMIT);
+  assert_int_equal(jam_contacts(sys, NULL, 0, &pairs), JAM_OK);
+  assert_true(pairs > 0);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_call_that_has_not_begun_is_resumed),
+                                     cmocka_unit_test(isoconfigurational_runs_resume),
+                                     cmocka_unit_test(results_stay_until_something_moves)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

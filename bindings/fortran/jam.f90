@@ -254,6 +254,20 @@ module jam
   integer(c_int32_t), parameter :: JAM_CHECK_GAPS = 6
   integer(c_int32_t), parameter :: JAM_CHECK_MARGIN = 7
 
+  ! jam_theorem: What was proved. @since 0.1
+  integer(c_int32_t), parameter :: JAM_THEOREM_NONE = 0
+  integer(c_int32_t), parameter :: JAM_THEOREM_TRAPPED = 1
+  integer(c_int32_t), parameter :: JAM_THEOREM_EXACT = 2
+
+  ! jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1
+  integer(c_int32_t), parameter :: JAM_CAUSE_NONE = 0
+  integer(c_int32_t), parameter :: JAM_CAUSE_EXCESS = 1
+  integer(c_int32_t), parameter :: JAM_CAUSE_FORCE = 2
+  integer(c_int32_t), parameter :: JAM_CAUSE_GAP = 3
+  integer(c_int32_t), parameter :: JAM_CAUSE_SINGULAR = 4
+  integer(c_int32_t), parameter :: JAM_CAUSE_RATTLER = 5
+  integer(c_int32_t), parameter :: JAM_CAUSE_IMAGES = 6
+
   ! jam_contact_class: Flags of a contact. @since 0.1
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
@@ -1133,6 +1147,50 @@ module jam
     ! root of the mean square of the same
     real(c_double) :: crunch_displacement_rms = 0
   end type jam_check_report
+
+  ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1
+  type, bind(c) :: jam_proof_report
+    ! set by the caller: sizeof(jam_proof_report)
+    integer(c_int32_t) :: struct_size = 152
+    ! jam_theorem
+    integer(c_int32_t) :: theorem = 0
+    ! jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
+    integer(c_int32_t) :: cause = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! spheres with contacts, N'
+    integer(c_int64_t) :: stable = 0
+    ! equations; d (N' - 1) + 1 unknowns
+    integer(c_int64_t) :: contacts = 0
+    ! see jam_proof_cause
+    real(c_double) :: cause_value = 0
+    real(c_double) :: cause_bound = 0
+    ! unit of the box: no refined centre is farther from the exact one
+    real(c_double) :: radius = 0
+    ! exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and
+    real(c_double) :: gamma = 0
+    ! Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1
+    real(c_double) :: gamma_low = 0
+    ! of the exact packing, rounded to double
+    real(c_double) :: packing_fraction = 0
+    ! relative error of phi_J from gamma + gamma_low
+    real(c_double) :: fraction_error = 0
+    ! over the mean force
+    real(c_double) :: least_force = 0
+    ! of every force, over the mean force
+    real(c_double) :: force_error = 0
+    ! relative, of pairs that are no contacts; 1e-3 if none is smaller
+    real(c_double) :: least_gap = 0
+    ! unit of the box: see JAM_THEOREM_TRAPPED
+    real(c_double) :: inner = 0
+    real(c_double) :: outer = 0
+    ! below the smallest singular value of the rows 2 r_c, in units of that power of two
+    real(c_double) :: singular = 0
+    ! estimate of its square
+    real(c_double) :: eigenvalue = 0
+    ! error bound that was taken off the square
+    real(c_double) :: rounding = 0
+  end type jam_proof_report
 
   ! Options of jam_density_of_states. @since 0.1
   type, bind(c) :: jam_dos_options
@@ -2261,6 +2319,37 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_flex
+    function c_jam_prove(sys, ratio, ratio_len, report) &
+        bind(c, name="jam_prove") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: ratio
+      integer(c_size_t), value :: ratio_len
+      type(jam_proof_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function c_jam_prove
+    function c_jam_write_proof(sys, path, ratio, ratio_len) &
+        bind(c, name="jam_write_proof") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), value :: ratio
+      integer(c_size_t), value :: ratio_len
+      integer(c_int32_t) :: status
+    end function c_jam_write_proof
+    function c_jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed) &
+        bind(c, name="jam_refined_positions") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(c_ptr), value :: ratio
+      integer(c_size_t), value :: ratio_len
+      type(c_ptr), value :: high
+      integer(c_size_t), value :: high_len
+      type(c_ptr), value :: low
+      integer(c_size_t), value :: low_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_refined_positions
     function c_jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows) &
         bind(c, name="jam_gaps") result(status)
       import
@@ -2605,6 +2694,15 @@ module jam
     module procedure l_jam_flex
   end interface jam_flex
 
+  ! Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
+  ! Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
+  ! JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
+  ! 0.1
+  interface jam_refined_positions
+    module procedure f_jam_refined_positions
+    module procedure l_jam_refined_positions
+  end interface jam_refined_positions
+
   ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
   ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
   ! JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1
@@ -2706,6 +2804,9 @@ module jam
   private :: c_jam_contact_candidates
   private :: c_jam_stress_states
   private :: c_jam_flex
+  private :: c_jam_prove
+  private :: c_jam_write_proof
+  private :: c_jam_refined_positions
   private :: c_jam_gaps
   private :: c_jam_contact_classes
   private :: c_jam_sphere_structure
@@ -2755,6 +2856,8 @@ module jam
   private :: l_jam_stress_states
   private :: f_jam_flex
   private :: l_jam_flex
+  private :: f_jam_refined_positions
+  private :: l_jam_refined_positions
   private :: f_jam_gaps
   private :: l_jam_gaps
   private :: f_jam_sphere_structure
@@ -4942,6 +5045,159 @@ contains
     end if
     status = c_jam_flex(sys, kind, at_out, count_out, at_strain, count_strain, needed)
   end function l_jam_flex
+
+  ! Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+  ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
+  ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio
+  ! (n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
+  ! be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
+  ! JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
+  ! (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1
+  function jam_prove(sys, ratio, ratio_len, report) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(in), target, contiguous, optional :: ratio(..)
+    integer(c_size_t), intent(in), optional :: ratio_len
+    type(jam_proof_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_ratio
+    integer(c_size_t) :: count_ratio
+    at_ratio = c_null_ptr
+    count_ratio = 0
+    if (present(ratio)) then
+      at_ratio = c_loc(ratio)
+      count_ratio = size(ratio, kind=c_size_t)
+    end if
+    if (present(ratio_len)) count_ratio = ratio_len
+    if (present(ratio)) then
+      status = checked('ratio', shape(ratio, kind=c_size_t), 0_c_size_t, count_ratio)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_prove(sys, at_ratio, count_ratio, report)
+  end function jam_prove
+
+  ! Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
+  ! file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
+  ! JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
+  ! @since 0.1
+  function jam_write_proof(sys, path, ratio, ratio_len) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: path
+    real(c_double), intent(in), target, contiguous, optional :: ratio(..)
+    integer(c_size_t), intent(in), optional :: ratio_len
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_ratio
+    integer(c_size_t) :: count_ratio
+    at_ratio = c_null_ptr
+    count_ratio = 0
+    if (present(ratio)) then
+      at_ratio = c_loc(ratio)
+      count_ratio = size(ratio, kind=c_size_t)
+    end if
+    if (present(ratio_len)) count_ratio = ratio_len
+    if (present(ratio)) then
+      status = checked('ratio', shape(ratio, kind=c_size_t), 0_c_size_t, count_ratio)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_write_proof(sys, jam_c_string(path), at_ratio, count_ratio)
+  end function jam_write_proof
+
+  function f_jam_refined_positions(sys, ratio, high, low, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(in), target, contiguous, optional :: ratio(..)
+    real(c_double), intent(inout), target, contiguous, optional :: high(..)
+    real(c_double), intent(inout), target, contiguous, optional :: low(..)
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_ratio
+    integer(c_size_t) :: count_ratio
+    type(c_ptr) :: at_high
+    integer(c_size_t) :: count_high
+    type(c_ptr) :: at_low
+    integer(c_size_t) :: count_low
+    at_ratio = c_null_ptr
+    count_ratio = 0
+    if (present(ratio)) then
+      at_ratio = c_loc(ratio)
+      count_ratio = size(ratio, kind=c_size_t)
+    end if
+    if (present(ratio)) then
+      status = checked('ratio', shape(ratio, kind=c_size_t), 0_c_size_t, count_ratio)
+      if (status /= JAM_OK) return
+    end if
+    at_high = c_null_ptr
+    count_high = 0
+    if (present(high)) then
+      at_high = c_loc(high)
+      count_high = size(high, kind=c_size_t)
+    end if
+    if (present(high)) then
+      status = checked('high', shape(high, kind=c_size_t), 0_c_size_t, count_high)
+      if (status /= JAM_OK) return
+    end if
+    at_low = c_null_ptr
+    count_low = 0
+    if (present(low)) then
+      at_low = c_loc(low)
+      count_low = size(low, kind=c_size_t)
+    end if
+    if (present(low)) then
+      status = checked('low', shape(low, kind=c_size_t), 0_c_size_t, count_low)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_refined_positions(sys, at_ratio, count_ratio, at_high, count_high, at_low, count_low, needed)
+  end function f_jam_refined_positions
+
+  function l_jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed) result(status)
+    type(c_ptr), intent(in) :: sys
+    real(c_double), intent(in), target, contiguous, optional :: ratio(..)
+    integer(c_size_t), intent(in) :: ratio_len
+    real(c_double), intent(inout), target, contiguous, optional :: high(..)
+    integer(c_size_t), intent(in) :: high_len
+    real(c_double), intent(inout), target, contiguous, optional :: low(..)
+    integer(c_size_t), intent(in) :: low_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_ratio
+    integer(c_size_t) :: count_ratio
+    type(c_ptr) :: at_high
+    integer(c_size_t) :: count_high
+    type(c_ptr) :: at_low
+    integer(c_size_t) :: count_low
+    at_ratio = c_null_ptr
+    count_ratio = 0
+    if (present(ratio)) then
+      at_ratio = c_loc(ratio)
+      count_ratio = size(ratio, kind=c_size_t)
+    end if
+    count_ratio = ratio_len
+    if (present(ratio)) then
+      status = checked('ratio', shape(ratio, kind=c_size_t), 0_c_size_t, count_ratio)
+      if (status /= JAM_OK) return
+    end if
+    at_high = c_null_ptr
+    count_high = 0
+    if (present(high)) then
+      at_high = c_loc(high)
+      count_high = size(high, kind=c_size_t)
+    end if
+    count_high = high_len
+    if (present(high)) then
+      status = checked('high', shape(high, kind=c_size_t), 0_c_size_t, count_high)
+      if (status /= JAM_OK) return
+    end if
+    at_low = c_null_ptr
+    count_low = 0
+    if (present(low)) then
+      at_low = c_loc(low)
+      count_low = size(low, kind=c_size_t)
+    end if
+    count_low = low_len
+    if (present(low)) then
+      status = checked('low', shape(low, kind=c_size_t), 0_c_size_t, count_low)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_refined_positions(sys, at_ratio, count_ratio, at_high, count_high, at_low, count_low, needed)
+  end function l_jam_refined_positions
 
   function f_jam_gaps(sys, h_max, stable_only, gap, pair, rows) result(status)
     type(c_ptr), intent(in) :: sys

@@ -42,6 +42,9 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *basis, size_t basis_len)};
 %apply double *RESULT {double *residual};
 %apply (double *FILL, size_t FILL_LEN) {(double *strain, size_t strain_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *ratio, size_t ratio_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *high, size_t high_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *low, size_t low_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *gap, size_t gap_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *c, size_t c_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *s, size_t s_len)};
@@ -298,6 +301,15 @@ that they touch, N' their number. @since 0.1"
 }
 %feature("docstring") jam_check_report "Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
 NaN: not known. @since 0.1"
+%extend jam_proof_report {
+  jam_proof_report() {
+    jam_proof_report *made = (jam_proof_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_proof_report() { free($self); }
+}
+%feature("docstring") jam_proof_report "What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1"
 %extend jam_dos_options {
   jam_dos_options() {
     jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
@@ -627,6 +639,21 @@ jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NU
 JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_check_text "The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. \"\" for NULL or a
 wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1"
+%feature("docstring") jam_prove "Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
+smallest singular value, and Kantorovich's theorem the rest: the guide's page \"Proofs\" has theorems and limits. ratio
+(n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
+be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
+JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
+(Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1"
+%feature("docstring") jam_write_proof "Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
+file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
+JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
+@since 0.1"
+%feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
+Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
+JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
+0.1"
 %feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
 stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
 JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"

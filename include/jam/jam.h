@@ -1438,6 +1438,70 @@ JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o
 /* The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
  * wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1 */
 JAM_API const char *jam_check_text(const jam_check_report *report);
+/* ------------- proof */
+/* What was proved. @since 0.1 */
+typedef enum jam_theorem {
+  JAM_THEOREM_NONE = 0,    /* nothing: see cause */
+  JAM_THEOREM_TRAPPED = 1, /* no motion without overlap takes a stable sphere farther than inner, but translations of
+                            * all. No packing as dense lies between inner and outer */
+  JAM_THEOREM_EXACT = 2    /* a packing that touches exactly in all contacts lies within radius: jammed, forces > 0 */
+} jam_theorem;
+
+/* Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1 */
+typedef enum jam_proof_cause {
+  JAM_CAUSE_NONE = 0,
+  JAM_CAUSE_EXCESS = 1,   /* contacts, and those of one state of self-stress: more of them need a reason in algebra */
+  JAM_CAUSE_FORCE = 2,    /* least force and its error, over the mean force */
+  JAM_CAUSE_GAP = 3,      /* least gap of a pair that is no contact, and the radius */
+  JAM_CAUSE_SINGULAR = 4, /* smallest eigenvalue of the rows, and what rounding takes off it */
+  JAM_CAUSE_RATTLER = 5,  /* as gap, where the pair has a rattler */
+  JAM_CAUSE_IMAGES = 6    /* a contact of a sphere with its own image */
+} jam_proof_cause;
+
+/* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1 */
+typedef struct jam_proof_report {
+  uint32_t struct_size; /* set by the caller: sizeof(jam_proof_report) */
+  int32_t theorem;      /* jam_theorem */
+  int32_t cause;        /* jam_proof_cause: why theorem is not JAM_THEOREM_EXACT */
+  int32_t reserved;     /* 0 */
+  int64_t stable;       /* spheres with contacts, N' */
+  int64_t contacts;     /* equations; d (N' - 1) + 1 unknowns */
+  double cause_value;   /* see jam_proof_cause */
+  double cause_bound;
+  double radius;           /* unit of the box: no refined centre is farther from the exact one */
+  double gamma;            /* exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and */
+  double gamma_low;        /* Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1 */
+  double packing_fraction; /* of the exact packing, rounded to double */
+  double fraction_error;   /* relative error of phi_J from gamma + gamma_low */
+  double least_force;      /* over the mean force */
+  double force_error;      /* of every force, over the mean force */
+  double least_gap;        /* relative, of pairs that are no contacts; 1e-3 if none is smaller */
+  double inner;            /* unit of the box: see JAM_THEOREM_TRAPPED */
+  double outer;
+  double singular;   /* below the smallest singular value of the rows 2 r_c, in units of that power of two */
+  double eigenvalue; /* estimate of its square */
+  double rounding;   /* error bound that was taken off the square */
+} jam_proof_report;
+
+/* Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+ * steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
+ * smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio
+ * (n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
+ * be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
+ * JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
+ * (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1 */
+JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_len, jam_proof_report *report);
+/* Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
+ * file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
+ * JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
+ * @since 0.1 */
+JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
+/* Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
+ * Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
+ * JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
+ * 0.1 */
+JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ratio, size_t ratio_len, double *high,
+                                         size_t high_len, double *low, size_t low_len, size_t *needed);
 
 /* ------------- gaps, classes and angles of contacts */
 /* Flags of a contact. @since 0.1 */

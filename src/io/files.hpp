@@ -42,4 +42,8 @@ void write_contacts(const Packing &p, const ContactNetwork &net, const char *pat
 // What stands behind the last dot of a name, without .gz; "" when there is none.
 std::string file_ending(const char *path);
 
+struct ProofScene;
+// The exact numbers of a proof: a file that jamproof.py checks.
+void write_proof(const ProofScene &scene, const char *path);
+
 }  // namespace jam

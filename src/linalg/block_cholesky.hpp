@@ -38,6 +38,14 @@ class BlockCholesky {
   // The same for nrhs vectors one after the other in x.
   void solve_many(double *x, int nrhs) const;
 
+  // For error bounds of a factor in doubles: the most entries in a row of L, and the largest row sum of |L| |L^T|,
+  // which bounds its 2-norm; both at or above the exact ones.
+  struct AbsoluteSize {
+    size_t longest_row;
+    double absolute_square;
+  };
+  AbsoluteSize absolute_size() const;
+
   // Frees the memory of the numbers. The next call is analyse() or analyse_keep_order().
   void release();
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "linalg/block_cholesky.hpp"
 
 namespace jam {
 
@@ -34,6 +33,8 @@ void ShiftedFactor::factorise_from(double start) {
     if (factorise(shift)) return;
   fail(JAM_E_SOLVER, "the matrix is not positive definite even with a shift of %g", bound);
 }
+
+ShiftedFactor::Size ShiftedFactor::size() const { return impl_->cholesky.absolute_size(); }
 
 void ShiftedFactor::solve_many(double *x, int count) const { impl_->cholesky.solve_many(x, count); }
 

@@ -1,6 +1,7 @@
 // Sparse Cholesky of a block matrix plus a multiple of the unit matrix.
 #pragma once
 #include <memory>
+#include "linalg/block_cholesky.hpp"
 #include "linalg/block_matrix.hpp"
 
 namespace jam {
@@ -18,6 +19,8 @@ class ShiftedFactor {
   void solve(double *x) const { solve_many(x, 1); }  // x := (m + shift)^-1 x
   void solve_many(double *x, int count) const;       // count vectors one after the other
   size_t rows() const { return m_.rows(); }
+  using Size = BlockCholesky::AbsoluteSize;
+  Size size() const;
 
  private:
   struct Impl;

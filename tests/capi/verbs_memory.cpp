@@ -185,6 +185,12 @@ jam_status rigidity(jam_system *sys) {
   }
   return JAM_OK;
 }
+jam_status proof(jam_system *sys) {
+  static double high[24], low[24];
+  size_t needed = 0;
+  const jam_status status = jam_prove(sys, nullptr, 0, nullptr);
+  return status < 0 ? status : jam_refined_positions(sys, nullptr, 0, high, 24, low, 24, &needed);
+}
 jam_status modes(jam_system *sys) {
   static double lambda[1000];
   size_t rows = 0;
@@ -250,6 +256,7 @@ void every_allocation(void **) {
                         {"strain", fluid, strain},
                         {"network", jammed, network},
                         {"rigidity", jammed, rigidity},
+                        {"proof", jammed, proof},
                         {"modes", jammed, modes},
                         {"spectrum", jammed, spectrum},
                         {"floppy", jammed, floppy},

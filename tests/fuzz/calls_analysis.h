@@ -31,6 +31,8 @@ static void call_rigidity(input *in, jam_system *sys) {
   o.wall_time = at_most(o.wall_time, 0.1);
   check_status(jam_check_packing(sys, &o, &check));
   jam_check_text(&check);
+  check_status(jam_prove(sys, NULL, 0, NULL));
+  check_status(jam_refined_positions(sys, NULL, 0, values[0], many, values[1], many, &needed));
 }
 
 static void call_modes(input *in, jam_system *sys) {

@@ -18,8 +18,9 @@ LAYERS = {
     "soft": ["lp", "network", "linalg", "core"],
     "dynamics": ["soft", "network", "linalg", "core"],
     "analysis": ["lp", "network", "linalg", "core"],
-    "io": ["dynamics", "network", "core"],
-    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "io"],
+    "proof": ["network", "linalg", "core"],
+    "io": ["dynamics", "network", "proof", "core"],
+    "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "proof", "io"],
 }
 # Third-party headers and the only files (or folders) under src that may see them.
 GUESTS = {

@@ -311,6 +311,24 @@ class CheckReason(IntEnum):
     MARGIN = 7  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
 
 
+class Theorem(IntEnum):
+    """What was proved. @since 0.1"""
+    NONE = 0  # nothing: see cause
+    TRAPPED = 1  # no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer
+    EXACT = 2  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
+
+
+class ProofCause(IntEnum):
+    """Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1"""
+    NONE = 0
+    EXCESS = 1  # contacts, and those of one state of self-stress: more of them need a reason in algebra
+    FORCE = 2  # least force and its error, over the mean force
+    GAP = 3  # least gap of a pair that is no contact, and the radius
+    SINGULAR = 4  # smallest eigenvalue of the rows, and what rounding takes off it
+    RATTLER = 5  # as gap, where the pair has a rattler
+    IMAGES = 6  # a contact of a sphere with its own image
+
+
 class ContactClass(IntEnum):
     """Flags of a contact. @since 0.1"""
     LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
@@ -886,6 +904,50 @@ class CheckReport(Report):
 
 
 @dataclass(frozen=True, repr=False)
+class ProofReport(Report):
+    """What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1
+
+    theorem: jam_theorem
+    cause: jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
+    stable: spheres with contacts, N'
+    contacts: equations; d (N' - 1) + 1 unknowns
+    cause_value: see jam_proof_cause
+    cause_bound:
+    radius: unit of the box: no refined centre is farther from the exact one
+    gamma: exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and
+    gamma_low: Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1
+    packing_fraction: of the exact packing, rounded to double
+    fraction_error: relative error of phi_J from gamma + gamma_low
+    least_force: over the mean force
+    force_error: of every force, over the mean force
+    least_gap: relative, of pairs that are no contacts; 1e-3 if none is smaller
+    inner: unit of the box: see JAM_THEOREM_TRAPPED
+    outer:
+    singular: below the smallest singular value of the rows 2 r_c, in units of that power of two
+    eigenvalue: estimate of its square
+    rounding: error bound that was taken off the square"""
+    theorem: Theorem
+    cause: ProofCause
+    stable: int
+    contacts: int
+    cause_value: float
+    cause_bound: float
+    radius: float
+    gamma: float
+    gamma_low: float
+    packing_fraction: float
+    fraction_error: float
+    least_force: float
+    force_error: float
+    least_gap: float
+    inner: float
+    outer: float
+    singular: float
+    eigenvalue: float
+    rounding: float
+
+
+@dataclass(frozen=True, repr=False)
 class Moduli(Report):
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
 
@@ -1089,6 +1151,7 @@ REPORTS = {
     "jam_geometry_report": GeometryReport,
     "jam_rigidity_report": RigidityReport,
     "jam_check_report": CheckReport,
+    "jam_proof_report": ProofReport,
     "jam_moduli": Moduli,
     "jam_comparison": Comparison,
 }
@@ -1168,6 +1231,9 @@ CALLS = {
     "jam_rigidity": (True, (("kind", "scalar", "RigidityKind"), ("report", "struct_out", "jam_rigidity_report"))),
     "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_check_packing": (True, (("o", "struct_in", "jam_check_options"), ("report", "struct_out", "jam_check_report"))),
+    "jam_prove": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
+    "jam_write_proof": (True, (("path", "string", "char"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"))),
+    "jam_refined_positions": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("high", "array_out", "double"), ("high_len", "len", "size_t"), ("low", "array_out", "double"), ("low_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),

@@ -658,6 +658,70 @@ class Methods:
         answer: FlexResult = self.call('flex', kind, progress=progress)
         return answer
 
+    def prove(self, ratio: Any = None) -> ProofReport:
+        """Proves, in spite of rounding, that the packing is jammed.
+
+        Contacts and forces are those of the network. Newton's steps take the centres to two doubles
+        (refined_positions()). A factorisation with a bound of its rounding gives the smallest singular value, and
+        Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio (n): the exact ratios
+        of the diameters, in any unit; None with length 0 takes the diameters as they are. Status: 'ok' proved exact
+        or trapped, 'ambiguous' not proved (last_error() names the cause).
+
+        Parameters
+        ----------
+        ratio : array_like, shape (n,)
+
+        Returns
+        -------
+        ProofReport
+
+        Raises
+        ------
+        ArgumentError, NonfiniteError, StateError, UnsupportedError, MemoryError, BusyError
+        """
+        answer: ProofReport = self.call('prove', ratio)
+        return answer
+
+    def write_proof(self, path: str, ratio: Any = None) -> None:
+        """Writes the exact numbers of the proof: refined centres, contacts, forces.
+
+        bindings/proof/jamproof.py checks such a file with integers alone, without libjam. ratio: as for prove(). The
+        file appears whole or not at all. Status: 'ok', 'ambiguous' (dependent contacts: centres are not refined).
+
+        Parameters
+        ----------
+        path : str
+        ratio : array_like
+
+        Raises
+        ------
+        ArgumentError, NonfiniteError, StateError, UnsupportedError, MemoryError, BusyError, IoError
+        """
+        self.call('write_proof', path, ratio)
+
+    def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
+        """Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31
+        digits.
+
+        Rattlers stay where they are. ratio: as for prove(). Status: 'ok', 'ambiguous' (dependent contacts, nothing is
+        written).
+
+        Parameters
+        ----------
+        ratio : array_like
+
+        Returns
+        -------
+        high : array
+        low : array
+
+        Raises
+        ------
+        ArgumentError, NonfiniteError, StateError, UnsupportedError, MemoryError, BusyError
+        """
+        answer: RefinedPositionsResult = self.call('refined_positions', ratio)
+        return answer
+
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
         """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2).
 
@@ -1163,6 +1227,13 @@ class FlexResult(NamedTuple):
 
     out: Array
     strain: Array
+
+
+class RefinedPositionsResult(NamedTuple):
+    """What refined_positions returns."""
+
+    high: Array
+    low: Array
 
 
 class GapsResult(NamedTuple):

@@ -252,6 +252,20 @@ const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are kn
 const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
 const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
 
+# jam_theorem: What was proved. @since 0.1
+const JAM_THEOREM_NONE = Int32(0)  # nothing: see cause
+const JAM_THEOREM_TRAPPED = Int32(1)  # no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer
+const JAM_THEOREM_EXACT = Int32(2)  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
+
+# jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1
+const JAM_CAUSE_NONE = Int32(0)
+const JAM_CAUSE_EXCESS = Int32(1)  # contacts, and those of one state of self-stress: more of them need a reason in algebra
+const JAM_CAUSE_FORCE = Int32(2)  # least force and its error, over the mean force
+const JAM_CAUSE_GAP = Int32(3)  # least gap of a pair that is no contact, and the radius
+const JAM_CAUSE_SINGULAR = Int32(4)  # smallest eigenvalue of the rows, and what rounding takes off it
+const JAM_CAUSE_RATTLER = Int32(5)  # as gap, where the pair has a rattler
+const JAM_CAUSE_IMAGES = Int32(6)  # a contact of a sphere with its own image
+
 # jam_contact_class: Flags of a contact. @since 0.1
 const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
@@ -844,6 +858,34 @@ mutable struct jam_check_report
     crunch_displacement_max::Cdouble  # largest displacement in it of a sphere that ends with contacts
     crunch_displacement_rms::Cdouble  # root of the mean square of the same
     jam_check_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1
+"""
+mutable struct jam_proof_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_proof_report)
+    theorem::Int32  # jam_theorem
+    cause::Int32  # jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
+    reserved::Int32  # 0
+    stable::Int64  # spheres with contacts, N'
+    contacts::Int64  # equations; d (N' - 1) + 1 unknowns
+    cause_value::Cdouble  # see jam_proof_cause
+    cause_bound::Cdouble
+    radius::Cdouble  # unit of the box: no refined centre is farther from the exact one
+    gamma::Cdouble  # exact diameters are sqrt(Gamma) ratio_i times the power of two at or below V^(1/d), and
+    gamma_low::Cdouble  # Gamma is about gamma + gamma_low. Where no ratios are given, equal spheres have 1
+    packing_fraction::Cdouble  # of the exact packing, rounded to double
+    fraction_error::Cdouble  # relative error of phi_J from gamma + gamma_low
+    least_force::Cdouble  # over the mean force
+    force_error::Cdouble  # of every force, over the mean force
+    least_gap::Cdouble  # relative, of pairs that are no contacts; 1e-3 if none is smaller
+    inner::Cdouble  # unit of the box: see JAM_THEOREM_TRAPPED
+    outer::Cdouble
+    singular::Cdouble  # below the smallest singular value of the rows 2 r_c, in units of that power of two
+    eigenvalue::Cdouble  # estimate of its square
+    rounding::Cdouble  # error bound that was taken off the square
+    jam_proof_report() = new(152, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1749,6 +1791,39 @@ wrong struct_size. Valid until this thread's next call of it. Threads: per threa
 """
 function jam_check_text(report)
     return ccall((:jam_check_text, libjam), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
+end
+
+"""
+Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
+steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
+smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio
+(n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
+be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
+JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
+(Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1
+"""
+function jam_prove(sys, ratio, ratio_len, report)
+    return ccall((:jam_prove, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
+end
+
+"""
+Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
+file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
+JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
+@since 0.1
+"""
+function jam_write_proof(sys, path, ratio, ratio_len)
+    return ccall((:jam_write_proof, libjam), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
+end
+
+"""
+Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
+Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
+JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
+0.1
+"""
+function jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed)
+    return ccall((:jam_refined_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(ratio), ratio_len, _ptr(high), high_len, _ptr(low), low_len, _ref(Csize_t, needed))
 end
 
 """

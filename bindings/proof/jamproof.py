@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+"""Checks a proof file of a jammed packing: jamproof.py FILE [OUT]
+
+Proved is: exactly one packing within the printed radius touches exactly in the contacts that the file lists. All its
+forces are positive, all other pairs are open, and its stable spheres are collectively jammed.
+
+Integers of Python decide, nothing else. Forces and inverse are hints: bad ones lose the proof, they cannot make one. A
+file without inverse gets one from numpy, or from floats here; OUT is then the file with this inverse. Exit status: 0
+proved, 1 not proved, 2 the file cannot be read. The guide's page "Proofs" holds the theorem.
+
+    F_c(x, G) = |x_i - x_j + n A|^2 - G sigma_c^2 = 0 for every contact c = (i, j, n);  J = F'
+
+For any matrix A let delta_k >= sum_l |1 - A J|_kl, eta_k >= |A F|_k, alpha_k >= sum_c |A_kc|, beta = 4 d max alpha.
+If eta + delta r + beta r^2 <= r and delta + 2 beta r < 1, then F has exactly one zero within r. In crystals F = 0 as
+it stands; then R has full rank modulo a prime, and the forces balance exactly.
+"""
+import base64
+import sys
+import zlib
+from array import array
+from fractions import Fraction
+
+BITS, CHUNK, BIAS = 24, 16, 1 << 62  # of J; columns summed at once; makes 64-bit digits positive
+
+
+class Refused(Exception):
+    pass
+
+
+def number(word):
+    """m 2^e as (m, e); "m p e,m p e" is a sum."""
+    m, e = 0, 0
+    for a, b in (map(int, part.split("p")) for part in word.split(",")):
+        m, e = (m << (e - min(e, b))) + (a << (b - min(e, b))), min(e, b)
+    return m, e
+
+
+def scaled(pairs):
+    """All numbers as integers over one power of two, and its exponent."""
+    low = min(e for _, e in pairs)
+    return [m << (e - low) for m, e in pairs], low
+
+
+def fraction(m, e):
+    return Fraction(m << max(e, 0), 1 << max(-e, 0))
+
+
+def shifted(m, e, to):
+    """m 2^e in units of 2^to, off by half a unit at most."""
+    return m << (e - to) if e >= to else (m + (1 << (to - e - 1))) >> (to - e)
+
+
+class Scene:
+    """The exact numbers of a file: lengths in units of 2^k, ratios of diameters of 2^se, gamma g 2^ge."""
+
+    def __init__(self, path):
+        self.stable, self.contacts, self.inverse, ratio, position = [], [], None, [], []
+        with open(path, encoding="ascii") as file:
+            lines = [line.split() for line in file if line.strip()]
+        if lines[0] != ["jamproof", "1"]:
+            raise ValueError("the first line is not 'jamproof 1'")
+        word = {name: rest for name, *rest in lines[1:] if name in ("dim", "unit", "cell", "non_additivity", "gamma")}
+        self.dim = d = int(word["dim"][0])
+        self.unit = fraction(*number(word["unit"][0]))
+        self.delta, (self.g, self.ge) = number(word["non_additivity"][0]), number(word["gamma"][0])
+        for name, *rest in lines[1:]:
+            if name == "sphere":
+                self.stable.append(rest[0] == "1")
+                ratio.append(number(rest[1]))
+                position.append([number(x) for x in rest[2:]])
+            elif name == "contact":
+                i, j, *n = map(int, rest[: 2 + d])
+                self.contacts.append((i, j, tuple(n), number(rest[2 + d])))
+            elif name == "inverse":
+                self.inverse = int(rest[0]), array("i", zlib.decompress(base64.b64decode(rest[1])))
+            elif name not in word:
+                raise ValueError(f"unknown word {name}")
+        cell = [number(x) for x in word["cell"]]
+        both, self.k = scaled(cell + [x for row in position for x in row])
+        self.cell = [both[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
+        self.x = [both[len(cell) + d * i : len(cell) + d * (i + 1)] for i in range(len(ratio))]
+        self.ratio, self.se = scaled(ratio)
+        if min(self.ratio + [self.g] + [self.cell[r][r] for r in range(d)]) <= 0:
+            raise ValueError("a diameter, a cell edge or gamma is not positive")
+        if any(len(row) != d for row in position) or len(cell) != d * (d + 1) // 2:
+            raise ValueError("a sphere or the cell has not as many numbers as d asks for")
+
+    def vector(self, i, j, n):
+        """x_i - x_j + n A."""
+        a, b, cell = self.x[i], self.x[j], self.cell
+        return [a[c] - b[c] + sum(n[q] * cell[q][c] for q in range(c, self.dim)) for c in range(self.dim)]
+
+    def sigma2(self, i, j):
+        """sigma^2 as (m, e)."""
+        m, e = self.ratio[i] + self.ratio[j], self.se
+        if self.delta[0] and self.ratio[i] != self.ratio[j]:
+            one, low = scaled([(1, 0), self.delta])
+            m, e = m * sum(one), e + low
+        return m * m, 2 * e - 2
+
+
+def equations(s):
+    """F_c as (m, e), the rows of R as {unknown: integer} and the columns of J as [(contact, integer in 2^-BITS)]."""
+    d, stable = s.dim, [i for i, yes in enumerate(s.stable) if yes]
+    node = {i: k for k, i in enumerate(stable)}  # node 0 is pinned
+    f, rows, columns = [], [], [[] for _ in range(d * (len(stable) - 1) + 1)]
+    for c, (i, j, n, _) in enumerate(s.contacts):
+        if i == j or i not in node or j not in node:
+            raise Refused(f"images: contact {c} is not one of two stable spheres")
+        r, (m, e) = s.vector(i, j, n), s.sigma2(i, j)
+        terms, low = scaled([(sum(v * v for v in r), 2 * s.k), (-s.g * m, s.ge + e)])
+        f.append((sum(terms), low))
+        ends = [(node[i], 2), (node[j], -2)]
+        rows.append({d * (at - 1) + q: sign * r[q] for at, sign in ends if at for q in range(d) if r[q]})
+        for unknown, value in rows[-1].items():
+            columns[unknown].append((c, shifted(value, s.k, -BITS)))
+        columns[-1].append((c, shifted(-m, e, -BITS)))
+    return f, rows, columns
+
+
+def rank(rows, p=(1 << 61) - 1):
+    """Modulo a prime: at most the rank of the integers."""
+    pivots = {}
+    for row in rows:
+        row = {k: v % p for k, v in row.items() if v % p}
+        while row and min(row) in pivots:
+            c = min(row)
+            factor = row[c]
+            for k, v in pivots[c].items():
+                row[k] = (row.get(k, 0) - factor * v) % p
+            row = {k: v for k, v in row.items() if v}
+        if row:
+            inverse = pow(row[min(row)], p - 2, p)
+            pivots[min(row)] = {k: v * inverse % p for k, v in row.items()}
+    return len(pivots)
+
+
+def float_inverse(rows):
+    try:
+        import numpy
+
+        return numpy.linalg.inv(numpy.array(rows)).tolist()
+    except ImportError:
+        n = len(rows)
+        a = [row + [float(k == i) for k in range(n)] for i, row in enumerate(rows)]
+        for c in range(n):
+            p = max(range(c, n), key=lambda r: abs(a[r][c]))
+            a[c], a[p] = [v / a[p][c] for v in a[p]], a[c]
+            for r in range(n):
+                if r != c and a[r][c]:
+                    a[r] = [x - a[r][c] * y for x, y in zip(a[r], a[c])]
+        return [row[n:] for row in a]
+
+
+def inverse_of(s, columns):
+    """A without its last row, as (e, columns of 32-bit integers in units of 2^e). A hint."""
+    n = len(columns)
+    if s.inverse:
+        e, flat = s.inverse
+        if len(flat) != n * (n - 1):
+            raise Refused("singular: the inverse has not the size of the equations")
+        return e, [flat[c * (n - 1) : (c + 1) * (n - 1)] for c in range(n)]
+    rows = [[0.0] * n for _ in range(n)]
+    for l, column in enumerate(columns):
+        for c, value in column:
+            rows[c][l] += value / 2.0**BITS
+    try:
+        a = float_inverse(rows)
+        e = int(max(abs(v) for row in a for v in row)).bit_length() - 30
+        return e, [array("i", (round(a[k][c] * 2.0**-e) for k in range(n - 1))) for c in range(n)]
+    except Exception as error:  # of a hint, whoever made it
+        raise Refused(f"singular: {error}") from None
+
+
+def bounds(s, f, columns, e, inverse):
+    """delta, eta and alpha of A's rows but the last. (A J)_.l costs 2 z + 1 products: A's columns are long integers."""
+    rows = len(columns) - 1
+    offset = int.from_bytes(array("Q", [BIAS] * rows).tobytes(), "little")
+    packed = [int.from_bytes(array("Q", [v + BIAS for v in c]).tobytes(), "little") - offset for c in inverse]
+    alpha, delta, eta = [0] * rows, [0] * rows, [0] * rows
+    for column in inverse:
+        alpha = [a + abs(v) for a, v in zip(alpha, column)]
+    if e > BITS or max(abs(v) for column in columns for _, v in column) >= 1 << 27:
+        raise Refused("singular: entries are too large for the digits")  # 2^31 2^27 CHUNK = 2^62
+    for l, column in enumerate(columns):
+        total = [-(1 << (BITS - e)) * (k == l) for k in range(rows)]
+        for start in range(0, len(column), CHUNK):
+            part = sum(packed[c] * v for c, v in column[start : start + CHUNK]) + offset
+            digits = array("Q", part.to_bytes(8 * rows, "little"))
+            total = [a + v - BIAS for a, v in zip(total, digits)]
+        delta = [a + abs(b) for a, b in zip(delta, total)]
+    # J was rounded: half a unit in each of the 2 d + 1 entries of a row.
+    delta = [fraction(2 * v + (2 * s.dim + 1) * a, e - BITS - 1) for v, a in zip(delta, alpha)]
+    low = max(m.bit_length() + x for m, x in f) - 25
+    for column, (m, x) in zip(inverse, f):
+        short = shifted(m, x, low)
+        eta = [a + b * short for a, b in zip(eta, column)]
+    eta = [fraction(abs(v) + a, e + low) for v, a in zip(eta, alpha)]
+    return delta, eta, [fraction(a, e) for a in alpha]
+
+
+def force_row(s, f):
+    """The last row of A is minus the stress: that, and its delta, eta and alpha, in exact sums."""
+    stress, low = scaled([c[3] for c in s.contacts])
+    sigma2 = [fraction(*s.sigma2(i, j)) for i, j, _, _ in s.contacts]
+    weight = sum(a * m for a, m in zip(sigma2, stress))
+    if min(stress) <= 0:
+        raise Refused("force: a stress is not positive")
+    stress = [Fraction(int((m << 90) / weight), 1 << 90) for m in stress]  # sum stress sigma^2 = 1 but for rounding
+    net, pinned = {}, s.stable.index(True)
+    for (i, j, n, _), m in zip(s.contacts, stress):
+        r, whole = s.vector(i, j, n), int(m * (1 << 90))
+        for sphere, sign in ((i, 2), (j, -2)):
+            net[sphere] = [a + sign * b * whole for a, b in zip(net.get(sphere, [0] * s.dim), r)]
+    off = sum(abs(v) for sphere, row in net.items() if sphere != pinned for v in row)
+    delta = fraction(off, s.k - 90) + abs(1 - sum(a * m for a, m in zip(sigma2, stress)))
+    return stress, delta, abs(sum(fraction(*v) * m for v, m in zip(f, stress))), sum(stress)
+
+
+def images(s, i, j, reach):
+    """All n with components of x_i - x_j + n A within reach, by floats: reach has room for their rounding."""
+    unit = 2.0**s.k
+    cell = [[v * unit for v in row] for row in s.cell]
+
+    def descend(c, x, n):
+        if c < 0:
+            yield n
+            return
+        for m in range(int(-(reach + x[c]) // cell[c][c]), int((reach - x[c]) // cell[c][c]) + 2):
+            if abs(x[c] + m * cell[c][c]) <= reach:
+                yield from descend(c - 1, [a + m * b for a, b in zip(x, cell[c])], (m,) + n)
+
+    return descend(s.dim - 1, [(a - b) * unit for a, b in zip(s.x[i], s.x[j])], ())
+
+
+def least_opening(s, radius, gamma):
+    """Every pair and image that is no contact stays open; the least |r|^2 / sigma^2 of them, or None."""
+    closed, least = {c[:3] for c in s.contacts}, None
+    closed |= {(j, i, tuple(-v for v in n)) for i, j, n in closed}
+    widest = float(gamma) ** 0.5 * max(s.ratio) * 2.0**s.se * (1.0 + abs(float(fraction(*s.delta))))
+    for i in range(len(s.x)):
+        for j in range(i + 1):
+            for n in images(s, i, j, widest * 1.001 + 4.0 * float(radius)):
+                if (i == j and not any(n)) or (i, j, n) in closed:
+                    continue
+                r, moving = s.vector(i, j, n), (s.stable[i] + s.stable[j]) * (i != j)
+                have = fraction(sum(v * v for v in r), 2 * s.k)
+                have -= 2 * fraction(sum(map(abs, r)), s.k) * radius * moving
+                need = gamma * fraction(*s.sigma2(i, j))
+                if have <= need:
+                    raise Refused(f"gap: spheres {i} and {j} are not open (image {n})")
+                least = min(least or have / need, have / need)
+    return least
+
+
+def closed(s, rows, columns):
+    """F = 0 exactly, with any number of contacts."""
+    if rank(rows) < len(columns) - 1:
+        raise Refused(f"singular: the rank modulo a prime is below {len(columns) - 1}")
+    stress, _ = scaled([c[3] for c in s.contacts])
+    if min(stress) <= 0 or any(sum(row.get(k, 0) * m for row, m in zip(rows, stress)) for k in range(len(columns) - 1)):
+        raise Refused("force: the forces are not positive, or do not balance exactly")
+    least = least_opening(s, 0, fraction(s.g, s.ge))
+    return {"radius": 0.0, "gamma_error": 0.0, "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
+
+
+def check(s):
+    """What was proved; Refused where nothing was."""
+    f, rows, columns = equations(s)
+    if s.contacts and not any(m for m, _ in f):
+        return closed(s, rows, columns)
+    if len(s.contacts) != len(columns):
+        raise Refused(f"excess: {len(s.contacts)} contacts, {len(columns)} unknowns")
+    s.hint = e, inverse = inverse_of(s, columns)
+    delta, eta, alpha = bounds(s, f, columns, e, inverse)
+    stress, delta_g, eta_g, alpha_g = force_row(s, f)
+    delta, eta, beta = max(delta + [delta_g]), max(eta + [eta_g]), 4 * s.dim * max(alpha + [alpha_g])
+    if delta >= 1 or 4 * beta * eta >= (1 - delta) ** 2:
+        raise Refused(f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
+    r = eta / (1 - delta) * (1 + 4 * beta * eta / (1 - delta) ** 2)
+    if eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1:
+        raise Refused(f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
+    r_g = eta_g + delta_g * r + 4 * s.dim * alpha_g * r * r
+    largest = max([fraction(max(map(abs, column)), e) for column in inverse] + stress)
+    error = (delta_g + 8 * s.dim * alpha_g * r) / (1 - delta - 2 * beta * r) * largest
+    mean, gamma = alpha_g / len(stress), fraction(s.g, s.ge)
+    if min(stress) <= error:
+        raise Refused(f"force: the least is {float(min(stress) / mean):.3g}, its error {float(error / mean):.3g}")
+    least = least_opening(s, r, gamma + r_g)
+    found = {"radius": r * s.unit, "gamma_error": r_g / gamma, "least_gap": float(least) ** 0.5 - 1.0 if least else 1e-3}
+    found.update(delta=delta, least_force=min(stress) / mean, force_error=error / mean)
+    return {name: float(value) for name, value in found.items()}
+
+
+def main(path, out=None):
+    try:
+        scene = Scene(path)
+    except (OSError, ValueError, LookupError, TypeError, zlib.error) as error:
+        print(f"{path}: cannot be read: {error}")
+        return 2
+    try:
+        print("proved: " + ", ".join(f"{name} {value:.3g}" for name, value in check(scene).items()))
+    except (Refused, OverflowError, ZeroDivisionError) as why:
+        print(f"not proved: {why}")
+        return 1
+    if out and hasattr(scene, "hint"):
+        e, columns = scene.hint
+        with open(path, encoding="ascii") as old, open(out, "w", encoding="ascii") as new:
+            new.write(old.read() + f"inverse {e} ")
+            new.write(base64.b64encode(zlib.compress(b"".join(c.tobytes() for c in columns))).decode() + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3) or sys.argv[1].startswith("-"):
+        print(__doc__)
+        sys.exit(2)
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,58 @@
+// The proof file: exact numbers that a checker of its own can read (bindings/proof/jamproof.py).
+#include <cmath>
+
+#include "io/files.hpp"
+#include "io/output_file.hpp"
+#include "proof/scene.hpp"
+
+namespace jam {
+namespace {
+
+// x = m 2^e with whole m, as "m p e" without blanks: exact, and the same in every locale.
+void put(std::string &out, double x) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);
+  (out += std::to_string(static_cast<long long>(std::ldexp(mantissa, 53)))) += 'p';
+  out += std::to_string(exponent - 53);
+}
+
+// A sum of two doubles: both, with a comma.
+void put(std::string &out, double high, double low) {
+  put(out, high);
+  if (low == 0.0) return;
+  out += ',';
+  put(out, low);
+}
+
+}  // namespace
+
+void write_proof(const ProofScene &s, const char *path) {
+  OutputFile file(path);
+  std::string &out = file.text();
+  const size_t d = static_cast<size_t>(s.dim);
+  out += "jamproof 1\ndim " + std::to_string(s.dim) + "\nunit ";
+  put(out, s.unit);
+  out += "\ncell";
+  for (size_t r = 0; r < d; ++r)
+    for (size_t c = 0; c <= r; ++c) put(out += ' ', s.cell.row(static_cast<int>(r))[c]);
+  put(out += "\nnon_additivity ", s.non_additivity);
+  put(out += "\ngamma ", s.gamma, s.gamma_low);
+  out += '\n';
+  for (size_t i = 0; i < s.ratio.size(); ++i) {
+    out += s.node[i] >= 0 ? "sphere 1 " : "sphere 0 ";
+    put(out, s.ratio[i]);
+    for (size_t c = 0; c < d; ++c) put(out += ' ', s.high[i * d + c], s.low[i * d + c]);
+    out += '\n';
+    file.flush_if_full();
+  }
+  for (size_t k = 0; k < s.contacts(); ++k) {
+    out += "contact " + std::to_string(s.sphere[s.a[k]]) + ' ' + std::to_string(s.sphere[s.b[k]]);
+    for (size_t c = 0; c < d; ++c) out += ' ' + std::to_string(s.image[k * d + c]);
+    put(out += ' ', s.force[k]);
+    out += '\n';
+    file.flush_if_full();
+  }
+  file.commit();
+}
+
+}  // namespace jam

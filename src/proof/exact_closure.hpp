@@ -1,0 +1,11 @@
+// Crystals: contacts that close exactly at the written doubles, with more of them than unknowns.
+#pragma once
+#include "proof/scene.hpp"
+
+namespace jam {
+
+// Whether one Gamma makes every F_c exactly 0 at the scene's centres, to the last bit. Then Gamma is that, and forces
+// that are equal but for rounding are made equal.
+bool close_exactly(ProofScene &scene);
+
+}  // namespace jam

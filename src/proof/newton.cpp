@@ -1,0 +1,81 @@
+#include "proof/newton.hpp"
+
+#include <cmath>
+
+#include "core/call_scope.hpp"
+#include "linalg/blas.hpp"
+#include "proof/exact_closure.hpp"
+#include "proof/tuning.hpp"
+
+namespace jam {
+namespace {
+
+double length(const std::vector<double> &x) {
+  double s = 0.0;
+  for (const double v : x) s += v * v;
+  return std::sqrt(s);
+}
+
+// hi + lo += x, to two doubles.
+void add_to(double &high, double &low, double x) {
+  const DoubleDouble sum = DoubleDouble(high, low) + DoubleDouble(x);
+  high = sum.high, low = sum.low;
+}
+
+// f with R^T f = 0 and sum f sigma^2 = 1.
+void refine_forces(ProofScene &s, const ProofEquations &e, const NormalMatrix &normal) {
+  normal.project_on_balance(s.force);
+  double sum = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * e.sigma2[c];
+  for (double &f : s.force) f /= sum;
+}
+
+}  // namespace
+
+// f^T (R v - sigma^2 g) = -f^T F and f^T R = 0 give g; the rest is a system in R alone.
+NewtonStep newton_step(const ProofScene &s, const ProofEquations &e, const NormalMatrix &normal) {
+  NewtonStep step;
+  double sum = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c) step.gamma += s.force[c] * e.f[c], sum += s.force[c] * e.sigma2[c];
+  step.gamma /= sum;
+  std::vector<double> y(s.contacts());
+  for (size_t c = 0; c < s.contacts(); ++c) y[c] = e.sigma2[c] * step.gamma - e.f[c];
+  step.v = normal.nearest(y);
+  return step;
+}
+
+void take_step(ProofScene &s, const NewtonStep &step) {
+  const size_t d = static_cast<size_t>(s.dim);
+  for (size_t i = 1; i < s.nodes(); ++i)
+    for (size_t k = 0; k < d; ++k) {
+      const size_t at = static_cast<size_t>(s.sphere[i]) * d + k;
+      add_to(s.high[at], s.low[at], step.v[i * d + k]);
+    }
+  add_to(s.gamma, s.gamma_low, step.gamma);
+}
+
+bool refine(ProofScene &s, ProofEquations &e) {
+  const BlasSingleThread single;
+  if (s.contacts() == 0) return false;
+  const bool closed = close_exactly(s);  // nothing to refine, and no step may spoil it
+  e = evaluate(s);
+  if (!closed) {
+    NormalMatrix normal(s, e);
+    if (!normal.factorise()) return false;
+    refine_forces(s, e, normal);
+    for (int k = 0; k < proof_tuning::newton_steps; ++k) {
+      CallScope::look();
+      ProofScene next = s;
+      take_step(next, newton_step(s, e, normal));
+      ProofEquations there = evaluate(next);
+      if (!(length(there.f) < length(e.f))) break;
+      s = std::move(next), e = std::move(there);
+    }
+  }
+  NormalMatrix normal(s, e);
+  if (!normal.factorise()) return false;
+  if (!closed) refine_forces(s, e, normal);
+  return true;
+}
+
+}  // namespace jam

@@ -1,0 +1,141 @@
+#include "proof/normal_matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/call_scope.hpp"
+#include "core/rng.hpp"
+#include "proof/outward.hpp"
+#include "proof/tuning.hpp"
+
+namespace jam {
+
+NormalMatrix::NormalMatrix(const ProofScene &s, const ProofEquations &e) : scene_(s), equations_(e) {
+  const size_t d = static_cast<size_t>(s.dim), dd = d * d;
+  m_.dim = s.dim, m_.nodes = static_cast<int32_t>(s.nodes());
+  m_.diag.assign(s.nodes() * dd, 0.0);
+  std::map<std::pair<int32_t, int32_t>, std::vector<double>> off;
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    const double *r = &e.row[c * d];
+    const int32_t a = s.a[c], b = s.b[c];
+    const bool couples = a != 0 && b != 0;
+    std::vector<double> *block = nullptr;
+    if (couples) {
+      block = &off[{std::min(a, b), std::max(a, b)}];
+      block->resize(dd, 0.0);
+    }
+    for (size_t p = 0; p < d; ++p)
+      for (size_t q = 0; q < d; ++q) {
+        const double x = r[p] * r[q];
+        if (a != 0) m_.diag[a * dd + p * d + q] += x;
+        if (b != 0) m_.diag[b * dd + p * d + q] += x;
+        if (couples) (*block)[p * d + q] -= x;
+      }
+  }
+  double trace = 0.0;
+  for (size_t i = d; i < s.unknowns(); ++i) trace += m_.diag[i * d + i % d];
+  for (size_t p = 0; p < d; ++p) m_.diag[p * d + p] = trace / static_cast<double>(s.unknowns());
+  for (auto &[pair, block] : off) {
+    m_.ei.push_back(pair.first), m_.ej.push_back(pair.second);
+    m_.off.insert(m_.off.end(), block.begin(), block.end());
+  }
+}
+
+bool NormalMatrix::factorise() {
+  factor_ = std::make_unique<ShiftedFactor>(m_);
+  return factor_->factorise(0.0);
+}
+
+std::vector<double> NormalMatrix::nearest(const std::vector<double> &y) const {
+  std::vector<double> v(scene_.unknowns(), 0.0), step(v.size()), left(y), image(y.size());
+  for (int pass = 0; pass < proof_tuning::refinements; ++pass) {
+    CallScope::look();
+    multiply_columns(scene_, equations_, left.data(), step.data());
+    factor_->solve(step.data());
+    for (size_t k = 0; k < v.size(); ++k) v[k] += step[k];
+    multiply_rows(scene_, equations_, v.data(), image.data());
+    for (size_t c = 0; c < y.size(); ++c) left[c] = y[c] - image[c];
+  }
+  std::fill(v.begin(), v.begin() + scene_.dim, 0.0);
+  return v;
+}
+
+void NormalMatrix::project_on_balance(std::vector<double> &f) const {
+  std::vector<double> step(scene_.unknowns()), image(f.size());
+  for (int pass = 0; pass < proof_tuning::refinements; ++pass) {
+    multiply_columns(scene_, equations_, f.data(), step.data());
+    factor_->solve(step.data());
+    multiply_rows(scene_, equations_, step.data(), image.data());
+    for (size_t c = 0; c < f.size(); ++c) f[c] -= image[c];
+  }
+}
+
+// Inverse iteration from a start without a special direction. An estimate alone: nothing proved rests on it.
+double NormalMatrix::smallest_eigenvalue() const {
+  std::vector<double> v(scene_.unknowns(), 0.0), y(scene_.contacts());
+  Rng random(7, Stream::analysis_start);
+  for (size_t k = scene_.dim; k < v.size(); ++k) v[k] = random.uniform() - 0.5;
+  double value = 0.0;
+  for (int pass = 0; pass < proof_tuning::inverse_iterations; ++pass) {
+    CallScope::look();
+    factor_->solve(v.data());
+    std::fill(v.begin(), v.begin() + scene_.dim, 0.0);
+    double length = 0.0, stretch = 0.0;
+    for (const double x : v) length += x * x;
+    if (!(length > 0.0)) return 0.0;
+    for (double &x : v) x /= std::sqrt(length);
+    multiply_rows(scene_, equations_, v.data(), y.data());
+    for (const double x : y) stretch += x * x;
+    value = stretch;
+  }
+  return value;
+}
+
+// |R'^T R' - M| in the 2-norm, R' the rounded rows: each entry is a sum of at most z products, so it is
+// gamma_(z + 3) |R'|^T |R'| (its 2-norm is at most the product of the largest row and column sum).
+double NormalMatrix::forming_error() const {
+  const size_t d = static_cast<size_t>(scene_.dim);
+  std::vector<double> column(scene_.unknowns());
+  std::vector<int32_t> z(scene_.nodes(), 0);
+  double largest_row = 0.0;
+  multiply_columns(scene_, equations_, std::vector<double>(scene_.contacts(), 1.0).data(), column.data(), true);
+  for (size_t c = 0; c < scene_.contacts(); ++c) {
+    std::vector<double> part;
+    for (size_t k = 0; k < d; ++k) part.push_back(2.0 * std::fabs(equations_.row[c * d + k]));
+    largest_row = std::max(largest_row, sum_up(part));
+    ++z[scene_.a[c]], ++z[scene_.b[c]];
+  }
+  const double most = *std::max_element(z.begin(), z.end());
+  const double largest_column =
+      mul_up(*std::max_element(column.begin(), column.end()), add_up(1.0, gamma_of(most + 2.0)));
+  return mul_up(gamma_of(most + 3.0), mul_up(largest_row, largest_column));
+}
+
+NormalMatrix::Bound NormalMatrix::bound() {
+  Bound out;
+  out.eigenvalue = smallest_eigenvalue();
+  const double rows = norm_up(equations_.row);
+  for (const double part : proof_tuning::parts_of_eigenvalue) {
+    const double mu = part * out.eigenvalue;
+    ShiftedFactor shifted(m_);
+    if (!(mu > 0.0) || !shifted.factorise(-mu)) continue;
+    const ShiftedFactor::Size size = shifted.size();
+    // The factor's matrix has M's diagonal less mu, rounded.
+    double diagonal = 0.0;
+    for (size_t i = 0; i < scene_.unknowns(); ++i)
+      diagonal = std::max(diagonal, m_.diag[i * scene_.dim + i % scene_.dim]);
+    out.rounding = add_up(add_up(mul_up(gamma_of(static_cast<double>(size.longest_row) + 4.0), size.absolute_square),
+                                 mul_up(2.0 * half_ulp, diagonal)),
+                          forming_error());
+    const double left = sub_down(mu, out.rounding);
+    if (!(left > 0.0)) continue;
+    // R differs from its rounded rows by half_ulp in each entry; each row stands twice.
+    out.singular = std::max(0.0, sub_down(sqrt_down(left), mul_up(2.0 * half_ulp, mul_up(2.0, rows))));
+    if (out.singular > 0.0) return out;
+  }
+  out.singular = 0.0;
+  return out;
+}
+
+}  // namespace jam

@@ -1,0 +1,84 @@
+#include "proof/open_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/pairs.hpp"
+#include "proof/outward.hpp"
+#include "proof/tuning.hpp"
+
+namespace jam {
+namespace {
+
+using Image = std::vector<int32_t>;
+
+// Contacts of each pair of spheres, i < j, as images of i - j.
+std::map<std::pair<int32_t, int32_t>, std::set<Image>> contact_images(const ProofScene &s) {
+  std::map<std::pair<int32_t, int32_t>, std::set<Image>> out;
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    int32_t i = s.sphere[s.a[c]], j = s.sphere[s.b[c]];
+    Image n(s.image.begin() + static_cast<std::ptrdiff_t>(c * s.dim),
+            s.image.begin() + static_cast<std::ptrdiff_t>((c + 1) * s.dim));
+    if (i > j) {
+      std::swap(i, j);
+      for (int32_t &x : n) x = -x;
+    }
+    out[{i, j}].insert(n);
+  }
+  return out;
+}
+
+// The packing of doubles with the scene's diameters, for the search of pairs: it is off by 1e-16, the search looks
+// 1e-3 far.
+Packing rounded(const ProofScene &s) {
+  Packing p;
+  p.dim = s.dim, p.cell = s.cell, p.non_additivity = s.non_additivity;
+  p.position = s.high;
+  for (const double ratio : s.ratio) p.diameter.push_back(std::sqrt(s.gamma) * ratio);
+  return p;
+}
+
+}  // namespace
+
+OpenGaps open_gaps(const ProofScene &s, double radius, double gamma) {
+  OpenGaps out;
+  out.least = proof_tuning::near;
+  const Packing p = rounded(s);
+  const size_t d = static_cast<size_t>(s.dim);
+  const auto contacts = contact_images(s);
+  // A pair that the search leaves out has a gap of `near` less rounding; that is open where the radius is far smaller.
+  out.open = radius < 1e-3 * proof_tuning::near * *std::min_element(p.diameter.begin(), p.diameter.end());
+  const PairList pairs = find_pairs(p, 0.0, 1.0 + proof_tuning::near);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const int32_t i = pairs.i[k], j = pairs.j[k];
+    Image n(d);
+    if (!lattice_image(p.cell, &pairs.offset[k * d], n.data())) return {};
+    const auto at = contacts.find({i, j});
+    if (at != contacts.end() && at->second.count(n)) continue;
+    Expansion sum;
+    double one = 0.0;
+    for (size_t c = 0; c < d; ++c) {
+      Expansion r(s.high[i * d + c]);
+      r.add(s.low[i * d + c]), r.add(-s.high[j * d + c]), r.add(-s.low[j * d + c]);
+      for (size_t q = c; q < d; ++q)
+        if (n[q] != 0) r.add_product(n[q], s.cell.row(static_cast<int>(q))[c]);
+      sum.add_product(r, r);
+      one = add_up(one, up(std::fabs(r.value())));
+    }
+    const double moving = (s.node[i] >= 0) + (s.node[j] >= 0);
+    const double need = mul_up(gamma, up(s.sigma_squared(i, j).value()));
+    const double have = sub_down(down(sum.value()), mul_up(2.0 * moving, mul_up(one, radius)));
+    out.least = std::min(out.least, std::sqrt(std::max(0.0, have) / need) - 1.0);
+    if (have > need) continue;
+    out.open = false;
+    out.of_rattler = moving < 2.0;
+  }
+  const double widest = *std::max_element(s.ratio.begin(), s.ratio.end());
+  if (!(mul_up(gamma, mul_up(widest, widest)) < s.cell.shortest() * s.cell.shortest() * (1.0 - 1e-12)))
+    out.open = false;
+  return out;
+}
+
+}  // namespace jam

@@ -1,0 +1,143 @@
+#include "proof/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jam {
+
+Expansion ProofScene::component(size_t c, int k) const {
+  const size_t i = static_cast<size_t>(sphere[a[c]]) * dim + k, j = static_cast<size_t>(sphere[b[c]]) * dim + k;
+  Expansion r(high[i]);
+  r.add(low[i]), r.add(-high[j]), r.add(-low[j]);
+  for (int q = k; q < dim; ++q)
+    if (image[c * dim + q] != 0) r.add_product(image[c * dim + q], cell.row(q)[k]);
+  return r;
+}
+
+Expansion ProofScene::sigma_squared(int32_t i, int32_t j) const {
+  Expansion sum(0.5 * ratio[i]), square;
+  sum.add(0.5 * ratio[j]);
+  if (non_additivity != 0.0 && ratio[i] != ratio[j]) {
+    Expansion factor(1.0), longer;
+    factor.add(non_additivity);
+    longer.add_product(sum, factor);
+    sum = longer;
+  }
+  square.add_product(sum, sum);
+  return square;
+}
+
+bool lattice_image(const Cell &cell, const double *offset, int32_t *n) {
+  Cell::Vector s{};
+  cell.fraction(offset, s.data());
+  for (int c = 0; c < cell.dim(); ++c) {
+    const double whole = std::nearbyint(s[c]);
+    if (!(std::fabs(s[c] - whole) < 1e-6) || std::fabs(whole) > 1e6) return false;
+    n[c] = static_cast<int32_t>(whole);
+  }
+  return true;
+}
+
+namespace {
+
+// Where Newton starts is free: numbers whose squares would leave the range of doubles become 0.
+double without_tiny(double x) { return std::fabs(x) < 1e-60 ? 0.0 : x; }
+
+void take_contacts(const Packing &p, const ContactNetwork &network, ProofScene &s) {
+  const size_t d = static_cast<size_t>(p.dim);
+  s.node.assign(p.n(), -1);
+  for (size_t i = 0; i < p.n(); ++i)
+    if (network.coordination[i] > 0) {
+      s.node[i] = static_cast<int32_t>(s.sphere.size());
+      s.sphere.push_back(static_cast<int32_t>(i));
+    }
+  s.image.resize(network.size() * d);
+  for (size_t c = 0; c < network.size(); ++c) {
+    s.a.push_back(s.node[network.pairs.i[c]]), s.b.push_back(s.node[network.pairs.j[c]]);
+    s.own_images = s.own_images || network.pairs.own_image(c);
+    if (!lattice_image(p.cell, &network.pairs.offset[c * d], &s.image[c * d]))
+      fail(JAM_E_ARGUMENT, "contact %zu is shifted by no cell vector: proofs are for spheres without such shifts", c);
+  }
+}
+
+}  // namespace
+
+ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio) {
+  ProofScene s;
+  s.dim = p.dim;
+  s.unit = std::ldexp(1.0, std::ilogb(p.cell.side()));
+  std::vector<double> rows = p.cell.rows();
+  for (double &x : rows) {
+    x /= s.unit;
+    if (x != 0.0 && std::fabs(x) < 1e-60) fail(JAM_E_ARGUMENT, "the cell has an entry of %g of its size", x);
+  }
+  s.cell = Cell::from_triangle(p.dim, rows.data());
+  s.non_additivity = p.non_additivity;
+  s.high = p.position;
+  for (double &x : s.high) x = without_tiny(x / s.unit);
+  s.low.assign(s.high.size(), 0.0);
+  take_contacts(p, network, s);
+  // Only ratios count, and those of equal spheres are 1.
+  double given = 0.0, now = 0.0;
+  const bool equal = std::count(p.diameter.begin(), p.diameter.end(), p.diameter[0]) == static_cast<long>(p.n());
+  for (size_t i = 0; i < p.n(); ++i) {
+    s.ratio.push_back(!ratio.empty() ? ratio[i] : equal ? 1.0 : p.diameter[i] / s.unit);
+    given += s.ratio.back(), now += p.diameter[i] / s.unit;
+  }
+  s.gamma = (now / given) * (now / given);
+  // f_c in units of |r_c|: forces times directions balance, and directions are r_c / |r_c|.
+  double sum = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    const double sigma2 = s.sigma_squared(c).value();
+    s.force.push_back(network.force[c] / std::sqrt(sigma2));
+    sum += s.force.back() * sigma2;
+  }
+  for (double &f : s.force) f /= sum;
+  return s;
+}
+
+ProofEquations evaluate(const ProofScene &s) {
+  ProofEquations e;
+  const size_t d = static_cast<size_t>(s.dim);
+  e.row.resize(s.contacts() * d);
+  Expansion gamma(s.gamma);
+  gamma.add(s.gamma_low);
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    Expansion sum;
+    for (size_t k = 0; k < d; ++k) {
+      const Expansion r = s.component(c, static_cast<int>(k));
+      sum.add_product(r, r);
+      e.row[c * d + k] = 2.0 * r.value();
+    }
+    const Expansion sigma2 = s.sigma_squared(c);
+    sum.add_product(gamma, sigma2, -1.0);
+    e.f.push_back(sum.value()), e.sigma2.push_back(sigma2.value());
+  }
+  return e;
+}
+
+void multiply_rows(const ProofScene &s, const ProofEquations &e, const double *v, double *y) {
+  const size_t d = static_cast<size_t>(s.dim);
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    double sum = 0.0;
+    for (size_t k = 0; k < d; ++k) {
+      const double xa = s.a[c] ? v[s.a[c] * d + k] : 0.0, xb = s.b[c] ? v[s.b[c] * d + k] : 0.0;
+      sum += e.row[c * d + k] * (xa - xb);
+    }
+    y[c] = sum;
+  }
+}
+
+void multiply_columns(const ProofScene &s, const ProofEquations &e, const double *f, double *y, bool absolute) {
+  const size_t d = static_cast<size_t>(s.dim);
+  std::fill(y, y + s.unknowns(), 0.0);
+  for (size_t c = 0; c < s.contacts(); ++c)
+    for (size_t k = 0; k < d; ++k) {
+      const double x = e.row[c * d + k] * f[c];
+      y[s.a[c] * d + k] += absolute ? std::fabs(x) : x;
+      y[s.b[c] * d + k] += absolute ? std::fabs(x) : -x;
+    }
+  std::fill(y, y + d, 0.0);  // node 0 is pinned
+}
+
+}  // namespace jam

@@ -1,0 +1,372 @@
+"""Proofs: the checker, which does not know libjam, confirms its proofs and refuses what was changed."""
+import ast
+import importlib.util
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+import numpy as np
+
+import jam
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHECKER = ROOT / "bindings/proof/jamproof.py"
+spec = importlib.util.spec_from_file_location("jamproof", CHECKER)
+jamproof = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(jamproof)
+
+
+def packing(n, dim, seed):
+    ratio = np.where(np.arange(n) % 2, 1.4, 1.0) if dim == 2 else np.ones(n)
+    system = jam.System.random(n=n, dim=dim, seed=seed, diameters=ratio, packing_fraction={2: 0.3, 3: 0.2, 4: 0.1}[dim])
+    system.compress(growth_rate=1e-2, pressure=1e4)
+    system.crunch()
+    return system, ratio
+
+
+def file_of(system, ratio):
+    with tempfile.TemporaryDirectory() as folder:
+        path = folder + "/a.jamproof"
+        system.write_proof(path, ratio)
+        return pathlib.Path(path).read_text(encoding="ascii")
+
+
+def without_docstrings(source):
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node) is not None:
+            node.body = node.body[1:] or [ast.Pass()]
+    return tree
+
+
+def verdict(text):
+    """What the checker proves of a text, or the first word of its refusal."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "a.jamproof"
+        path.write_text(text, encoding="ascii")
+        try:
+            return jamproof.check(jamproof.Scene(path))
+        except jamproof.Refused as why:
+            return str(why).split(":")[0]
+        except (ValueError, LookupError, TypeError, OverflowError, ZeroDivisionError):
+            return "unreadable"
+
+
+def word(value, exponent=-140):
+    """A number of a proof file: value rounded to 2^exponent."""
+    return f"{round(Fraction(value) / Fraction(2) ** exponent)}p{exponent}"
+
+
+def value(text):
+    return jamproof.fraction(*jamproof.number(text))
+
+
+class File:
+    """The lines of a proof file, to be changed."""
+
+    def __init__(self, text):
+        self.lines = [line.split() for line in text.splitlines()]
+        self.spheres = [line for line in self.lines if line[0] == "sphere"]
+        self.contacts = [line for line in self.lines if line[0] == "contact"]
+        self.gamma = next(line for line in self.lines if line[0] == "gamma")
+
+    def text(self):
+        return "\n".join(" ".join(line) for line in self.lines) + "\n"
+
+    def scale(self, line, at, factor):
+        line[at] = word(value(line[at]) * Fraction(factor))
+
+    def shift(self, line, at, by):
+        line[at] = word(value(line[at]) + Fraction(by))
+
+
+# Each kind changes what the file claims. Name, change(file, random), and by how much the exact packing may then be
+# away from the written one: None where nothing may be proved.
+def moved(by):
+    return lambda f, r: f.shift(r.choice([s for s in f.spheres if s[1] == "1"]), 3 + r.randrange(2), by)
+
+
+def resized(by):
+    return lambda f, r: f.scale(r.choice([s for s in f.spheres if s[1] == "1"]), 2, 1 + by)
+
+
+def swap_images(f, r):
+    line = r.choice(f.contacts)
+    line[3] = str(int(line[3]) + r.choice((-1, 1)))
+
+
+def exchange_end(f, r):
+    """A contact exchanged for another pair."""
+    line = r.choice(f.contacts)
+    others = [k for k in range(len(f.spheres)) if f.spheres[k][1] == "1" and str(k) not in line[1:3]]
+    line[2] = str(r.choice(others))
+
+
+def nearest_open_pair(f, r):
+    """A contact exchanged for the pair with the smallest gap that is none."""
+    scene = scene_of(f)
+    closed = {frozenset(map(int, line[1:3])) for line in f.contacts}
+    best = None
+    for i in range(len(scene.x)):
+        for j in range(i):
+            if not (scene.stable[i] and scene.stable[j]) or frozenset((i, j)) in closed:
+                continue
+            for n in jamproof.images(scene, i, j, 0.9):
+                v = scene.vector(i, j, n)
+                ratio = jamproof.fraction(sum(c * c for c in v), 2 * scene.k) / jamproof.fraction(*scene.sigma2(i, j))
+                if best is None or ratio < best[0]:
+                    best = ratio, i, j, n
+    line = r.choice(f.contacts)
+    line[1:3] = [str(best[1]), str(best[2])]
+    line[3 : 3 + scene.dim] = [str(k) for k in best[3]]
+
+
+def scene_of(f):
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "a.jamproof"
+        path.write_text(f.text(), encoding="ascii")
+        return jamproof.Scene(path)
+
+
+def drop(f, r):
+    f.lines.remove(r.choice(f.contacts))
+
+
+def drop_weakest(f, r):
+    f.lines.remove(min(f.contacts, key=lambda line: value(line[-1])))
+
+
+def double(f, r):
+    f.lines.append(list(r.choice(f.contacts)))
+
+
+def replace_by_double(f, r):
+    a, b = r.sample(f.contacts, 2)
+    f.lines[f.lines.index(a)] = list(b)
+
+
+def negate(f, r):
+    f.scale(r.choice(f.contacts), -1, -1)
+
+
+def no_force(f, r):
+    r.choice(f.contacts)[-1] = "0p0"
+
+
+def called_rattler(f, r):
+    r.choice([s for s in f.spheres if s[1] == "1"])[1] = "0"
+
+
+def called_stable(f, r):
+    rattlers = [s for s in f.spheres if s[1] == "0"]
+    if rattlers:
+        r.choice(rattlers)[1] = "1"
+    else:
+        called_rattler(f, r)
+
+
+def rattler_into_neighbour(f, r):
+    """A rattler put where it overlaps, or a new sphere where there is none."""
+    stable = r.choice([s for s in f.spheres if s[1] == "1"])
+    rattlers = [s for s in f.spheres if s[1] == "0"]
+    if rattlers:
+        r.choice(rattlers)[3:] = stable[3:]
+    else:
+        f.lines.append(["sphere", "0", stable[2], *stable[3:]])
+
+
+def new_large_sphere(f, r):
+    stable = r.choice([s for s in f.spheres if s[1] == "1"])
+    f.lines.append(["sphere", "0", stable[2], *[word(value(x) + Fraction(1, 50)) for x in stable[3:]]])
+
+
+def wide_cell(by):
+    def change(f, r):
+        line = next(line for line in f.lines if line[0] == "cell")
+        f.scale(line, 1, 1 + by)
+
+    return change
+
+
+def swap_two(f, r):
+    a, b = r.sample([s for s in f.spheres if s[1] == "1"], 2)
+    a[3:], b[3:] = b[3:], a[3:]
+
+
+def swap_sizes(f, r):
+    a = r.choice([s for s in f.spheres if s[1] == "1"])
+    b = r.choice([s for s in f.spheres if s[1] == "1" and s[2] != a[2]] or [a])
+    if a is b:
+        f.scale(a, 2, Fraction(11, 10))
+    a[2], b[2] = b[2], a[2]
+
+
+def round_diameters(f, r):
+    """Diameters of eight digits, centres not moved accordingly."""
+    for s in f.spheres:
+        s[2] = word(Fraction(round(value(s[2]) * 10**4 * (1 + Fraction(r.randrange(-9, 9), 9999))), 10**4))
+
+
+def one_force_larger(f, r):
+    f.scale(r.choice(f.contacts), -1, Fraction(10001, 10000))
+
+
+def all_forces_equal(f, r):
+    for line in f.contacts:
+        line[-1] = "1p0"
+
+
+NOT = None
+KINDS = {
+    "contact missing": (drop, NOT),
+    "weakest contact missing": (drop_weakest, NOT),
+    "contact twice": (double, NOT),
+    "contact in the place of another": (replace_by_double, NOT),
+    "contact with another image": (swap_images, NOT),
+    "contact with another end": (exchange_end, NOT),
+    "contact exchanged for the nearest open pair": (nearest_open_pair, NOT),
+    "force negated": (negate, NOT),
+    "force zero": (no_force, NOT),
+    "stable sphere called rattler": (called_rattler, NOT),
+    "rattler called stable": (called_stable, NOT),
+    "rattler overlaps": (rattler_into_neighbour, NOT),
+    "sphere added into others": (new_large_sphere, NOT),
+    "two centres exchanged": (swap_two, NOT),
+    "two sizes exchanged": (swap_sizes, NOT),
+    "all forces equal": (all_forces_equal, NOT),
+    "diameters of four digits": (round_diameters, NOT),
+    "cell wider by 1e-2": (wide_cell(Fraction(1, 100)), NOT),
+    "centre off by 1e-3": (moved(Fraction(1, 10**3)), NOT),
+    "centre off by 1e-2": (moved(Fraction(1, 10**2)), NOT),
+    "diameter larger by 1e-2": (resized(Fraction(1, 100)), NOT),
+    "diameter larger by 1e-1": (resized(Fraction(1, 10)), NOT),
+    "gamma larger by 1e-1": (lambda f, r: f.scale(f.gamma, 1, Fraction(11, 10)), NOT),
+    "centre off by 1e-30": (moved(Fraction(1, 10**30)), 1e-30),
+    "centre off by 1e-20": (moved(Fraction(1, 10**20)), 1e-20),
+    "centre off by 1e-12": (moved(Fraction(1, 10**12)), 1e-12),
+    "centre off by 1e-9": (moved(Fraction(1, 10**9)), 1e-9),
+    "diameter larger by 1e-13": (resized(Fraction(1, 10**13)), 1e-16),
+    "gamma larger by 1e-20": (lambda f, r: f.scale(f.gamma, 1, 1 + Fraction(1, 10**20)), 1e-25),
+    "force larger by 1e-4": (one_force_larger, 0.0),
+    "cell wider by 1e-15": (wide_cell(Fraction(1, 10**15)), 1e-18),
+}
+
+
+class Proofs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = [packing(n, dim, seed) for n, dim, seed in ((32, 2, 2), (32, 3, 1), (24, 3, 5), (32, 4, 3))]
+        cls.files = [(file_of(*made), made) for made in cls.made if made[0].report.excess_contacts == 0]
+
+    def test_the_checker_agrees_with_the_library(self):
+        self.assertGreaterEqual(len(self.files), 3)
+        for text, (system, ratio) in self.files:
+            proof, found = system.prove(ratio), verdict(text)
+            self.assertEqual(proof.theorem, jam.Theorem.EXACT)
+            self.assertIsInstance(found, dict, found)
+            # Two bounds of one distance, in the 2-norm and the largest norm: neither may be below what the other knows.
+            self.assertLess(found["radius"], 1e-28)
+            self.assertLess(proof.radius, 1e-28)
+            self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+            self.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+
+    def test_refined_centres_close_all_contacts(self):
+        """In fractions: every contact distance is the same multiple of sigma to 30 digits."""
+        for _, (system, ratio) in self.files:
+            high, low = system.refined_positions(ratio)
+            x = [[Fraction(a) + Fraction(b) for a, b in zip(*rows)] for rows in zip(high.tolist(), low.tolist())]
+            side, squares = Fraction(float(system.box)), []
+            for i, j in system.contacts.pairs.tolist():
+                r = [a - b for a, b in zip(x[i], x[j])]
+                r = [v - side * round(v / side) for v in r]
+                sigma = (Fraction(float(ratio[i])) + Fraction(float(ratio[j]))) / 2
+                squares.append(sum(v * v for v in r) / sigma**2)
+            self.assertLess(float(max(squares) / min(squares) - 1), 1e-29)
+            doubles = [float(system.diameters[0] / ratio[0]) ** 2, float(squares[0])]
+            self.assertAlmostEqual(doubles[0] / doubles[1], 1.0, delta=1e-13)
+
+    def test_changed_files_are_not_proved(self):
+        self.assertGreaterEqual(len(KINDS), 30)
+        generator = random.Random(1)
+        for text, _ in self.files[:3]:
+            for name, (change, away) in KINDS.items():
+                with self.subTest(kind=name):
+                    f = File(text)
+                    change(f, generator)
+                    found = verdict(f.text())
+                    if away is None:
+                        self.assertNotIsInstance(found, dict, f"{name}: {found}")
+                    elif isinstance(found, dict):  # a proof whose radius covers the change is right
+                        self.assertGreaterEqual(found["radius"], 0.5 * away)
+
+    def test_damage_is_refused_or_harmless(self):
+        text, generator = self.files[0][0], random.Random(2)
+        for _ in range(60):
+            at = generator.randrange(len(text))
+            found = verdict(text[:at] + generator.choice("0123456789p-., x") + text[at + 1 :])
+            self.assertTrue(isinstance(found, (dict, str)))
+        self.assertNotIsInstance(verdict(text[: len(text) // 2]), dict)
+        self.assertEqual(verdict("something else\n"), "unreadable")
+
+    def test_the_checker_is_a_program_of_its_own(self):
+        """It runs without libjam and without numpy, and with an inverse in the file."""
+        text = self.files[0][0]
+        source = CHECKER.read_text(encoding="ascii")
+        self.assertNotIn("import jam", source)
+        code = [line for line in ast.unparse(without_docstrings(source)).splitlines() if line.strip()]
+        self.assertLessEqual(len(code), 250, "the checker is to be read in one sitting")
+        with tempfile.TemporaryDirectory() as folder:
+            path, other = folder + "/a.jamproof", folder + "/b.jamproof"
+            pathlib.Path(path).write_text(text, encoding="ascii")
+            run = lambda *a: subprocess.run([sys.executable, "-I", "-S", str(CHECKER), *a], capture_output=True, text=True)
+            first, second = run(path, other), run(other)
+            self.assertEqual((first.returncode, second.returncode), (0, 0), first.stdout + first.stderr)
+            self.assertEqual(first.stdout, second.stdout)
+            with open(other, encoding="ascii") as file:
+                lines = file.read().splitlines()
+            bad = lines[-1].split()
+            bad[2] = bad[2][:100] + ("A" if bad[2][100] != "A" else "B") + bad[2][101:]
+            pathlib.Path(other).write_text("\n".join(lines[:-1] + [" ".join(bad)]) + "\n", encoding="ascii")
+            self.assertIn(run(other).returncode, (1, 2))
+            self.assertEqual(run(folder + "/none").returncode, 2)
+            pathlib.Path(path).write_text(text.replace("sphere 1", "sphere 0", 1), encoding="ascii")
+            self.assertEqual(run(path).returncode, 1)
+
+    def test_what_is_not_jammed_is_not_proved(self):
+        square = np.stack(np.meshgrid(np.arange(4), np.arange(4), indexing="ij"), -1).reshape(-1, 2) / 4.0
+        system = jam.System.from_arrays(square, 0.25)
+        system.contacts_from_geometry()
+        proof = system.prove()
+        self.assertEqual(proof.theorem, jam.Theorem.NONE)
+
+    def test_crystals_are_trapped(self):
+        """fcc of exact numbers: all contacts close, more than one state of self-stress."""
+        base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
+        grid = np.stack(np.meshgrid(*[np.arange(2)] * 3, indexing="ij"), -1).reshape(-1, 3)
+        x = ((grid[:, None] + base).reshape(-1, 3)) / 2.0
+        system = jam.System.from_arrays(x, 0.5 * 0.5**0.5 * (1 - 1e-16))
+        system.contacts_from_geometry()
+        proof = system.prove()
+        self.assertEqual(proof.theorem, jam.Theorem.EXACT)  # its numbers are binary fractions: all contacts close exactly
+        self.assertGreater(proof.outer, 1e-4)
+        text = file_of(system, None)
+        self.assertEqual(verdict(text)["radius"], 0.0)
+        f = File(text)
+        f.lines = [line for line in f.lines if line[0] != "contact" or line[1] != "0"]
+        f.spheres[0][1] = "0"  # a vacancy would be stable too, but forces of one size no longer balance
+        self.assertEqual(verdict(f.text()), "force")
+        # A third of a side is no binary fraction: trapped, but not exactly closed.
+        triple = np.stack(np.meshgrid(*[np.arange(3)] * 3, indexing="ij"), -1).reshape(-1, 3)
+        x = ((triple[:, None] + base).reshape(-1, 3)) / 3.0
+        system = jam.System.from_arrays(x, 0.5**0.5 / 3.0 * (1 - 1e-15))
+        system.contacts_from_geometry()
+        proof = system.prove()
+        self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,113 @@
+/* Calls of proofs: arguments, statuses, texts, and what a proof of two sizes of disks says. */
+#include <jam/jam.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "test.h"
+
+enum { n = 64 };
+static double sizes[n];
+
+static jam_system *jammed(void) {
+  jam_create_options o;
+  jam_system *sys = NULL;
+  int i;
+  jam_create_options_init(&o, sizeof o);
+  o.n = n, o.dim = 2, o.seed = 1, o.packing_fraction = 0.3;
+  for (i = 0; i < n; ++i) sizes[i] = i % 2 ? 1.4 : 1.0;
+  assert_int_equal(jam_create(&o, NULL, 0, sizes, n, &sys), JAM_OK);
+  assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
+  return sys;
+}
+
+static void bad_arguments_are_refused(void **state) {
+  jam_system *sys = NULL;
+  jam_create_options o;
+  jam_proof_report r = {.struct_size = sizeof r}, wrong = {.struct_size = 3};
+  double low[2 * n], ratio[n];
+  size_t needed = 0;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 20;
+  assert_int_equal(jam_prove(NULL, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_prove(sys, NULL, 0, &r), JAM_E_STATE);
+  assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
+  assert_int_equal(needed, 60);
+  jam_destroy(sys);
+  sys = jammed();
+  assert_int_equal(jam_prove(sys, NULL, 0, &wrong), JAM_E_STRUCT_SIZE);
+  memcpy(ratio, sizes, sizeof ratio);
+  assert_int_equal(jam_prove(sys, ratio, n - 1, &r), JAM_E_ARGUMENT);
+  assert_int_equal(jam_prove(sys, NULL, n, &r), JAM_E_NULL);
+  ratio[5] = 1.4 * (1.0 + 1e-6); /* not the packing's ratios */
+  assert_int_equal(jam_prove(sys, ratio, n, &r), JAM_E_ARGUMENT);
+  assert_non_null(strstr(jam_last_error(), "ratio[5]"));
+  ratio[5] = NAN;
+  assert_int_equal(jam_prove(sys, ratio, n, &r), JAM_E_NONFINITE);
+  ratio[5] = -1.4;
+  assert_int_equal(jam_prove(sys, ratio, n, &r), JAM_E_ARGUMENT);
+  assert_int_equal(jam_write_proof(sys, NULL, NULL, 0), JAM_E_NULL);
+  assert_int_equal(jam_write_proof(sys, "/no/such/folder/x", NULL, 0), JAM_E_IO);
+  assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, low, 2 * n - 1, &needed), JAM_E_BUFFER);
+  jam_destroy(sys);
+}
+
+/* The exact ratio 1.4 of the user is no double, so that the proof speaks of the double nearest to it; centres move by
+   less than the radius that the diameters after the crunch would need. */
+static void a_packing_of_two_sizes_is_proved(void **state) {
+  jam_system *sys = jammed(), *copy;
+  jam_proof_report r = {.struct_size = sizeof r}, plain = {.struct_size = sizeof plain};
+  const double *x, *before;
+  double high[2 * n], low[2 * n], kept[2 * n];
+  size_t len;
+  int i;
+  (void)state;
+  jam_positions_view(sys, &before, &len);
+  memcpy(kept, before, sizeof kept);
+  assert_int_equal(jam_prove(sys, sizes, n, &r), JAM_OK);
+  assert_int_equal(jam_prove(sys, NULL, 0, &plain), JAM_OK);
+  assert_int_equal(r.theorem, JAM_THEOREM_EXACT);
+  assert_int_equal(r.cause, JAM_CAUSE_NONE);
+  assert_int_equal(r.contacts, 2 * (r.stable - 1) + 1);
+  assert_true(r.radius > 0.0 && r.radius < 1e-28); /* two doubles hold 32 digits */
+  assert_true(r.fraction_error > 0.0 && r.fraction_error < 1e-27);
+  assert_true(r.least_force > r.force_error && r.force_error > 0.0);
+  assert_true(r.inner < r.outer && r.outer > 1e-10);
+  assert_true(fabs(r.packing_fraction - plain.packing_fraction) < 1e-12);
+  assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
+  jam_positions_view(sys, &x, &len);
+  assert_memory_equal(x, kept, sizeof kept); /* const: nothing moved */
+  for (i = 0; i < 2 * n; ++i) {
+    assert_true(fabs(high[i] - x[i]) < 1e-12);
+    assert_true(fabs(low[i]) <= 1.2e-16 * fmax(fabs(high[i]), 1e-3));
+  }
+  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  jam_destroy(sys);
+  jam_destroy(copy);
+}
+
+/* Mari-Kurchan shifts are no cell vectors. */
+static void shifted_pairs_are_refused_by_name(void **state) {
+  jam_create_options o;
+  jam_crunch_report r = {.struct_size = sizeof r};
+  jam_system *sys = NULL;
+  (void)state;
+  jam_create_options_init(&o, sizeof o);
+  o.n = 40, o.model = JAM_MODEL_MK, o.packing_fraction = 0.2;
+  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_true(jam_crunch(sys, NULL, &r) >= 0);
+  assert_int_equal(jam_prove(sys, NULL, 0, NULL), JAM_E_UNSUPPORTED);
+  jam_destroy(sys);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(bad_arguments_are_refused),
+                                     cmocka_unit_test(a_packing_of_two_sizes_is_proved),
+                                     cmocka_unit_test(shifted_pairs_are_refused_by_name)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

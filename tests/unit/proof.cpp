@@ -1,0 +1,208 @@
+// Parts of a proof against slow exact oracles: sums without rounding, the size of a factor, the bound of the smallest
+// singular value, and what a proof may not say.
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "linalg/shifted_factor.hpp"
+#include "proof/newton.hpp"
+#include "proof/outward.hpp"
+#include "proof/theorem.hpp"
+// test.h comes last: it has a macro `fail`.
+#include "test.h"
+
+using namespace jam;
+
+namespace {
+
+// A triangular lattice of columns x rows disks, each touching six others, less the disks in `gone`.
+struct Lattice {
+  Packing packing;
+  ContactNetwork network;
+};
+Lattice triangular(int columns, int rows, const std::vector<int> &gone = {}) {
+  Lattice out;
+  Packing &p = out.packing;
+  p.dim = 2;
+  const double height = std::sqrt(0.75);
+  const double cell[4] = {double(columns), 0.0, 0.0, rows * height};
+  p.cell = Cell::from_triangle(2, cell);
+  for (int r = 0, k = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c, ++k) {
+      if (std::find(gone.begin(), gone.end(), k) != gone.end()) continue;
+      p.position.push_back(c + 0.5 * (r % 2)), p.position.push_back(r * height);
+      p.diameter.push_back(1.0);
+    }
+  out.network.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
+  measure_contacts(p, out.network);
+  out.network.coordination.assign(p.n(), 0);
+  out.network.force.assign(out.network.size(), 1.0);
+  for (size_t k = 0; k < out.network.size(); ++k)
+    ++out.network.coordination[out.network.pairs.i[k]], ++out.network.coordination[out.network.pairs.j[k]];
+  return out;
+}
+
+Eigen::MatrixXd dense_rows(const ProofScene &s, const ProofEquations &e) {
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(s.contacts(), s.unknowns());
+  for (size_t c = 0; c < s.contacts(); ++c)
+    for (int k = 0; k < s.dim; ++k) {
+      r(c, s.a[c] * s.dim + k) += e.row[c * s.dim + k];
+      r(c, s.b[c] * s.dim + k) -= e.row[c * s.dim + k];
+    }
+  return r.rightCols(s.unknowns() - s.dim);
+}
+
+void sums_are_exact(void **) {
+  // Integers of 20 bits times powers of two: an exact oracle is 128-bit integers.
+  std::mt19937_64 random(1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Expansion sum, other;
+    __int128 whole = 0, second = 0;
+    for (int k = 0; k < 12; ++k) {
+      const auto m = static_cast<int64_t>(random() % 2097151) - 1048575;
+      const int shift = static_cast<int>(random() % 40);
+      sum.add(std::ldexp(static_cast<double>(m), shift)), whole += static_cast<__int128>(m) << shift;
+      if (k < 3) other.add(static_cast<double>(m)), second += m;
+    }
+    Expansion product;
+    product.add_product(sum, other);
+    __int128 again = 0, expected = whole * second;
+    for (size_t k = 0; k < product.count(); ++k) again += static_cast<__int128>(product.part(k));
+    assert_true(again == expected);
+    assert_true(std::fabs(product.value() - static_cast<double>(expected)) <=
+                2.0 * half_ulp * std::fabs(static_cast<double>(expected)));
+  }
+}
+
+void the_size_of_a_factor_is_that_of_a_dense_one(void **) {
+  std::mt19937_64 random(2);
+  for (const int dim : {2, 3, 5}) {
+    BlockMatrix m;
+    m.dim = dim, m.nodes = 30;
+    const int n = dim * m.nodes;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i < m.nodes; ++i)
+      for (int j = i + 1; j < m.nodes; ++j)
+        if (random() % 8 == 0) {
+          m.ei.push_back(i), m.ej.push_back(j);
+          for (int p = 0; p < dim; ++p)
+            for (int q = 0; q < dim; ++q) {
+              const double x = static_cast<double>(random() % 1000) / 1000.0 - 0.5;
+              m.off.push_back(x);
+              a(i * dim + p, j * dim + q) = a(j * dim + q, i * dim + p) = x;
+            }
+        }
+    for (int i = 0; i < n; ++i) a(i, i) = 4.0 * n;
+    m.diag.assign(static_cast<size_t>(n) * dim, 0.0);
+    for (int i = 0; i < n; ++i) m.diag[static_cast<size_t>(i) * dim + i % dim] = 4.0 * n;
+    ShiftedFactor factor(m);
+    assert_true(factor.factorise(0.0));
+    const ShiftedFactor::Size size = factor.size();
+    // |L| |L^T| has the diagonal of A, and with so heavy a one its rows exceed it by less than the rest of A.
+    assert_true(size.longest_row >= 1 && size.longest_row <= static_cast<size_t>(n));
+    assert_true(size.absolute_square >= a.diagonal().maxCoeff() * (1.0 - 1e-12));
+    const Eigen::MatrixXd l = Eigen::LLT<Eigen::MatrixXd>(a).matrixL();
+    const double dense = (l.cwiseAbs() * l.transpose().cwiseAbs()).rowwise().sum().maxCoeff();
+    // Another elimination order has other fill; both stay near the diagonal.
+    assert_true(std::fabs(size.absolute_square / dense - 1.0) < 0.1);
+  }
+}
+
+void the_singular_bound_is_below_the_singular_value(void **) {
+  for (const auto &gone : {std::vector<int>{}, std::vector<int>{9}, std::vector<int>{9, 20}}) {
+    const Lattice l = triangular(6, 6, gone);
+    const ProofScene s = make_proof_scene(l.packing, l.network, {});
+    const ProofEquations e = evaluate(s);
+    NormalMatrix normal(s, e);
+    assert_true(normal.factorise());
+    const NormalMatrix::Bound bound = normal.bound();
+    const double exact = Eigen::JacobiSVD<Eigen::MatrixXd>(dense_rows(s, e)).singularValues().minCoeff();
+    assert_true(bound.singular > 0.5 * exact);           // 0.6 of its square is tried first
+    assert_true(bound.singular < exact * (1.0 - 1e-6));  // and never more
+  }
+}
+
+void equations_of_a_square_lattice_are_exact(void **) {
+  Packing p;
+  p.set_cube(2, 4.0);
+  ContactNetwork net;
+  for (int k = 0; k < 16; ++k) {
+    p.position.push_back(k % 4), p.position.push_back(k / 4);
+    p.diameter.push_back(1.0);
+  }
+  net.pairs = find_pairs(p, 0.0, 1.0 + 1e-9);
+  measure_contacts(p, net);
+  net.coordination.assign(16, 4);
+  net.force.assign(net.size(), 1.0);
+  ProofScene s = make_proof_scene(p, net, {});
+  ProofEquations e = evaluate(s);
+  for (const double f : e.f) assert_true(f == 0.0);
+  // It balances and closes exactly, but rows shear freely: nothing may be proved.
+  const bool refined = refine(s, e);
+  const Proof proof = refined ? prove(s, e) : Proof();
+  assert_false(proof.exact || proof.trapped);
+}
+
+void crystals_are_trapped_and_not_called_isostatic(void **) {
+  for (const auto &gone : {std::vector<int>{}, std::vector<int>{9}}) {
+    const Lattice l = triangular(6, 6, gone);
+    ProofScene s = make_proof_scene(l.packing, l.network, {});
+    ProofEquations e;
+    assert_true(refine(s, e));
+    const Proof proof = prove(s, e);
+    assert_true(proof.trapped && !proof.exact);
+    assert_int_equal(static_cast<int>(proof.cause), static_cast<int>(ProofCause::excess));
+    // sqrt(3) / 2 in the cell is rounded to 1e-16, so the contacts close to about that.
+    assert_true(proof.inner < 1e-10 && proof.outer > 1e-5);
+  }
+}
+
+void a_force_with_the_wrong_sign_proves_nothing(void **) {
+  const Lattice l = triangular(6, 6);
+  ProofScene s = make_proof_scene(l.packing, l.network, {});
+  ProofEquations e;
+  assert_true(refine(s, e));
+  s.force[5] = -s.force[5];
+  const Proof proof = prove(s, e);
+  assert_false(proof.exact || proof.trapped);
+  assert_int_equal(static_cast<int>(proof.cause), static_cast<int>(ProofCause::force));
+}
+
+// An unbalanced force is positive but no state of self-stress.
+void forces_that_do_not_balance_prove_nothing(void **) {
+  const Lattice l = triangular(6, 6);
+  ProofScene s = make_proof_scene(l.packing, l.network, {});
+  ProofEquations e;
+  assert_true(refine(s, e));
+  s.force[5] *= 2.0;
+  assert_false(prove(s, e).trapped);
+}
+
+void an_overlap_proves_nothing(void **) {
+  Lattice l = triangular(6, 6);
+  // A disk that touches nobody in the list, put into a hole that is too small for it.
+  Packing &p = l.packing;
+  p.position.push_back(0.5), p.position.push_back(0.28);
+  p.diameter.push_back(0.4);
+  l.network.coordination.push_back(0);
+  ProofScene s = make_proof_scene(p, l.network, {});
+  ProofEquations e;
+  assert_true(refine(s, e));
+  assert_false(prove(s, e).trapped);
+}
+
+}  // namespace
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(sums_are_exact),
+                                     cmocka_unit_test(the_size_of_a_factor_is_that_of_a_dense_one),
+                                     cmocka_unit_test(the_singular_bound_is_below_the_singular_value),
+                                     cmocka_unit_test(equations_of_a_square_lattice_are_exact),
+                                     cmocka_unit_test(crystals_are_trapped_and_not_called_isostatic),
+                                     cmocka_unit_test(a_force_with_the_wrong_sign_proves_nothing),
+                                     cmocka_unit_test(forces_that_do_not_balance_prove_nothing),
+                                     cmocka_unit_test(an_overlap_proves_nothing)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

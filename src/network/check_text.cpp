@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "core/math.hpp"
 #include "network/check.hpp"
 
 namespace jam {
@@ -55,7 +56,7 @@ void add_proof(const Report &r, std::string &out) {
   add(out, "Contacts are closed to %.1e.", r.max_contact_gap);
   if (std::isfinite(r.min_gap))
     add(out, "The smallest gap of no contact is %.2e, 10^%.1f times wider.", r.min_gap,
-        std::log10(r.min_gap / std::fmax(r.max_contact_gap, 1e-15)));
+        math::log(r.min_gap / std::fmax(r.max_contact_gap, 1e-15)) / math::log(10.0));
   if (r.undecided_contacts > 0)
     add(out, "%lld more pairs may touch, which does not change the verdict.", wide(r.undecided_contacts));
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 
@@ -37,9 +38,9 @@ bool are_multiples(const std::vector<double> &x, double scale, double noise) {
 
 // The coarsest power of the base, no wider than `widest`, of which x are multiples; 0 without one.
 double step_of(const std::vector<double> &x, double largest, double widest, int base) {
-  const double first = std::ceil(-std::log(widest) / std::log(static_cast<double>(base)));
+  const double first = std::ceil(-math::log(widest) / math::log(static_cast<double>(base)));
   for (double k = first;; ++k) {
-    const double scale = std::pow(static_cast<double>(base), k), noise = 8.0 * epsilon * largest * scale;
+    const double scale = math::pow(static_cast<double>(base), k), noise = 8.0 * epsilon * largest * scale;
     if (noise > most_noise) return 0.0;
     if (are_multiples(x, scale, noise)) return 1.0 / scale;
   }
@@ -70,7 +71,7 @@ double GapResolution::relative(const Packing &p) const {
 }
 
 int32_t GapResolution::digits(const Packing &p) const {
-  return step > 0.0 ? static_cast<int32_t>(std::lround(std::log10(p.cell.side() / step))) : 0;
+  return step > 0.0 ? static_cast<int32_t>(std::lround(math::log(p.cell.side() / step) / math::log(10.0))) : 0;
 }
 
 void widen(GapResolution &resolution, const Packing &p, double error) {

@@ -310,7 +310,7 @@ module jam
   type, bind(c) :: jam_create_options
     ! sizeof(jam_create_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 2..8, default 3; with a file 3, or its own
+    ! 2..8, default 3; with a file: 3 or the file's dimension
     integer(c_int32_t) :: dim = 0
     ! number of spheres, 1..2^31-1; default 0: taken from the arrays
     integer(c_int64_t) :: n = 0
@@ -330,15 +330,15 @@ module jam
     integer(c_int32_t) :: masses = 0
     ! 0
     integer(c_int32_t) :: reserved = 0
-    ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same
+    ! Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that gives a value: 0 or that value
     real(c_double) :: non_additivity = 0
-    ! seconds to read a file, for a random start and the search for overlaps, > 0, default infinity: then JAM_LIMIT
+    ! limit in seconds for reading a file, a random start and the search for overlaps, > 0, default infinity; beyond it JAM_LIMIT
     real(c_double) :: wall_time = 0
     ! as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
     real(c_double) :: memory_limit = 0
-    ! of a file with several packings, from 0, or from the end where negative; default -1, the last
+    ! which packing of a file with several, from 0; negative: from the end; default -1, the last
     integer(c_int64_t) :: frame = 0
-    ! least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused
+    ! smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units
     real(c_double) :: shrink_min = 0
   end type jam_create_options
 
@@ -418,24 +418,25 @@ module jam
     real(c_double) :: time = 0
   end type jam_run_options
 
-  ! Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
-  ! first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1
+  ! Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
+  ! is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
+  ! two stages. @since 0.1
   type, bind(c) :: jam_compress_options
     ! sizeof(jam_compress_options)
     integer(c_int32_t) :: struct_size = 0
     ! 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
     integer(c_int32_t) :: resume = 0
-    ! G > 0: one stage of this rate; 0, the default: the stages of the protocol
+    ! G > 0: one stage at this rate; 0, the default: the two stages of jam_compress
     real(c_double) :: growth_rate = 0
     ! target reduced pressure of the last stage, > 1, default 1e7
     real(c_double) :: pressure = 0
     ! target, > 0, default infinity
     real(c_double) :: packing_fraction = 0
-    ! limit since each stage began, > 0, default infinity
+    ! limit, counted from the start of each stage, > 0, default infinity
     real(c_double) :: collisions_per_particle = 0
     ! limit in seconds of this call, > 0, default infinity
     real(c_double) :: wall_time = 0
-    ! limit of simulated time since each stage began, > 0, default infinity
+    ! limit of simulated time, counted from the start of each stage, > 0, default infinity
     real(c_double) :: time = 0
     ! quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
     real(c_double) :: growth_rate_end = 0
@@ -1290,8 +1291,8 @@ module jam
       type(c_ptr) :: status
     end function jam_version
 
-    ! Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" where the build knew
-    ! none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1
+    ! Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did
+    ! not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1
     function jam_commit() &
         bind(c, name="jam_commit") result(status)
       import
@@ -1305,8 +1306,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_abi_version
 
-    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another library is loaded before it and
-    ! computes in its place: the file of that library. Static storage. Threads: any. @since 0.1
+    ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
+    ! computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1
     function jam_blas_kernel() &
         bind(c, name="jam_blas_kernel") result(status)
       import
@@ -1329,8 +1330,9 @@ module jam
       type(c_ptr) :: status
     end function jam_stop_string
 
-    ! Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
-    ! The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1
+    ! Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
+    ! none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
+    ! Threads: per thread. @since 0.1
     function jam_last_error() &
         bind(c, name="jam_last_error") result(status)
       import
@@ -1347,9 +1349,10 @@ module jam
       integer(c_int32_t) :: status
     end function jam_create_options_init
 
-    ! Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
-    ! has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
-    ! with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
+    ! Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
+    ! the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
+    ! give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
+    ! @since 0.1
     function jam_copy(src, out) &
         bind(c, name="jam_copy") result(status)
       import
@@ -1417,9 +1420,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_scale_diameters
 
-    ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
-    ! long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
-    ! on its handle do not. Threads: alone.
+    ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
+    ! setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
+    ! callback makes on its handle does not call it again. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
     function jam_set_progress(sys, callback, user) &
         bind(c, name="jam_set_progress") result(status)
@@ -1430,7 +1433,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_progress
 
-    ! Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
+    ! Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
     ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
     function jam_set_log(sys, callback, level, user) &
         bind(c, name="jam_set_log") result(status)
@@ -1442,9 +1445,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_log
 
-    ! Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
-    ! stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
-    ! 0.1
+    ! Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+    ! on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
+    ! Errors: JAM_E_NULL. @since 0.1
     function jam_cancel(sys) &
         bind(c, name="jam_cancel") result(status)
       import
@@ -1452,11 +1455,11 @@ module jam
       integer(c_int32_t) :: status
     end function jam_cancel
 
-    ! Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
-    ! no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
-    ! jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
-    ! machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
-    ! JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
+    ! Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
+    ! infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
+    ! memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+    ! default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
+    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
     function jam_set_memory_limit(sys, bytes) &
         bind(c, name="jam_set_memory_limit") result(status)
       import
@@ -1465,9 +1468,10 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_memory_limit
 
-    ! What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
-    ! sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
-    ! Valid as long as the handle; "" for NULL. Checkpoints hold it. Threads: const. @since 0.1
+    ! What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
+    ! diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
+    ! jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
+    ! Threads: const. @since 0.1
     function jam_notes(sys) &
         bind(c, name="jam_notes") result(status)
       import
@@ -1514,14 +1518,14 @@ module jam
     end function jam_run
 
     ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
-    ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
-    ! by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
-    ! may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
-    ! to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
-    ! JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
-    ! no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
-    ! protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
-    ! Threads: alone. @since 0.1
+    ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
+    ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
+    ! may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
+    ! the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+    ! report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
+    ! image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
+    ! the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
+    ! protocol. Threads: alone. @since 0.1
     function jam_compress(sys, o, report) &
         bind(c, name="jam_compress") result(status)
       import
@@ -1585,7 +1589,7 @@ module jam
     ! Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
     ! preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
     ! numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
-    ! tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
+    ! gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
     ! JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
     ! JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
     function jam_monte_carlo(sys, o, report) &
@@ -2560,7 +2564,7 @@ module jam
     module procedure l_jam_create
   end interface jam_create
 
-  ! jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+  ! jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
   ! Cartesian, in the frame of `cell`.
   ! Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
   ! Threads: any. @since 0.1
@@ -2588,10 +2592,10 @@ module jam
     module procedure l_jam_create_watched
   end interface jam_create_watched
 
-  ! jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
-  ! JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
-  ! where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
-  ! jam_create_in_cell. Threads: any. @since 0.1
+  ! jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
+  ! call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
+  ! take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
+  ! jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1
   interface jam_create_in_cell_watched
     module procedure f_jam_create_in_cell_watched
     module procedure l_jam_create_in_cell_watched
@@ -2953,8 +2957,8 @@ contains
     print '(2a)', 'failed: ', jam_message()
     error stop 1
   end subroutine jam_check
-  ! Sets the text of jam_last_error() of this thread, NULL: to "". For layers over this header that refuse arguments by
-  ! themselves. Long texts are cut. Threads: per thread. @since 0.1
+  ! Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
+  ! themselves. Long texts are truncated. Threads: per thread. @since 0.1
   subroutine jam_set_error(text)
     character(*), intent(in) :: text
     call c_jam_set_error(jam_c_string(text))
@@ -3063,9 +3067,9 @@ contains
     status = c_jam_set_positions(sys, at_positions, count_positions)
   end function jam_set_positions
 
-  ! Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
-  ! jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
-  ! JAM_E_BUSY. @since 0.1
+  ! Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
+  ! velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
+  ! (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
   function jam_set_velocities(sys, velocities, velocities_len) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: velocities(..)
@@ -3563,11 +3567,12 @@ contains
     status = c_jam_checkpoint_read_watched(jam_c_string(path), callback, user, out)
   end function jam_checkpoint_read_watched
 
-  ! Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
-  ! which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
-  ! where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
-  ! the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
-  ! are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+  ! Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
+  ! by the content. For a file of another format the error names that format and what to do. o:
+  ! overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
+  ! the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
+  ! or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
+  ! is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
   ! JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
   ! @since 0.1
   function jam_read(path, o, out) result(status)
@@ -3579,11 +3584,11 @@ contains
   end function jam_read
 
   ! Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-  ! under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
-  ! of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
-  ! the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
-  ! non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
-  ! JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+  ! under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
+  ! are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
+  ! read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
+  ! can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
+  ! JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
   function jam_write(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -3637,11 +3642,11 @@ contains
 
   ! Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
   ! and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
-  ! steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
-  ! moves the spheres, its callback writes the packing of the last step without results. The file is written under
-  ! another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
-  ! begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
-  ! Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+  ! steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
+  ! checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
+  ! under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
+  ! crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
+  ! const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
   function jam_checkpoint_write(sys, path) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -3650,7 +3655,7 @@ contains
   end function jam_checkpoint_write
 
   ! Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-  ! damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+  ! damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
   function jam_checkpoint_read(path, out) result(status)
     character(*), intent(in) :: path
     type(c_ptr), intent(out) :: out

@@ -102,8 +102,9 @@
   }
   ~jam_compress_options() { free($self); }
 }
-%feature("docstring") jam_compress_options "Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
-first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1"
+%feature("docstring") jam_compress_options "Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
+is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
+two stages. @since 0.1"
 %extend jam_md_report {
   jam_md_report() {
     jam_md_report *made = (jam_md_report *)calloc(1, sizeof *made);
@@ -338,17 +339,18 @@ NaN: not known. @since 0.1"
 }
 %feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network. @since 0.1"
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" where the build knew
-none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1"
+%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" when the build did
+not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
-%feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". If another library is loaded before it and
-computes in its place: the file of that library. Static storage. Threads: any. @since 0.1"
+%feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". If another BLAS library, loaded earlier,
+computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_last_error "Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; \"\" when none.
-The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1"
-%feature("docstring") jam_set_error "Sets the text of jam_last_error() of this thread, NULL: to \"\". For layers over this header that refuse arguments by
-themselves. Long texts are cut. Threads: per thread. @since 0.1"
+%feature("docstring") jam_last_error "Reason for the last status other than JAM_OK on this thread, with the name and value at fault; \"\" when there was
+none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
+Threads: per thread. @since 0.1"
+%feature("docstring") jam_set_error "Sets the text that jam_last_error() returns on this thread; NULL sets \"\". For language bindings that check arguments
+themselves. Long texts are truncated. Threads: per thread. @since 0.1"
 %feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_create "Makes a system. Example: examples/c/first.c
@@ -360,9 +362,10 @@ out: the new handle, owned by the caller, freed by jam_destroy.
 Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
 JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
 Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1"
-%feature("docstring") jam_copy "Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
-has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
-with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1"
+%feature("docstring") jam_copy "Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
+the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
+give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
+@since 0.1"
 %feature("docstring") jam_destroy "Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1"
 %feature("docstring") jam_info_get "Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_positions_view "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
@@ -373,12 +376,12 @@ JAM_E_NULL. @since 0.1"
 jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
 %feature("docstring") jam_set_positions "Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_set_velocities "Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
-jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
-JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_set_velocities "Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
+velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
+(length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+%feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
 Cartesian, in the frame of `cell`.
 Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
 Threads: any. @since 0.1"
@@ -393,45 +396,47 @@ JAM_E_BUSY. Threads: alone. @since 0.1"
 new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
 Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
 Threads: alone. @since 0.1"
-%feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
-long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
-on its handle do not. Threads: alone.
+%feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
+setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
+callback makes on its handle does not call it again. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
 %feature("docstring") jam_create_watched "jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
 A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
 Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1"
-%feature("docstring") jam_create_in_cell_watched "jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
-JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
-where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
-jam_create_in_cell. Threads: any. @since 0.1"
+%feature("docstring") jam_create_in_cell_watched "jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
+call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
+take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
+jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1"
 %feature("docstring") jam_read_watched "See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1"
 %feature("docstring") jam_checkpoint_read_watched "See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1"
-%feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
+%feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_cancel "Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
-stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
-0.1"
-%feature("docstring") jam_set_memory_limit "Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
-no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
-jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
-machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
-JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_read "Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
-which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
-where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
-the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
-are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+%feature("docstring") jam_cancel "Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
+Errors: JAM_E_NULL. @since 0.1"
+%feature("docstring") jam_set_memory_limit "Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
+infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
+memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1"
+%feature("docstring") jam_read "Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
+by the content. For a file of another format the error names that format and what to do. o:
+overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
+the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
+or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
+is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
 JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
 @since 0.1"
-%feature("docstring") jam_notes "What was changed or assumed when sys was made: a sentence a line, \"\" when nothing. Shrunk diameters, wrapped or
-sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
-Valid as long as the handle; \"\" for NULL. Checkpoints hold it. Threads: const. @since 0.1"
+%feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
+diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
+jam_set_log sends these lines to its callback. Valid as long as the handle; \"\" for NULL. Checkpoints hold it.
+Threads: const. @since 0.1"
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
-of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
-the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
-non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
-JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
+under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
+are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
+read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
+can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
+JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
 %feature("docstring") jam_write_page "Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
@@ -453,23 +458,23 @@ JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or path
 says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
 JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
-the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
-by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
-may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
-to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
-JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
-no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
-protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
-Threads: alone. @since 0.1"
+the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
+default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
+may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
+the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
+image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
+the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
+protocol. Threads: alone. @since 0.1"
 %feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
-steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
-moves the spheres, its callback writes the packing of the last step without results. The file is written under
-another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
-begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
+steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
+checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
+under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
+crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
+const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
+damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
 %feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
 %feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
 dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
@@ -497,7 +502,7 @@ JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"
 %feature("docstring") jam_monte_carlo "Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
 preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
 numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
-tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
+gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
 JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
 JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
 %feature("docstring") jam_isoconf_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"

@@ -33,15 +33,16 @@
  *   NULL and 0 only ask for the size. A buffer that is too short gives JAM_E_BUFFER, sets
  *   `needed` and is not written.
  * - A `table` has shape (rows, columns); an enum names its columns.
- * - A call with several arrays gives `rows` instead of `needed`: the shapes told there, for
+ * - A call with several arrays gives `rows` instead of `needed`: the shapes given there, for
  *   that many rows, are the lengths. Each of these arrays may be NULL with length 0.
  *
  * Status and options
- * - Status: 0 done; > 0 stopped early or not the answer hoped for, the state is valid and
- *   kept; < 0 failed, the state is as before the call unless said otherwise. jam_last_error()
- *   says why in a sentence, also for a status above 0. Outputs are written only when the status is >= 0.
- * - Every call on a system, and every one that makes a system, may end with JAM_CANCELLED:
- *   setters and const calls then have changed and written nothing.
+ * - Status: 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the
+ *   state is valid and kept; < 0 failed, the state is as before the call unless said otherwise.
+ *   For every status but 0 jam_last_error() gives the reason in one sentence. Outputs are written
+ *   only when the status is >= 0.
+ * - Every call that works on a system or makes one may return JAM_CANCELLED. A setter or a const
+ *   call that returns it has changed nothing and written no output.
  * - Option structs begin with struct_size. Fill them with jam_X_options_init(&o, sizeof o),
  *   then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
@@ -56,12 +57,13 @@
  *   sums round otherwise. Then a crunch can end at another jamming point. The variable
  *   OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo give the
  *   same bits on every processor.
- * - While a call factorises a matrix, OpenBLAS has one thread in the whole process. Its number
- *   of before is put back afterwards. Host threads that use OpenBLAS meanwhile run on one
- *   thread each.
- * - Calls compute in the floating-point environment that C programs start with. The host's
- *   (rounding, traps, flags, denormal numbers) is back after each call, and in callbacks.
- * - A thread that calls libjam needs a stack of 256 kB, and what its callbacks use.
+ * - While a call factorises a matrix, OpenBLAS has one thread in the whole process. libjam
+ *   restores the previous number of threads afterwards. Host threads that use OpenBLAS meanwhile
+ *   run on one thread each.
+ * - Calls compute in the default floating-point environment of C. libjam restores the caller's
+ *   environment after each call, and while a callback runs. It consists of rounding mode, traps,
+ *   exception flags and the treatment of denormal numbers.
+ * - A thread that calls libjam needs a stack of 256 kB plus the stack of its callbacks.
  *
  * Trust
  * - Files, checkpoints, arrays and options are checked before use. None of them can do more
@@ -125,7 +127,7 @@ typedef enum jam_status_code {
   JAM_E_NONFINITE = -5,    /* NaN or infinity where a number is needed */
   JAM_E_OVERLAP = -6,      /* spheres overlap; the text names the worst pair */
   JAM_E_UNPLACEABLE = -7,  /* the random start cannot reach the packing fraction */
-  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed tells the length */
+  JAM_E_BUFFER = -8,       /* the caller's buffer is too short; *needed holds the length */
   JAM_E_MEMORY = -9,       /* out of memory */
   JAM_E_IO = -10,          /* a file cannot be opened, read or written */
   JAM_E_FORMAT = -11,      /* a file does not have the format; the text names the line */
@@ -160,23 +162,24 @@ typedef enum jam_stop_reason {
 
 /* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_version(void);
-/* Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" where the build knew
- * none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1 */
+/* Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did
+ * not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
 JAM_API int32_t jam_abi_version(void);
-/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another library is loaded before it and
- * computes in its place: the file of that library. Static storage. Threads: any. @since 0.1 */
+/* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
+ * computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_blas_kernel(void);
 /* One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_status_string(jam_status code);
 /* One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_stop_string(int32_t reason);
-/* Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
- * The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1 */
+/* Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
+ * none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
+ * Threads: per thread. @since 0.1 */
 JAM_API const char *jam_last_error(void);
-/* Sets the text of jam_last_error() of this thread, NULL: to "". For layers over this header that refuse arguments by
- * themselves. Long texts are cut. Threads: per thread. @since 0.1 */
+/* Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
+ * themselves. Long texts are truncated. Threads: per thread. @since 0.1 */
 JAM_API void jam_set_error(const char *text);
 
 /* ------------------------------------------------------------------ the system */
@@ -187,7 +190,7 @@ typedef struct jam_system jam_system;
 /* What to do with overlaps in given positions. @since 0.1 */
 typedef enum jam_overlap_policy {
   JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
-  JAM_OVERLAP_SHRINK = 1, /* scale all diameters until the worst pair just touches; jam_notes tells the factor */
+  JAM_OVERLAP_SHRINK = 1, /* scale all diameters down until the worst pair just touches; jam_notes gives the factor */
   JAM_OVERLAP_ALLOW = 2   /* soft spheres: keep them, also in later calls; starts without positions are uniform points.
                            * Calls for hard spheres refuse a system that overlaps */
 } jam_overlap_policy;
@@ -207,7 +210,7 @@ typedef enum jam_masses {
 /* Options of jam_create and jam_read. @since 0.1 */
 typedef struct jam_create_options {
   uint32_t struct_size;    /* sizeof(jam_create_options) */
-  int32_t dim;             /* 2..8, default 3; with a file 3, or its own */
+  int32_t dim;             /* 2..8, default 3; with a file: 3 or the file's dimension */
   int64_t n;               /* number of spheres, 1..2^31-1; default 0: taken from the arrays */
   int64_t seed;            /* of every random stream, default 1; recorded */
   double box;              /* side of the cube, > 0, default 1 */
@@ -219,13 +222,13 @@ typedef struct jam_create_options {
   int32_t masses;   /* jam_masses, default EQUAL */
   int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
-                          * default 0. With a file that has one: 0, or the same */
-  double wall_time;    /* seconds to read a file, for a random start and the search for overlaps, > 0, default infinity:
-                        * then JAM_LIMIT */
+                          * default 0. With a file that gives a value: 0 or that value */
+  double wall_time;    /* limit in seconds for reading a file, a random start and the search for overlaps, > 0, default
+                        * infinity; beyond it JAM_LIMIT */
   double memory_limit; /* as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory */
-  int64_t frame;     /* of a file with several packings, from 0, or from the end where negative; default -1, the last */
-  double shrink_min; /* least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near
-                      * duplicates and wrong units are refused */
+  int64_t frame;       /* which packing of a file with several, from 0; negative: from the end; default -1, the last */
+  double shrink_min;   /* smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller
+                        * one is refused: it points to duplicate spheres or wrong units */
 } jam_create_options;
 
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
@@ -243,9 +246,10 @@ JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
  * Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1 */
 JAM_API jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
                               const double *diameters, size_t diameters_len, jam_system **out);
-/* Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
- * has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
- * with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1 */
+/* Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
+ * the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
+ * give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
+ * @since 0.1 */
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
 /* Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1 */
 JAM_API void jam_destroy(jam_system *sys);
@@ -283,9 +287,9 @@ JAM_API jam_status jam_velocities_view(const jam_system *sys, const double **vie
 /* Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
-/* Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
- * jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
- * JAM_E_BUSY. @since 0.1 */
+/* Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
+ * velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
+ * (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
 /* Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1 */
@@ -293,7 +297,7 @@ JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
 
 /* ------------------------------------------------------------------ the cell */
 
-/* jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+/* jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
  * Cartesian, in the frame of `cell`.
  * Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
  * Threads: any. @since 0.1 */
@@ -356,9 +360,9 @@ typedef struct jam_progress {
  * valid state. It must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves
  * the stage as it runs) and const getters. These show the state before the call, or the last snapshot. @since 0.1 */
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
-/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
- * long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
- * on its handle do not. Threads: alone.
+/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
+ * setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
+ * callback makes on its handle does not call it again. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user);
 /* jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
@@ -368,10 +372,10 @@ JAM_API jam_status jam_create_watched(const jam_create_options *o, const double 
                                       const double *diameters, size_t diameters_len, jam_progress_fn callback,
                                       void *user, jam_system **out);
 
-/* jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
- * JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
- * where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
- * jam_create_in_cell. Threads: any. @since 0.1 */
+/* jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
+ * call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
+ * take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
+ * jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1 */
 JAM_API jam_status jam_create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
                                               const double *positions, size_t positions_len, const double *diameters,
                                               size_t diameters_len, jam_progress_fn callback, void *user,
@@ -393,18 +397,18 @@ typedef enum jam_log_level {
 
 /* Log callback: one line without newline, valid during the call. @since 0.1 */
 typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
-/* Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
+/* Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
  * Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
-/* Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
- * stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
- * 0.1 */
+/* Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+ * on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
+ * Errors: JAM_E_NULL. @since 0.1 */
 JAM_API jam_status jam_cancel(jam_system *sys);
-/* Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
- * no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
- * jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
- * machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
- * JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1 */
+/* Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
+ * infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
+ * memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+ * default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
+ * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1 */
 JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
 /* ------------------------------------------------------------------ files */
@@ -423,24 +427,26 @@ typedef enum jam_format {
                           * kind (0 rattler, 1 buckler, 2 other). Written only */
 } jam_format;
 
-/* Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
- * which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
- * where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
- * the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
- * are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+/* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
+ * by the content. For a file of another format the error names that format and what to do. o:
+ * overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
+ * the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
+ * or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
+ * is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
  * JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
  * @since 0.1 */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
-/* What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
- * sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
- * Valid as long as the handle; "" for NULL. Checkpoints hold it. Threads: const. @since 0.1 */
+/* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
+ * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
+ * jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
+ * Threads: const. @since 0.1 */
 JAM_API const char *jam_notes(const jam_system *sys);
 /* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
- * under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
- * of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
- * the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
- * non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
- * JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
+ * under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
+ * are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
+ * read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
+ * can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
+ * JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 
 /* Formats of contact networks. @since 0.1 */
@@ -482,17 +488,19 @@ typedef enum jam_growth_law {
                             * means the same protocol at every n. */
 } jam_growth_law;
 
-/* Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
- * first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1 */
+/* Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
+ * is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
+ * two stages. @since 0.1 */
 typedef struct jam_compress_options {
   uint32_t struct_size; /* sizeof(jam_compress_options) */
   int32_t resume;       /* 1: go on with the stage that stopped early, of which all but the limits is kept; default 0 */
-  double growth_rate;   /* G > 0: one stage of this rate; 0, the default: the stages of the protocol */
+  double growth_rate;   /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
   double pressure;      /* target reduced pressure of the last stage, > 1, default 1e7 */
   double packing_fraction;        /* target, > 0, default infinity */
-  double collisions_per_particle; /* limit since each stage began, > 0, default infinity */
+  double collisions_per_particle; /* limit, counted from the start of each stage, > 0, default infinity */
   double wall_time;               /* limit in seconds of this call, > 0, default infinity */
-  double time;                    /* limit of simulated time since each stage began, > 0, default infinity */
+  double time;                    /* limit of simulated time, counted from the start of each stage, > 0, default
+                                   * infinity */
   double growth_rate_end;         /* quasi-static: the rate falls as a power of p to this one at the target pressure; in
                                    * [0, growth_rate], default 0: constant */
   int32_t growth_law;             /* jam_growth_law, default DIAMETER */
@@ -535,26 +543,26 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
  * JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
- * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
- * by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
- * may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
- * to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
- * JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
- * no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
- * protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
- * Threads: alone. @since 0.1 */
+ * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
+ * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
+ * may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
+ * the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+ * report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
+ * image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
+ * the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
+ * protocol. Threads: alone. @since 0.1 */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
  * and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
- * steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
- * moves the spheres, its callback writes the packing of the last step without results. The file is written under
- * another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
- * begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
- * Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
+ * steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
+ * checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
+ * under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
+ * crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
+ * const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
 /* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
- * damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
+ * damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
 JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
 
 /* What jam_observe records. @since 0.1 */
@@ -693,7 +701,7 @@ JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size
 /* Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
  * preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
  * numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
- * tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
+ * gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
  * JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
  * JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
  */
@@ -1326,7 +1334,7 @@ typedef enum jam_verdict {
   JAM_VERDICT_UNTESTED = -1, /* the test has not run */
   JAM_VERDICT_NO = 0,        /* not jammed, with a proof: no balanced forces, or a flex */
   JAM_VERDICT_YES = 1,       /* jammed, with a proof: positive forces that balance, and full rank */
-  JAM_VERDICT_UNDECIDED = 2  /* double precision does not tell */
+  JAM_VERDICT_UNDECIDED = 2  /* double precision cannot decide */
 } jam_verdict;
 
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres

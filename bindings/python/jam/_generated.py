@@ -24,7 +24,7 @@ class StatusCode(IntEnum):
     E_NONFINITE = -5  # NaN or infinity where a number is needed
     E_OVERLAP = -6  # spheres overlap; the text names the worst pair
     E_UNPLACEABLE = -7  # the random start cannot reach the packing fraction
-    E_BUFFER = -8  # the caller's buffer is too short; *needed tells the length
+    E_BUFFER = -8  # the caller's buffer is too short; *needed holds the length
     E_MEMORY = -9  # out of memory
     E_IO = -10  # a file cannot be opened, read or written
     E_FORMAT = -11  # a file does not have the format; the text names the line
@@ -60,7 +60,7 @@ class StopReason(IntEnum):
 class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions. @since 0.1"""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
-    SHRINK = 1  # scale all diameters until the worst pair just touches; jam_notes tells the factor
+    SHRINK = 1  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
     ALLOW = 2  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 
@@ -296,7 +296,7 @@ class Verdict(IntEnum):
     UNTESTED = -1  # the test has not run
     NO = 0  # not jammed, with a proof: no balanced forces, or a flex
     YES = 1  # jammed, with a proof: positive forces that balance, and full rank
-    UNDECIDED = 2  # double precision does not tell
+    UNDECIDED = 2  # double precision cannot decide
 
 
 class CheckReason(IntEnum):
@@ -992,7 +992,7 @@ class Comparison(Report):
 # option structs: {C name: {member: (type, meaning)}}
 OPTIONS = {
     "jam_create_options": {
-        "dim": ("int", '2..8, default 3; with a file 3, or its own'),
+        "dim": ("int", "2..8, default 3; with a file: 3 or the file's dimension"),
         "n": ("int", 'number of spheres, 1..2^31-1; default 0: taken from the arrays'),
         "seed": ("int", 'of every random stream, default 1; recorded'),
         "box": ("float", 'side of the cube, > 0, default 1'),
@@ -1001,11 +1001,11 @@ OPTIONS = {
         "model": ("Model", 'Model, default EUCLID'),
         "mk_zeta": ("float", 'MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium'),
         "masses": ("Masses", 'Masses, default EQUAL'),
-        "non_additivity": ("float", 'Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same'),
-        "wall_time": ("float", "seconds to read a file, for a random start and the search for overlaps, > 0, default infinity: then 'limit'"),
+        "non_additivity": ("float", 'Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that gives a value: 0 or that value'),
+        "wall_time": ("float", "limit in seconds for reading a file, a random start and the search for overlaps, > 0, default infinity; beyond it 'limit'"),
         "memory_limit": ("float", "as set_memory_limit(), also while a file is read; default 0: half the machine's memory"),
-        "frame": ("int", 'of a file with several packings, from 0, or from the end where negative; default -1, the last'),
-        "shrink_min": ("float", "least factor that 'shrink' may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused"),
+        "frame": ("int", 'which packing of a file with several, from 0; negative: from the end; default -1, the last'),
+        "shrink_min": ("float", "smallest factor that 'shrink' may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units"),
     },
     "jam_run_options": {
         "resume": ("bool", '1: go on with the run that stopped early; default 0'),
@@ -1015,12 +1015,12 @@ OPTIONS = {
     },
     "jam_compress_options": {
         "resume": ("bool", '1: go on with the stage that stopped early, of which all but the limits is kept; default 0'),
-        "growth_rate": ("float", 'G > 0: one stage of this rate; 0, the default: the stages of the protocol'),
+        "growth_rate": ("float", 'G > 0: one stage at this rate; 0, the default: the two stages of compress()'),
         "pressure": ("float", 'target reduced pressure of the last stage, > 1, default 1e7'),
         "packing_fraction": ("float", 'target, > 0, default infinity'),
-        "collisions_per_particle": ("float", 'limit since each stage began, > 0, default infinity'),
+        "collisions_per_particle": ("float", 'limit, counted from the start of each stage, > 0, default infinity'),
         "wall_time": ("float", 'limit in seconds of this call, > 0, default infinity'),
-        "time": ("float", 'limit of simulated time since each stage began, > 0, default infinity'),
+        "time": ("float", 'limit of simulated time, counted from the start of each stage, > 0, default infinity'),
         "growth_rate_end": ("float", 'quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant'),
         "growth_law": ("GrowthLaw", 'GrowthLaw, default DIAMETER'),
     },

@@ -16,12 +16,12 @@ class Methods:
         raise NotImplementedError
 
     def set_memory_limit(self, bytes: float, *, progress: Progressing = None) -> None:
-        """Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0;
-        infinity: no limit.
+        """Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, >
+        0; infinity: no limit.
 
-        A call that needs more fails with MemoryError before it takes them. crunch() compares crunch_estimate() with
-        it before it begins, and each matrix before it is factorised. The default is half the machine's memory.
-        Options named memory_limit bound their own calls further.
+        A call that needs more fails with MemoryError before it allocates them. crunch() compares the memory of
+        crunch_estimate() with the limit before it begins, and that of each matrix before it factorises it. The
+        default is half the machine's memory. An option memory_limit can lower the limit for its own call.
 
         Parameters
         ----------
@@ -39,11 +39,11 @@ class Methods:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
         model, and a stage that was stopped early or runs now.
 
-        The results are in it too: contact network, report, histories, kept steps and runs from one configuration.
-        What was observed, the limit of memory and callbacks are not. While a call moves the spheres, its callback
-        writes the packing of the last step without results. The file is written under another name and then renamed.
-        Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew from the
-        packing that it had reached: it ends jammed, not always with the same bits.
+        The results are in it too: contact network, report, histories, kept steps and isoconfigurational runs.
+        Observations, the memory limit and callbacks are not. A callback that writes a checkpoint while a call moves
+        the spheres saves the packing of the last step, without results. The file is written under another name and
+        then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch begins anew
+        from the packing that it had reached: it ends jammed, not always with the same bits.
 
         Parameters
         ----------
@@ -205,7 +205,7 @@ class Methods:
 
         Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a preliminary run and then frozen.
         After soft spheres the system allows overlaps, as by 'allow'. Random numbers depend on seed, run, sweep and
-        sphere alone. Velocities are dropped. observed_spheres() tells the displacements. An early stop can be
+        sphere alone. Velocities are dropped. observed_spheres() gives the displacements. An early stop can be
         resumed, also from checkpoint_write(). Status: 'ok', 'cancelled', 'limit'.
 
         Parameters

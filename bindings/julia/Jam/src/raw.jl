@@ -25,7 +25,7 @@ const JAM_E_DIMENSION = Int32(-4)  # dim is not in 2..JAM_MAX_DIM
 const JAM_E_NONFINITE = Int32(-5)  # NaN or infinity where a number is needed
 const JAM_E_OVERLAP = Int32(-6)  # spheres overlap; the text names the worst pair
 const JAM_E_UNPLACEABLE = Int32(-7)  # the random start cannot reach the packing fraction
-const JAM_E_BUFFER = Int32(-8)  # the caller's buffer is too short; *needed tells the length
+const JAM_E_BUFFER = Int32(-8)  # the caller's buffer is too short; *needed holds the length
 const JAM_E_MEMORY = Int32(-9)  # out of memory
 const JAM_E_IO = Int32(-10)  # a file cannot be opened, read or written
 const JAM_E_FORMAT = Int32(-11)  # a file does not have the format; the text names the line
@@ -57,7 +57,7 @@ const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of 
 
 # jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
-const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters until the worst pair just touches; jam_notes tells the factor
+const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
 const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 # jam_model: Pair distance. @since 0.1
@@ -240,7 +240,7 @@ const JAM_RIGIDITY_STRICT = Int32(1)  # and all symmetric strains of the cell th
 const JAM_VERDICT_UNTESTED = Int32(-1)  # the test has not run
 const JAM_VERDICT_NO = Int32(0)  # not jammed, with a proof: no balanced forces, or a flex
 const JAM_VERDICT_YES = Int32(1)  # jammed, with a proof: positive forces that balance, and full rank
-const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision does not tell
+const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision cannot decide
 
 # jam_check_reason: Why jam_check_packing answers as it does. @since 0.1
 const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
@@ -309,7 +309,7 @@ Options of jam_create and jam_read. @since 0.1
 """
 mutable struct jam_create_options
     struct_size::UInt32  # sizeof(jam_create_options)
-    dim::Int32  # 2..8, default 3; with a file 3, or its own
+    dim::Int32  # 2..8, default 3; with a file: 3 or the file's dimension
     n::Int64  # number of spheres, 1..2^31-1; default 0: taken from the arrays
     seed::Int64  # of every random stream, default 1; recorded
     box::Cdouble  # side of the cube, > 0, default 1
@@ -319,11 +319,11 @@ mutable struct jam_create_options
     mk_zeta::Cdouble  # MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted in equilibrium
     masses::Int32  # jam_masses, default EQUAL
     reserved::Int32  # 0
-    non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that has one: 0, or the same
-    wall_time::Cdouble  # seconds to read a file, for a random start and the search for overlaps, > 0, default infinity: then JAM_LIMIT
+    non_additivity::Cdouble  # Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2; default 0. With a file that gives a value: 0 or that value
+    wall_time::Cdouble  # limit in seconds for reading a file, a random start and the search for overlaps, > 0, default infinity; beyond it JAM_LIMIT
     memory_limit::Cdouble  # as jam_set_memory_limit, also while a file is read; default 0: half the machine's memory
-    frame::Int64  # of a file with several packings, from 0, or from the end where negative; default -1, the last
-    shrink_min::Cdouble  # least factor that JAM_OVERLAP_SHRINK may multiply diameters by, 0..1, default 1e-3: near duplicates and wrong units are refused
+    frame::Int64  # which packing of a file with several, from 0; negative: from the end; default -1, the last
+    shrink_min::Cdouble  # smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units
     jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
@@ -381,18 +381,19 @@ mutable struct jam_run_options
 end
 
 """
-Lubachevsky-Stillinger growth: one stage of a given rate, or the protocol of jam_compress. Whichever target comes
-first ends it. Targets, limits and growth_law keep the protocol; a growth_rate makes one stage. @since 0.1
+Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
+is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
+two stages. @since 0.1
 """
 mutable struct jam_compress_options
     struct_size::UInt32  # sizeof(jam_compress_options)
     resume::Int32  # 1: go on with the stage that stopped early, of which all but the limits is kept; default 0
-    growth_rate::Cdouble  # G > 0: one stage of this rate; 0, the default: the stages of the protocol
+    growth_rate::Cdouble  # G > 0: one stage at this rate; 0, the default: the two stages of jam_compress
     pressure::Cdouble  # target reduced pressure of the last stage, > 1, default 1e7
     packing_fraction::Cdouble  # target, > 0, default infinity
-    collisions_per_particle::Cdouble  # limit since each stage began, > 0, default infinity
+    collisions_per_particle::Cdouble  # limit, counted from the start of each stage, > 0, default infinity
     wall_time::Cdouble  # limit in seconds of this call, > 0, default infinity
-    time::Cdouble  # limit of simulated time since each stage began, > 0, default infinity
+    time::Cdouble  # limit of simulated time, counted from the start of each stage, > 0, default infinity
     growth_rate_end::Cdouble  # quasi-static: the rate falls as a power of p to this one at the target pressure; in [0, growth_rate], default 0: constant
     growth_law::Int32  # jam_growth_law, default DIAMETER
     reserved::Int32  # 0
@@ -941,8 +942,8 @@ function jam_version()
 end
 
 """
-Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" where the build knew
-none. Changes that were not committed do not show in it. Static storage. Threads: any. @since 0.1
+Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did
+not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1
 """
 function jam_commit()
     return ccall((:jam_commit, libjam), Cstring, ())
@@ -956,8 +957,8 @@ function jam_abi_version()
 end
 
 """
-Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another library is loaded before it and
-computes in its place: the file of that library. Static storage. Threads: any. @since 0.1
+Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
+computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())
@@ -978,16 +979,17 @@ function jam_stop_string(reason)
 end
 
 """
-Why this thread's last call with another status than JAM_OK ended so, with the name and value at fault; "" when none.
-The log gets the same sentence. Valid until this thread's next such call. Threads: per thread. @since 0.1
+Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
+none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
+Threads: per thread. @since 0.1
 """
 function jam_last_error()
     return ccall((:jam_last_error, libjam), Cstring, ())
 end
 
 """
-Sets the text of jam_last_error() of this thread, NULL: to "". For layers over this header that refuse arguments by
-themselves. Long texts are cut. Threads: per thread. @since 0.1
+Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
+themselves. Long texts are truncated. Threads: per thread. @since 0.1
 """
 function jam_set_error(text)
     return ccall((:jam_set_error, libjam), Cvoid, (Cstring,), text)
@@ -1017,9 +1019,10 @@ function jam_create(o, positions, positions_len, diameters, diameters_len, out)
 end
 
 """
-Deep copy of src with its results and what was observed, without its callbacks. It observes on if src does. The copy
-has the seed of src: where both draw velocities, they draw the same ones. For independent runs give the copy its own
-with jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY. @since 0.1
+Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
+the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
+give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
+@since 0.1
 """
 function jam_copy(src, out)
     return ccall((:jam_copy, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
@@ -1072,9 +1075,9 @@ function jam_set_positions(sys, positions, positions_len)
 end
 
 """
-Replaces velocities (n, d). Results of crunch stay: they do not depend on velocities. jam_run uses them as they are.
-jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE,
-JAM_E_BUSY. @since 0.1
+Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
+velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
+(length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
 """
 function jam_set_velocities(sys, velocities, velocities_len)
     return ccall((:jam_set_velocities, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(velocities), velocities_len)
@@ -1089,7 +1092,7 @@ function jam_scale_diameters(sys, factor)
 end
 
 """
-jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box stays 1, the default. positions:
+jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
 Cartesian, in the frame of `cell`.
 Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
 Threads: any. @since 0.1
@@ -1128,9 +1131,9 @@ function jam_strain(sys, strain, strain_len)
 end
 
 """
-Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Const calls and setters that take
-long call it too: several const calls on one handle at once do so on their own threads. Calls that a callback makes
-on its handle do not. Threads: alone.
+Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
+setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
+callback makes on its handle does not call it again. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
 """
 function jam_set_progress(sys, callback, user)
@@ -1147,10 +1150,10 @@ function jam_create_watched(o, positions, positions_len, diameters, diameters_le
 end
 
 """
-jam_create_in_cell, jam_read and jam_checkpoint_read with such a callback: a non-zero return ends the call with
-JAM_CANCELLED and *out NULL. They take long where many pairs of spheres are near, and in the Mari-Kurchan model,
-where all are compared. Status: as jam_create_watched; jam_checkpoint_read_watched has no limit of time. Errors: as
-jam_create_in_cell. Threads: any. @since 0.1
+jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
+call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
+take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
+jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1
 """
 function jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, callback, user, out)
     return ccall((:jam_create_in_cell_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
@@ -1171,7 +1174,7 @@ function jam_checkpoint_read_watched(path, callback, user, out)
 end
 
 """
-Sets (or with NULL removes) the log callback and its level. jam_notes are its first lines. Threads: alone.
+Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
 Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
 """
 function jam_set_log(sys, callback, level, user)
@@ -1179,31 +1182,32 @@ function jam_set_log(sys, callback, level, user)
 end
 
 """
-Asks all calls that run on sys to stop soon with JAM_CANCELLED. Without one the next call that works on sys alone
-stops, setters aside. It only adds to an atomic number. Threads: any, signal handlers too. Errors: JAM_E_NULL. @since
-0.1
+Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
+on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
+Errors: JAM_E_NULL. @since 0.1
 """
 function jam_cancel(sys)
     return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
-Bytes that lists of pairs, factorised matrices and what is made from them may take in one call on sys, > 0; infinity:
-no limit. A call that needs more fails with JAM_E_MEMORY before it takes them. jam_crunch compares
-jam_crunch_estimate with it before it begins, and each matrix before it is factorised. The default is half the
-machine's memory. Options named memory_limit bound their own calls further. Threads: alone. Errors: JAM_E_NULL,
-JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
+Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
+infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
+memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
+Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
 """
 function jam_set_memory_limit(sys, bytes)
     return ccall((:jam_set_memory_limit, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
 end
 
 """
-Reads plain text, extended XYZ, data and dumps of LAMMPS with diameters, or a table of columns; the content tells
-which. Other files are refused with their name and a way out. o: overlap policy, seed, model, frame; box and dim
-where the file gives none. NULL: defaults. Each line is understood or refused; jam_notes has what was not kept. Where
-the file answers an option, the option must be the default or agree. Spheres keep the order of the file; LAMMPS data
-are sorted by id. A last line without newline is refused where digits may be missing. Errors: JAM_E_NULL, JAM_E_IO,
+Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
+by the content. For a file of another format the error names that format and what to do. o:
+overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
+the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
+or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
+is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
 JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
 @since 0.1
 """
@@ -1212,9 +1216,10 @@ function jam_read(path, o, out)
 end
 
 """
-What was changed or assumed when sys was made: a sentence a line, "" when nothing. Shrunk diameters, wrapped or
-sorted spheres, columns and frames not read. Lines of warnings begin with `warning: `. jam_set_log repeats them.
-Valid as long as the handle; "" for NULL. Checkpoints hold it. Threads: const. @since 0.1
+What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
+diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
+jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
+Threads: const. @since 0.1
 """
 function jam_notes(sys)
     return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)
@@ -1222,11 +1227,11 @@ end
 
 """
 Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-under another name and then renamed. Links are followed. Pipes, devices and descriptors (/dev/stdout, /dev/fd/N, also
-of a file that a shell appends to) are written in place. The shifts of JAM_MODEL_MK are not saved: read the file with
-the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
-non_additivity, and only XYZ, LAMMPS and VTP a cell that is no cube: JAM_E_UNSUPPORTED. Errors: JAM_E_NULL,
-JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
+are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
+read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
+can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
+JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
 """
 function jam_write(sys, path, format)
     return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
@@ -1284,14 +1289,14 @@ end
 
 """
 Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
-the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7
-by default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). Other protocols are made by calling again. report
-may be NULL. Growth heats; a thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled
-to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see report->stop_reason),
-JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or
-no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call of the
-protocol goes on with its next stage. The protocol orders small systems (below about 200 equal spheres in d = 3).
-Threads: alone. @since 0.1
+the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
+default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
+may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
+the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
+image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
+the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
+protocol. Threads: alone. @since 0.1
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
@@ -1300,11 +1305,11 @@ end
 """
 Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
-steps and runs from one configuration. What was observed, the limit of memory and callbacks are not. While a call
-moves the spheres, its callback writes the packing of the last step without results. The file is written under
-another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A crunch
-begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads: const.
-Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
+checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
+under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
+crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
+const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_write(sys, path)
     return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
@@ -1312,7 +1317,7 @@ end
 
 """
 Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-damaged, or of a machine with another order of bytes), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
 """
 function jam_checkpoint_read(path, out)
     return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)
@@ -1412,7 +1417,7 @@ end
 Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
 preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
 numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
-tells the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
+gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
 JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
 JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
 """

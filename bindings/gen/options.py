@@ -91,7 +91,7 @@ TABLE = {
             "input",
             "input",
             "FILE",
-            "start from a file: plain text, extended XYZ, data or a dump of LAMMPS, or a table x y z radius. It may be "
+            "start from a file: plain text, extended XYZ, LAMMPS data or dump, or a table x y z radius. It may be "
             "compressed. Molecular dynamics is then off unless --growth or --nve is given",
         ),
         Option(
@@ -104,19 +104,19 @@ TABLE = {
             INT32_MAX,
             needs=("input", "resume"),
         ),
-        Option("box", "positive", "L", "side of the box, of a random start or of a file that names none (1)", 1.0),
+        Option("box", "positive", "L", "side of the box, for a random start or a file that gives no box (1)", 1.0),
         Option(
             "shrink",
             "switch",
             "",
-            "multiply all diameters of the file by the factor that brings the worst pair to contact; the summary tells it",
+            "multiply all diameters of the file by the factor that brings the worst pair to contact; the summary gives it",
             needs=("input", "resume"),
         ),
         Option(
             "shrink-min",
             "not_negative",
             "F",
-            "refuse --shrink by a factor below F, at most 1: near duplicates and wrong units (1e-3)",
+            "refuse --shrink where its factor is below F <= 1, a sign of duplicates or wrong units (1e-3)",
             1e-3,
             needs=("shrink",),
         ),
@@ -204,7 +204,7 @@ TABLE = {
             "output",
             "output",
             "FILE",
-            "the packing. The ending tells the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), "
+            "the packing. The ending sets the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), ParaView (.vtp), "
             "plain text (.dat, .txt, none). With .gz behind it the file is compressed",
         ),
         Option(

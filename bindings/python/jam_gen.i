@@ -343,7 +343,7 @@ NaN: not known. @since 0.1"
 not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
 %feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1"
+computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
 %feature("docstring") jam_last_error "Reason for the last status other than JAM_OK on this thread, with the name and value at fault; \"\" when there was

@@ -57,9 +57,9 @@
  *   sums round otherwise. Then a crunch can end at another jamming point. The variable
  *   OPENBLAS_CORETYPE chooses one kernel for all. Molecular dynamics and Monte Carlo give the
  *   same bits on every processor.
- * - While a call factorises a matrix, OpenBLAS has one thread in the whole process. libjam
- *   restores the previous number of threads afterwards. Host threads that use OpenBLAS meanwhile
- *   run on one thread each.
+ * - While a call factorises a matrix or solves a linear program by Clp, OpenBLAS has one thread
+ *   in the whole process. libjam restores the previous number of threads afterwards. Host threads
+ *   that use OpenBLAS meanwhile run on one thread each.
  * - Calls compute in the default floating-point environment of C. libjam restores the caller's
  *   environment after each call, and while a callback runs. It consists of rounding mode, traps,
  *   exception flags and the treatment of denormal numbers.
@@ -168,7 +168,7 @@ JAM_API const char *jam_commit(void);
 /* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
 JAM_API int32_t jam_abi_version(void);
 /* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
- * computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1 */
+ * computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_blas_kernel(void);
 /* One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1 */
 JAM_API const char *jam_status_string(jam_status code);

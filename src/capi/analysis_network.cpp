@@ -13,13 +13,13 @@ Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
   const jam_geometry_report &r = found.report;
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
   if (found.status == JAM_NOT_JAMMED && r.contacts == 0)
-    return {JAM_NOT_JAMMED,
-            sentence("no contacts with gaps up to %.2g carry balanced forces: raise window or tolerance, or crunch",
-                     o.tolerance > 0.0 ? o.tolerance : o.window)};
+    return {JAM_NOT_JAMMED, sentence("no set of contacts with gaps up to %.2g carries balanced forces: raise window or "
+                                     "tolerance, or call jam_crunch",
+                                     o.tolerance > 0.0 ? o.tolerance : o.window)};
   if (found.status == JAM_NOT_JAMMED)
     return {JAM_NOT_JAMMED,
-            sentence("not collectively jammed even with these %lld contacts closed: excess %lld, %lld zero "
-                     "modes, translations among them; jam_flex gives a motion",
+            sentence("not collectively jammed even if these %lld contacts are closed: excess %lld, %lld zero "
+                     "modes including translations; jam_flex gives a motion",
                      n(r.contacts), n(r.excess_contacts), n(r.zero_modes))};
   if (found.status != JAM_AMBIGUOUS) return found.status;
   std::string why;
@@ -29,15 +29,14 @@ Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
     add(sentence("%lld contacts with gaps up to %.2g were taken, but %lld up to %.2g fit too: set tolerance to choose",
                  n(r.contacts), r.tolerance, n(r.second_contacts), r.second_tolerance));
   else if (!clear)
-    add(sentence("%lld contacts were taken where gaps jump by a factor of %.3g only, from %.2g to %.2g", n(r.contacts),
-                 r.jump, r.gap_below, r.gap_above));
+    add(sentence("%lld contacts were taken, but beyond them gaps rise only by a factor of %.3g, from %.2g to %.2g",
+                 n(r.contacts), r.jump, r.gap_below, r.gap_above));
   if (r.self_stresses > 1)
     add(sentence("%lld states of self-stress, so forces are not unique: the centre of the non-negative ones was taken",
                  n(r.self_stresses)));
   if (found.verdict.result.jammed != Verdict::yes)
-    add(sentence(
-        "contacts are open by up to %.1e, which leaves the verdict of jam_rigidity open: jam_crunch closes them",
-        r.gap_below));
+    add(sentence("contacts have gaps of up to %.1e, so jam_rigidity cannot decide: jam_crunch closes the gaps",
+                 r.gap_below));
   return {JAM_AMBIGUOUS, why};
 }
 
@@ -103,7 +102,8 @@ jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, d
     const auto states = static_cast<long long>(s.dimension);
     if (!s.positive)
       return {JAM_NOT_JAMMED,
-              sentence("%lld states of self-stress, and none has forces of one sign on all contacts", states)};
+              sentence("%lld states of self-stress, and no combination of them has forces of one sign on all contacts",
+                       states)};
     if (states > 1)
       return {JAM_AMBIGUOUS,
               sentence("%lld states of self-stress: force is the centre of the non-negative ones", states)};

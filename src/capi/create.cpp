@@ -106,7 +106,7 @@ jam_status jam_create_in_cell_watched(const jam_create_options *o, const double 
     check_dim(full.dim);
     check_matrix_len("cell", cell_len, full.dim);
     if (full.box != default_create_options().box)
-      fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which name the box alone: leave it at 1", full.box);
+      fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which give the box: leave box at 1", full.box);
     return make_system(full, callback, user, out, [&](jam_system &sys) {
       sys.packing = make_packing(full, positions, positions_len, diameters, diameters_len, cell, &sys.notes);
     });

@@ -32,7 +32,8 @@ void settle_options(const char *path, const FileContent &file, jam_create_option
   if (file.has_non_additivity)
     settle(path, "non_additivity", o.non_additivity, standard.non_additivity, file.non_additivity);
   if (std::memcmp(&o.packing_fraction, &standard.packing_fraction, sizeof o.packing_fraction) != 0)
-    fail(JAM_E_ARGUMENT, "packing_fraction is %g: that of a file is what it is; jam_scale_diameters changes it",
+    fail(JAM_E_ARGUMENT,
+         "packing_fraction is %g, but a file has its own: leave the option out; jam_scale_diameters changes it",
          o.packing_fraction);
 }
 

@@ -23,8 +23,8 @@ Answer make_system(const jam_create_options &o, jam_progress_fn callback, void *
     make(*sys);
   } catch (const Cancelled &) {
     *out = nullptr;
-    if (monitor.cancelled()) return {JAM_CANCELLED, "the callback stopped the call before there was a system"};
-    return {JAM_LIMIT, "wall_time came before there was a system: raise it"};
+    if (monitor.cancelled()) return {JAM_CANCELLED, "the callback stopped the call before the system was made"};
+    return {JAM_LIMIT, "wall_time ended before the system was made: raise wall_time"};
   }
   check_packing(sys->packing, JAM_E_INTERNAL);
   sys->note_diameters();

@@ -19,16 +19,18 @@ Answer answer_of(const jam_rigidity_report &r) {
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
   if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
   if (r.jammed == JAM_VERDICT_NO && r.contacts == 0)
-    return {JAM_NOT_JAMMED, sentence("not %s jammed: no non-negative forces on the contacts balance; jam_flex gives a "
-                                     "motion, jam_crunch leads to a jammed packing",
-                                     kind)};
+    return {JAM_NOT_JAMMED,
+            sentence("not %s jammed: no set of non-negative contact forces is in balance; jam_flex gives a "
+                     "motion, jam_crunch makes a jammed packing",
+                     kind)};
   if (r.jammed == JAM_VERDICT_NO)
-    return {JAM_NOT_JAMMED, sentence("not %s jammed: forces on %lld contacts balance, %lld would be needed at least, "
-                                     "and %lld motions keep them closed; jam_flex gives one",
-                                     kind, n(r.contacts), n(r.contacts_needed), n(r.flexes))};
+    return {JAM_NOT_JAMMED,
+            sentence("not %s jammed: forces on %lld contacts balance, at least %lld contacts are needed, "
+                     "and %lld motions keep all contacts closed; jam_flex gives one",
+                     kind, n(r.contacts), n(r.contacts_needed), n(r.flexes))};
   return {JAM_AMBIGUOUS,
-          sentence("undecided whether %s jammed: %lld pairs with gaps of 1e-10 to 1e-7 may be contacts or "
-                   "not, and the margin is %.1e; jam_crunch closes them",
+          sentence("undecided whether the packing is %s jammed: %lld pairs with gaps of 1e-10 to 1e-7 may or may "
+                   "not be contacts, and the rigidity margin is %.1e; jam_crunch closes contacts",
                    kind, n(r.undecided_contacts), r.rigidity_margin)};
 }
 

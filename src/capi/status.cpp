@@ -16,13 +16,13 @@ const char *meaning_of(jam_status status) {
     case JAM_CANCELLED:
       return "jam_cancel or a callback stopped the call; the state is valid";
     case JAM_LIMIT:
-      return "a limit of work or time came before the end; the state is valid: raise the limit, or call again to go on";
+      return "a limit on work or time was reached first; the state is valid: raise the limit, or call again to go on";
     case JAM_NOT_CONVERGED:
-      return "the method made no more progress; what it gives is the best so far";
+      return "the method made no more progress; its result is the best so far";
     case JAM_PRECISION:
-      return "the target lies beyond what doubles can resolve; what is given is as near as they come";
+      return "double precision cannot resolve the target; the result is as close to it as doubles allow";
     case JAM_NOT_JAMMED:
-      return "the contact network is empty, so there is nothing rigid to look at: crunch the packing first";
+      return "the contact network is empty, so there is no rigidity to analyse: crunch the packing first";
     case JAM_AMBIGUOUS:
       return "the answer is not unique: another one fits as well";
     default:
@@ -45,17 +45,18 @@ const char *meaning_of_stop(int32_t reason) {
     case JAM_STOP_CANCELLED:
       return "jam_cancel or a callback stopped the call; the packing reached is kept: call again to go on";
     case JAM_STOP_PRECISION:
-      return "gaps are at the resolution of the coordinates; the packing reached is kept, and doubles allow no more";
+      return "gaps are at the resolution of the coordinates, the limit of double precision; the packing reached is "
+             "kept";
     case JAM_STOP_LP_LIMIT:
       return "max_lps came before convergence; the packing reached is kept: raise max_lps, or crunch again to go on";
     case JAM_STOP_SOLVER:
-      return "an answer of the solver did not pass the checks; the packing reached is kept, and it is not certified";
+      return "no answer of the LP solver passed the checks; the packing reached is kept, without a certificate";
     case JAM_STOP_UNJAMMED:
-      return "the steps converged without a rigid network: no forces balance on contacts; compress the packing further "
-             "first, or take more spheres";
+      return "the crunch converged without a rigid network: no contact forces are in balance; compress the packing "
+             "further first, or take more spheres";
     case JAM_STOP_SADDLE:
-      return "forces balance, but a motion opens contacts, and steps along it lead nowhere: take another seed, or "
-             "compress the packing further first";
+      return "contact forces balance, but a motion opens contacts (a saddle), and steps along it do not leave the "
+             "saddle: take another seed, or compress the packing further first";
     case JAM_STOP_EVALUATIONS:
       return "max_evaluations came before the minimum; the state reached is kept: raise it, or call again to go on";
     case JAM_STOP_STEPS:

@@ -324,8 +324,8 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
   const ClosestPair worst = closest_pair(p);
   if (same_centre(worst))
     fail(JAM_E_OVERLAP,
-         "spheres %d and %d have the same centre: no shrinking helps; leave one of them out, as where a file lists the "
-         "spheres on both faces of the box",
+         "spheres %d and %d have the same centre: no shrinking helps; remove one of them; some files list a sphere "
+         "on both faces of the box",
          worst.i, worst.j);
   const bool overlap = worst.gap < -overlap_tolerance;
   if (overlap) {
@@ -340,7 +340,7 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
   if (factor < least)
     fail(JAM_E_OVERLAP,
          "%s: to shrink means to multiply all diameters by %.3g, less than shrink_min %g; leave one of two duplicates "
-         "out, or mend the unit of the diameters",
+         "out, or correct the unit of the diameters",
          cause, factor, least);
   check_diameters(p.diameter, p.cell);
   if (notes)

@@ -137,7 +137,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   const int32_t other_dim = with_bytes_reversed(h.dim);
   if (other_dim >= 2 && other_dim <= JAM_MAX_DIM)
     fail(JAM_E_FORMAT,
-         "%s was written on a machine with the other order of bytes: write the packing as text there, that reads "
+         "%s was written on a machine with the other order of bytes: write the packing as text there, which reads "
          "anywhere",
          path);
   uint64_t sum = 0;

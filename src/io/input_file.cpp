@@ -112,7 +112,7 @@ size_t InputFile::unpack(char *to, size_t size) {
     if (code == Z_MEM_ERROR) throw std::bad_alloc();
     if (code == Z_STREAM_END) gzip_->inside = false;
     if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR)
-      fail(JAM_E_FORMAT, "%s: not a sound gzip file: %s", path_.c_str(), s.msg ? s.msg : "damaged");
+      fail(JAM_E_FORMAT, "%s: not a valid gzip file: %s", path_.c_str(), s.msg ? s.msg : "damaged");
     CallScope::look();
   }
   return room - s.avail_out;

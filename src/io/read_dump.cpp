@@ -32,7 +32,8 @@ Box read_box(LineReader &in, Words behind) {
   for (auto &row : x) {
     if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends inside the box");
     split(line, words);
-    if (words.size() != columns) in.fail(JAM_E_FORMAT, "%zu numbers of the box, %zu are needed", words.size(), columns);
+    if (words.size() != columns)
+      in.fail(JAM_E_FORMAT, "a line of the box has %zu numbers, %zu are needed", words.size(), columns);
     for (size_t c = 0; c < columns; ++c) row[c] = parse_number(in, words[c]);
   }
   Box box;
@@ -152,12 +153,12 @@ bool read_frame(LineReader &in, FileContent &content) {
   bool begun = false, has_box = false;
   while (next_words(in, line, words)) {
     if (words[0] != "ITEM:" || words.size() < 2)
-      in.fail(JAM_E_FORMAT, "'%s' is there where an ITEM: must begin%s", shown(line).c_str(),
+      in.fail(JAM_E_FORMAT, "'%s' stands where a line of ITEM: is needed%s", shown(line).c_str(),
               begun ? "" : "; there may be more atoms than NUMBER OF ATOMS says");
     const std::string item(words[1]);
     begun = true;
     if (item == "TIMESTEP" || item == "TIME" || item == "UNITS") {
-      if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends behind ITEM: %s", item.c_str());
+      if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends after ITEM: %s", item.c_str());
     } else if (item == "NUMBER" && words.size() == 4 && words[3] == "ATOMS") {
       if (n >= 0) in.fail(JAM_E_FORMAT, "NUMBER OF ATOMS stands twice in one frame");
       if (!next_words(in, line, words)) in.fail(JAM_E_FORMAT, "the file ends before the number of atoms");

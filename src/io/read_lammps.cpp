@@ -143,10 +143,10 @@ class StyleDoubt {
  public:
   explicit StyleDoubt(int64_t types) : types_(types) {}
   void look(const LineReader &in, const Words &words) {
-    if (!is_count(words[1])) in.fail(JAM_E_FORMAT, "'%s' is no type of an atom", shown(words[1]).c_str());
+    if (!is_count(words[1])) in.fail(JAM_E_FORMAT, "'%s' is not an atom type", shown(words[1]).c_str());
     const int64_t type = parse_count(in, words[1], "a type");
     if (types_ > 0 && (type < 1 || type > types_))
-      in.fail(JAM_E_FORMAT, "the type %lld is not one of the %lld of the header, as if the atom_style were not sphere",
+      in.fail(JAM_E_FORMAT, "the type %lld is not one of the %lld types of the header: is the atom_style sphere?",
               static_cast<long long>(type), static_cast<long long>(types_));
     if (!is_count(words[2])) return void(sure_ = true);
     const int64_t third = parse_count(in, words[2], "a number");
@@ -270,7 +270,7 @@ FileContent read_lammps(LineReader &in, const ReadOptions &) {
     for (const std::string_view word : words) name += (name.empty() ? "" : " ") + std::string(word);
     if (name == "Atoms") {
       if (header.atoms < 0) in.fail(JAM_E_FORMAT, "no line '<N> atoms' stands before the atoms");
-      if (!atoms.empty()) in.fail(JAM_E_FORMAT, "there is a second section Atoms");
+      if (!atoms.empty()) in.fail(JAM_E_FORMAT, "the file has a second section Atoms");
       bool named = false;
       const Style &style = find_style(in, line, named);
       atoms = read_atoms(in, header, style, named, content.notes);

@@ -88,7 +88,7 @@ void refuse_counting(const LineReader &in, const FileContent &content) {
   if (n < 3 || (x[0] != 0.0 && x[0] != 1.0)) return;
   for (size_t k = 0; k < n; ++k)
     if (x[k * d] != x[0] + static_cast<double>(k)) return;
-  in.fail(JAM_E_FORMAT, "the first column counts the rows, so that it is no coordinate: name the columns on line 1");
+  in.fail(JAM_E_FORMAT, "the first column counts the rows, so it is not a coordinate: name the columns on line 1");
 }
 
 // Reads the lines before the first row of numbers. Names stand on the last of them, or in a comment of as many words as

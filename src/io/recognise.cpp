@@ -70,7 +70,7 @@ bool is_table(const Head &h) {
 bool is_binary(const Head &h) { return h.bytes.find('\0') != std::string_view::npos; }
 
 constexpr const char *own_arrays = "read its arrays in Python (numpy, h5py, scipy) and give them to System.from_arrays";
-constexpr const char *unpack = "unpack it, then read what is in it; gzip alone is unpacked by itself";
+constexpr const char *unpack = "unpack it, then read the content; only gzip is unpacked automatically";
 constexpr const char *with_keys =
     "make line 2 Lattice=\"Lx 0 0 0 Ly 0 0 0 Lz\" Properties=species:S:1:pos:R:3:radius:R:1, with the box and the "
     "columns of the file";
@@ -114,7 +114,7 @@ constexpr KnownFile table[] = {
     {"a restart file of LAMMPS", [](const Head &h) { return begins(h, "LammpS RestartT"); }, nullptr,
      "turn it into data: lmp -restart2data FILE out.data"},
     {"a picture or a document", [](const Head &h) { return begins(h, "\x89PNG") || begins(h, "%PDF"); }, nullptr,
-     "no packing is in it"},
+     "it holds no packing"},
     {"text in UTF-16", [](const Head &h) { return begins(h, "\xff\xfe") || begins(h, "\xfe\xff"); }, nullptr,
      "save it as plain text (ASCII or UTF-8)"},
     {"a binary file that no reader knows", is_binary, nullptr, own_arrays},
@@ -135,9 +135,9 @@ constexpr KnownFile table[] = {
     {"VTK", [](const Head &h) { return begins(h, "# vtk") || begins(h, "<?xml") || begins(h, "<VTKFile"); }, nullptr,
      "such files are written only: write extended XYZ beside them"},
     {"a page in HTML", [](const Head &h) { return begins(h, "<!") || begins(h, "<html"); }, nullptr,
-     "a page only shows a packing: read the file that was written beside it"},
+     "a page only shows a packing: read the packing file that was written with it"},
     {"JSON", [](const Head &h) { return begins(h, "{") || begins(h, "["); }, nullptr,
-     "no packing is read from it: read the file that was written beside it"},
+     "it holds no packing to read: read the packing file that was written with it"},
     {"a table of columns", is_table, read_table, nullptr},
     {"LAMMPS data", [](const Head &h) { return h.ending == "data" || h.ending == "lmp"; }, read_lammps, nullptr},
 };

@@ -100,7 +100,8 @@ void split_columns(const LineReader &in, std::string_view line, std::vector<std:
     const size_t stop = std::min(line.find(',', k), line.size());
     split(line.substr(k, stop - k), part);
     if (part.size() != 1)
-      in.fail(JAM_E_FORMAT, "'%s' has a comma: write decimal points, and part columns by blanks or by commas alone",
+      in.fail(JAM_E_FORMAT,
+              "'%s' has a comma: write decimal points, and separate columns only by blanks or only by commas",
               shown(*std::find_if(words.begin(), words.end(), [](std::string_view w) {
                 return w.find(',') != std::string_view::npos;
               })).c_str());

@@ -8,6 +8,6 @@ def refuse_another_python() -> None:
     built = [path.name for path in Path(__file__).parent.glob("_raw.*.so")]
     if built and not any("_raw" + suffix in built for suffix in EXTENSION_SUFFIXES):
         raise ImportError(
-            f"jam was built for another Python: {', '.join(built)} is no module for {sys.version.split()[0]} of "
-            f"{sys.executable}. Run the one that it was built for, or configure with -DJAM_PYTHON={sys.executable}"
+            f"jam was built for another Python: {', '.join(built)} does not fit Python {sys.version.split()[0]} of "
+            f"{sys.executable}. Run the Python that it was built for, or configure with -DJAM_PYTHON={sys.executable}"
         )

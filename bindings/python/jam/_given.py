@@ -34,7 +34,7 @@ def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
             "for ASE's cell=ase.geometry.cellpar_to_cell(...)"
         )
     elif single:
-        raise ValueError(f"cell must be {wanted}, not one number: a cube is box=")
+        raise ValueError(f"cell must be {wanted}, not one number: for a cube give box=")
     elif dim == 2 and x.shape in ((3,), (3, 3)):
         hint = ": leave the third direction out"
     raise ValueError(f"{name} must be {wanted}, not an array of shape {x.shape}{hint}")

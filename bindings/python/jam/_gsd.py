@@ -82,7 +82,7 @@ def read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
     x = np.asarray(one.particles.position)
     # GSD leaves its default box of side 1 out, so a file without a box holds either that one or none
     if _chunk(file, frame, "configuration/box") is None and np.abs(x[:, :d]).max() > 0.5 + 1e-6:
-        raise bad("no chunk configuration/box, and the positions reach out of the default box of side 1")
+        raise bad("no chunk configuration/box, and some positions lie outside the default box of side 1")
     kept = _doubles(file, frame, one, bad) if doubles else None
     return Found(d, x, _diameters(file, frame, one, bad) if sizes and kept is None else None, cell, kept)
 
@@ -109,7 +109,7 @@ def _doubles(file: Any, frame: int, one: Any, bad: Bad) -> Doubles | None:
     wrong = _difference(kept, one)
     if wrong and own:
         raise bad(
-            f"{wrong} of frame {frame} is not what libjam kept of it in log/jam: another program changed the frame. "
+            f"{wrong} of frame {frame} does not agree with the copy of libjam in log/jam: another program changed the frame. "
             "doubles=False reads the frame alone",
         )
     return None if wrong else kept

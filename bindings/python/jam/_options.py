@@ -44,17 +44,17 @@ OPTIONS = (
     ('seed', 'integer', 'S', 1, (-9223372036854775807, 9223372036854775807), (), False, (), (),
         'of all random numbers (1)'),
     ('input', 'input', 'FILE', None, (0, 0), (), False, (), (),
-        'start from a file: plain text, extended XYZ, data or a dump of LAMMPS, or a table x y z radius. '
-        'It may be compressed. Molecular dynamics is then off unless --growth or --nve is given'),
+        'start from a file: plain text, extended XYZ, LAMMPS data or dump, or a table x y z radius. It '
+        'may be compressed. Molecular dynamics is then off unless --growth or --nve is given'),
     ('frame', 'integer', 'K', -1, (-2147483647, 2147483647), (), False, (), ('input', 'resume'),
         'which packing of an --input that holds several: 0 is the first, -1 the last (-1)'),
     ('box', 'positive', 'L', 1.0, (0, 0), (), False, (), (),
-        'side of the box, of a random start or of a file that names none (1)'),
+        'side of the box, for a random start or a file that gives no box (1)'),
     ('shrink', 'switch', '', None, (0, 0), (), False, (), ('input', 'resume'),
         'multiply all diameters of the file by the factor that brings the worst pair to contact; the '
-        'summary tells it'),
+        'summary gives it'),
     ('shrink-min', 'not_negative', 'F', 0.001, (0, 0), (), False, (), ('shrink',),
-        'refuse --shrink by a factor below F, at most 1: near duplicates and wrong units (1e-3)'),
+        'refuse --shrink where its factor is below F <= 1, a sign of duplicates or wrong units (1e-3)'),
     # Molecular dynamics
     ('nve', 'not_negative', 'C', 0.0, (0, 0), (), False, (), (),
         'first C collisions per particle without growth (0)'),
@@ -90,7 +90,7 @@ OPTIONS = (
         'stop after molecular dynamics'),
     # Output
     ('output', 'output', 'FILE', None, (0, 0), (), False, (), (),
-        'the packing. The ending tells the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), '
+        'the packing. The ending sets the format: extended XYZ (.xyz, .extxyz), LAMMPS (.data, .lmp), '
         'ParaView (.vtp), plain text (.dat, .txt, none). With .gz behind it the file is compressed'),
     ('page', 'output', 'FILE.html', None, (0, 0), (), False, (), (),
         'the packing to look at in a browser, with forces, certificate and distributions; needs no '

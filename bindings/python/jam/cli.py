@@ -367,7 +367,7 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
     if o.non_additivity and o.output and not o.output.endswith((".xyz", ".extxyz")):
         p.error("--non-additivity needs an --output that ends in .xyz or .extxyz: plain text cannot hold it")
     if o.resume and o.input:
-        p.error("--resume and --input are two starts")
+        p.error("--resume and --input both give a start: leave one out")
     return list(chosen.values())
 
 

@@ -103,7 +103,7 @@ class Folder:
                 part.mkdir(parents=True, exist_ok=True)
             check_writable(self.parts)
         except OSError as error:
-            raise StoreError(error.errno, f"{self.path}: this folder cannot be written: {error.strerror}") from error
+            raise StoreError(error.errno, f"{self.path}: this folder cannot be written to: {error.strerror}") from error
         remove_abandoned(self.parts)
 
     # ---- protocols

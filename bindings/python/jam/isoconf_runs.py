@@ -154,7 +154,7 @@ class Runs:
             with np.load(path) as file:
                 data = {k: file[k] for k in file.files}
                 if data.pop("sha256", "") != _digest(data) and not unverified:
-                    raise ValueError("its arrays are not those of its checksum; unverified=True reads an older version's")
+                    raise ValueError("its arrays differ from its checksum; unverified=True reads files of older versions")
             plain = {f.name: data[f.name] for f in fields(cls) if f.name not in ("series", "kept")}
             series = {k[7:]: data[k] for k in data if k.startswith("series_")}
             kept = {int(k[5:]): data[k] for k in data if k.startswith("kept_")}
@@ -164,7 +164,7 @@ class Runs:
         except FileNotFoundError:
             raise
         except _DAMAGE as error:
-            raise StoreError(5, f"{path} is damaged, or no file of runs: {error}. Take a copy from elsewhere") from error
+            raise StoreError(5, f"{path} is damaged, or not a file of runs: {error}. Use another copy") from error
         return cls(**plain, series=series, kept=kept)
 
     def __repr__(self) -> str:

@@ -115,7 +115,7 @@ def _plane(path: str, x: Array, cell: Array, dim: int) -> Array:
             raise _bad(
                 path,
                 f"spheres 0 and {i} have z = {x[0, 2]:g} and {x[i, 2]:g}, but d = 2 takes one plane z = const: "
-                "if this is a slice through a packing, it has no cell of d = 2; else turn it into the plane x, y",
+                "if this is a slice through a packing in d = 3, it has no cell in d = 2; else rotate it into the plane x, y",
             )
         for k in range(2):
             if not abs(cell[k, 2]) <= room:
@@ -213,6 +213,6 @@ def _refuse_sorted(path: str, kind: str, frame: int, positions: Array) -> None:
     if not np.array_equal(as_written.positions, positions):
         raise _bad(
             path,
-            "ASE sorts these atoms by their ids, and the file has another order, so which diameter belongs to which "
-            "atom is open: System.read takes the radii from a column of the file; or sort the file by id",
+            "ASE sorts these atoms by id, but the file has another order, so it is unclear which atom has which "
+            "diameter: System.read takes the radii from a column of the file; or sort the file by id",
         )

@@ -45,8 +45,8 @@ def damaged(path: Any, what: str) -> StoreError:
     """The error for a file that is not what jam wrote."""
     return StoreError(
         5,
-        f"{path} is damaged, or was changed by another program: {what}. Take a copy from elsewhere or make it again. "
-        "A file of your own is read as it is, unchecked, with unverified=True",
+        f"{path} is damaged, or was changed by another program: {what}. Use another copy or make it again. "
+        "unverified=True reads a file of your own without this check",
     )
 
 
@@ -109,7 +109,7 @@ def _index_of(group: Any) -> dict[str, Any]:
 
 def _check_names(names: Collection[str]) -> None:
     if len(names) > _MOST_ARRAYS or any(name.count("/") > _DEEPEST for name in names):
-        raise ValueError(f"more than {_MOST_ARRAYS} arrays, or groups in each other more than {_DEEPEST} deep")
+        raise ValueError(f"more than {_MOST_ARRAYS} arrays, or groups nested more than {_DEEPEST} deep")
 
 
 def _digest(image: memoryview, at: int, size: int) -> str:
@@ -143,7 +143,7 @@ def seal(memory: Any, fill: Callable[[Any], Sequence[str]]) -> None:
     image = memory.getbuffer() if isinstance(memory, io.BytesIO) else memoryview(mmap.mmap(memory.fileno(), 0))
     for index, (at, size, _) in places:
         if image[at : at + size] != json.dumps(index).encode():
-            raise StoreError(5, f"HDF5 {h5py.version.hdf5_version} lays files out in a way that jam cannot seal")
+            raise StoreError(5, f"HDF5 {h5py.version.hdf5_version} writes a file layout that jam cannot seal")
     for index, place in places:
         for entry in index.get("data", {}).values():
             entry[3] = _digest(image, entry[0], _size(entry[1], _type(entry[2])))
@@ -159,7 +159,7 @@ def _type(text: Any) -> np.dtype[Any]:
     fields = [("", text)] if isinstance(text, str) else text
     for _, kind in fields:
         if not _KIND.fullmatch(kind):
-            raise ValueError(f"{kind!r} is no type of numbers or text")
+            raise ValueError(f"{kind!r} is not a type of numbers or text")
     described: Any = text if isinstance(text, str) else [(str(k), v) for k, v in text]
     made: np.dtype[Any] = np.dtype(described)
     if made.itemsize == 0:
@@ -222,7 +222,7 @@ class _File:
         if self.length > most:
             raise StoreError(
                 27,
-                f"{path} has {self.length:.3g} bytes, at most {most:.3g} are read: give memory_limit= if it is your own",
+                f"{path} has {self.length:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own",
             )
 
     def read(self, at: int, size: int) -> memoryview:
@@ -283,7 +283,7 @@ class _File:
             raise StoreError(22, f"{self.path} {_what_it_is(head)}")
         found = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})\nsha256 ([0-9a-f]{64})\n", head)
         if not found:
-            raise damaged(self.path, "its first 512 bytes are no seal that this jam knows")
+            raise damaged(self.path, "its first 512 bytes are not a seal that this version of jam knows")
         place, whole = [int(found[1]), int(found[2]), found[3].decode()], found[4].decode()
         if head != _head(self.length, place, whole):
             raise damaged(self.path, f"its seal does not fit a file of {self.length} bytes")
@@ -293,14 +293,14 @@ class _File:
         if self.digest() != whole:
             for name in (group := self.group(index))._all:  # names what is damaged, where that is an array
                 group[name]
-            raise damaged(self.path, "it differs from its checksum, though the arrays are whole")
+            raise damaged(self.path, "the file differs from its checksum, though its arrays are intact")
         return self.group(index), {}
 
 
 def _what_it_is(head: bytes) -> str:
     if b"\x89HDF\r\n\x1a\n" in head:
         return (
-            "is HDF5 without the seal of jam: an older version or another program wrote it. If it is your own, "
+            "is HDF5 without the seal of jam: an older version or another program wrote it. If the file is your own, "
             "unverified=True reads it, and save() seals it"
         )
     return "is no file of packings"

@@ -156,7 +156,7 @@ def _h5md(file: Any, system: System) -> None:
     edges["step"], edges["time"] = position["step"], position["time"]
 
 
-_MENDED = "Nothing that was finished is lost: mend this and run again"
+_MENDED = "Nothing that was finished is lost: correct this and run again"
 
 
 def _state(system: System) -> tuple[bytes, list[Any]]:
@@ -365,7 +365,7 @@ def load(
         dim = _checked("position/value", places, "f8", 1, n, -1).shape[2]
         calls = json.loads(bytes(jam["calls"][()]))
         if not (isinstance(calls, list) and all(isinstance(c, dict) for c in calls)):
-            raise ValueError("jam/calls is no list of calls")
+            raise ValueError("jam/calls is not a list of calls")
         try:
             made, stored = _restore(jam["state"][()].tobytes(), calls, []), results_of(jam, n, dim)
             same = not stored or stored[1] is None or np.array_equal(stored[1].table(), made.contacts.table())

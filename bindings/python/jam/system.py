@@ -141,7 +141,7 @@ class System(State, Verbs, Network):
     def read(cls, path: str | os.PathLike[str], **options: Any) -> "System":
         """Reads a packing: plain text, extended XYZ, data and dumps of LAMMPS, tables, each also compressed, or GSD.
 
-        The content tells the format, but for GSD (needs python3-gsd), which goes by the ending .gsd. For other formats
+        The content gives the format, except for GSD (needs python3-gsd), where the ending .gsd does. For other formats
         there is jam.files.read_ase.
 
         Parameters

@@ -35,7 +35,7 @@ class _Walk:
             if self.objects > _MOST_OBJECTS:
                 raise self.refuse(at, f"is one of more than {_MOST_OBJECTS} objects")
             if not isinstance(node.get(name, getlink=True), h5py.HardLink):
-                raise self.refuse(at + name, "is a link to elsewhere")
+                raise self.refuse(at + name, "is a link to another place or file")
             inner = node[name]
             if isinstance(inner, h5py.Group):
                 self.group(inner, f"{at}{name}/", depth + 1)
@@ -61,7 +61,7 @@ class _Walk:
             size = math.prod(node.shape) * node.dtype.itemsize
         self.left -= size
         if self.left < 0:
-            raise self.refuse(name, "asks for more bytes than the file is long")
+            raise self.refuse(name, "needs more bytes than the file has")
         return found if node.dtype.hasobject else np.asarray(node[()])
 
 

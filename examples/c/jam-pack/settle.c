@@ -190,7 +190,7 @@ int settle(options *o) {
     return -1;
   }
   if (o->resume && o->input) {
-    complain("--resume and --input are two starts");
+    complain("--resume and --input both give a start: leave one out");
     return -1;
   }
   if (is_named(o, "model") && o->model == JAM_MODEL_EUCLID && (isfinite(o->zeta) || isfinite(o->plant))) {

@@ -88,7 +88,7 @@ static int check_resumed(const options *o, const jam_system *sys) {
   else if (is_named(o, "dim") && o->dim != info.dim)
     complain("--dim is %lld, the checkpoint has d = %d", (long long)o->dim, (int)info.dim);
   else if (is_named(o, "seed") && o->seed != info.seed)
-    complain("--seed is %lld, that of the checkpoint %lld", (long long)o->seed, (long long)info.seed);
+    complain("--seed is %lld, the checkpoint has seed %lld", (long long)o->seed, (long long)info.seed);
   else
     return 0;
   return EXIT_USAGE;
@@ -132,7 +132,7 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   }
   if (status < 0) return refused_start(o, status);
   if (!*sys) {
-    complain("interrupted before there was a packing");
+    complain("interrupted before the packing was made");
     return EXIT_FAILED;
   }
   return o->resume ? check_resumed(o, *sys) : 0;

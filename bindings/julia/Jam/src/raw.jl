@@ -958,7 +958,7 @@ end
 
 """
 Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the file of that library. Static storage. Threads: any. @since 0.1
+computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())

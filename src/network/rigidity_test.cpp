@@ -170,11 +170,32 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const 
   return out;
 }
 
+// Forces that do not balance may have come over spheres with d contacts or fewer, whose forces are nearly but not quite
+// along one line or plane: none of them carries force, and each can slip out. Without them the rest may be proved
+// jammed. False where it is not.
+static bool test_without_bridges(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point,
+                                 RigidityResult &out) {
+  std::vector<int32_t> degree(g.nodes, 0);
+  std::vector<char> on(out.carrying);
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (on[k]) ++degree[g.a[k]], ++degree[g.b[k]];
+  for (size_t k = 0; k < g.contacts(); ++k) on[k] = on[k] && degree[g.a[k]] > g.dim && degree[g.b[k]] > g.dim;
+  if (on == out.carrying || std::count(on.begin(), on.end(), 1) == 0) return false;
+  RigidityResult part = find_verdict(subset(g, on), kind, cancel_point);
+  if (part.jammed != Verdict::yes) return false;
+  out = part;
+  out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
+  spread(on, part.carrying, part.force, out);
+  out.idle_contacts = static_cast<int64_t>(g.contacts()) - out.contacts;
+  return true;
+}
+
 // A no is proved by its motion. Where none holds up, K+ was not what it seemed, and nothing is decided.
 RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
   const BlasSingleThread single;
   RigidityResult out = find_verdict(g, kind, cancel_point);
   if (out.jammed != Verdict::no || g.contacts() == 0 || !out.flex.empty()) return out;
+  if (!(out.force_residual < most_residual) && test_without_bridges(g, kind, cancel_point, out)) return out;
   const bool stressed = out.stressed == Verdict::yes, useless = !(out.force_residual < useless_residual);
   if (stressed && useless) {
     out = RigidityResult();

@@ -155,8 +155,9 @@ void verdict_holds(int64_t seed) {
   std::vector<char> held(disks);
   for (int k = 0; k < disks; ++k) held[k] = z[k] > 0;
   assert_false(moves(closed, held));
-  // HiGHS from the same start: 774 contacts, all with force.
-  if (seed == 6) assert_true(std::fabs(r.packing_fraction - 0.877701938123) < 1e-11 && r.contacts == 774);
+  // HiGHS on the pairs closed at this end, 776: 774 of them carry force. A disk between two contacts that are not quite
+  // opposite has the other two.
+  if (seed == 6) assert_true(std::fabs(r.packing_fraction - 0.877546382558) < 1e-11 && r.contacts == 774);
 }
 
 void ten_packings(void **) {

@@ -5119,6 +5119,8 @@ contains
     integer(c_size_t) :: count_high
     type(c_ptr) :: at_low
     integer(c_size_t) :: count_low
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
     at_ratio = c_null_ptr
     count_ratio = 0
     if (present(ratio)) then
@@ -5136,7 +5138,7 @@ contains
       count_high = size(high, kind=c_size_t)
     end if
     if (present(high)) then
-      status = checked('high', shape(high, kind=c_size_t), 0_c_size_t, count_high)
+      status = checked('high', shape(high, kind=c_size_t), d_of_c, count_high)
       if (status /= JAM_OK) return
     end if
     at_low = c_null_ptr
@@ -5146,7 +5148,7 @@ contains
       count_low = size(low, kind=c_size_t)
     end if
     if (present(low)) then
-      status = checked('low', shape(low, kind=c_size_t), 0_c_size_t, count_low)
+      status = checked('low', shape(low, kind=c_size_t), d_of_c, count_low)
       if (status /= JAM_OK) return
     end if
     status = c_jam_refined_positions(sys, at_ratio, count_ratio, at_high, count_high, at_low, count_low, needed)
@@ -5168,6 +5170,8 @@ contains
     integer(c_size_t) :: count_high
     type(c_ptr) :: at_low
     integer(c_size_t) :: count_low
+    integer(c_size_t) :: n_of_c, d_of_c
+    call sizes_of(sys, n_of_c, d_of_c)
     at_ratio = c_null_ptr
     count_ratio = 0
     if (present(ratio)) then
@@ -5187,7 +5191,7 @@ contains
     end if
     count_high = high_len
     if (present(high)) then
-      status = checked('high', shape(high, kind=c_size_t), 0_c_size_t, count_high)
+      status = checked('high', shape(high, kind=c_size_t), d_of_c, count_high)
       if (status /= JAM_OK) return
     end if
     at_low = c_null_ptr
@@ -5198,7 +5202,7 @@ contains
     end if
     count_low = low_len
     if (present(low)) then
-      status = checked('low', shape(low, kind=c_size_t), 0_c_size_t, count_low)
+      status = checked('low', shape(low, kind=c_size_t), d_of_c, count_low)
       if (status /= JAM_OK) return
     end if
     status = c_jam_refined_positions(sys, at_ratio, count_ratio, at_high, count_high, at_low, count_low, needed)

@@ -308,6 +308,7 @@ LAST_EXTENT = {
     "jam_contact_vectors": {"out": "d"},
     "jam_modes": {"vector": "d"},
     "jam_flex": {"out": "d", "strain": "d"},
+    "jam_refined_positions": {"high": "d", "low": "d"},
     "jam_gaps": {"pair": 2},
     "jam_sphere_structure": {"c": "d"},
     "jam_floppy_mode": {"out": "d"},

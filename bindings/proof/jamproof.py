@@ -145,7 +145,8 @@ def float_inverse(rows):
         a = [row + [float(k == i) for k in range(n)] for i, row in enumerate(rows)]
         for c in range(n):
             p = max(range(c, n), key=lambda r: abs(a[r][c]))
-            a[c], a[p] = [v / a[p][c] for v in a[p]], a[c]
+            a[c], a[p] = a[p], a[c]
+            a[c] = [v / a[c][c] for v in a[c]]
             for r in range(n):
                 if r != c and a[r][c]:
                     a[r] = [x - a[r][c] * y for x, y in zip(a[r], a[c])]

@@ -151,7 +151,8 @@ std::string Stage::text() const {
       std::snprintf(line, sizeof line, "wall_time ended at packing fraction %.6g; resume = 1 goes on", phi);
       break;
     case JAM_STOP_CANCELLED:
-      std::snprintf(line, sizeof line, "cancelled at packing fraction %.6g; resume = 1 goes on", phi);
+      std::snprintf(line, sizeof line,
+                    "cancelled by jam_cancel or a callback at packing fraction %.6g; resume = 1 goes on", phi);
       break;
     case JAM_STOP_TIME:
     case JAM_STOP_COLLISIONS:

@@ -131,7 +131,7 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
               static_cast<long long>(count - 1));
   FileContent &chosen = kept.front();
   if (count > 1 && frame == -1)
-    chosen.notes.say("the last of %lld frames was read; frame=0 to %lld reads others", static_cast<long long>(count),
+    chosen.notes.say("the last of %lld frames was read; frame=0 to %lld read others", static_cast<long long>(count),
                      static_cast<long long>(count - 1));
   return std::move(chosen);
 }

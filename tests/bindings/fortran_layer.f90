@@ -39,7 +39,7 @@ program fortran_layer
   sizes = 1
   sizes(1::2) = 1.4_c_double
   call jam_defaults(create)
-  call expect(create%dim == 3 .and. create%packing_fraction == 0.2_c_double, 'defaults')
+  call expect(create%dim == 3 .and. create%packing_fraction == 0.0_c_double, 'defaults')
   create%dim = d
   create%n = n
   create%seed = 3

@@ -9,7 +9,7 @@ from jam import near_jamming as nj
 from jam import statistics as st
 
 
-def jammed(n=128, seed=3):
+def jammed(n=128, seed=5):
     packing = jam.System.random(n=n, dim=3, seed=seed)
     packing.compress([(1e-2, 500), (1e-2, 1e5)])
     assert packing.crunch().jammed

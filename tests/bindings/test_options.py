@@ -81,7 +81,7 @@ class Options(unittest.TestCase):
 
     def test_a_line_now_and_then_in_a_pipe(self):
         said = self.pack(*"--n 4000 --growth 1e-5:1e9 --no-crunch --wall-time 11.5".split())
-        self.assertRegex(said.stderr, r"^growth 1e-05  p [\d.]+  phi 0\.\d+ .* 10\.\d s\n")
+        self.assertRegex(said.stderr, r"^growth 1e-05  p [\d.]+  phi 0\.\d+ .* 10\.\d s  \d+ %, .* s left \(.*\)\n")
         self.assertNotIn("\r", said.stderr)
 
     def test_options_without_effect(self):
@@ -108,7 +108,7 @@ class Options(unittest.TestCase):
             file.write_text('1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3:radius:R:1:mass:R:1\n.1 .2 1.3 .1 7\n' * 2)
             notes = jam.System.read(file).notes.splitlines()
             self.assertEqual(len(notes), 3)
-            self.assertIn("the last of 2 frames was read; frame=0 to 1 take others", notes)
+            self.assertIn("the last of 2 frames was read; frame=0 to 1 read others", notes)
             for program in ([PACK], [sys.executable, "-m", "jam"]):
                 report = subprocess.run(
                     [*program, "--input", file, "--no-crunch", "--report", "-"], capture_output=True, check=True

@@ -270,7 +270,7 @@ class Ase(Folder):
     def test_diameters_of_a_sorted_file(self):
         """ASE sorts the atoms of a dump by id; diameters in the order of its lines would go to others."""
         path = self.dump([self.ROWS[2], *self.ROWS[:2]])
-        self.refused(["a.dump", "sorts", "ids"], jam.files.read_ase, path, [0.3, 0.2, 0.2])
+        self.refused(["a.dump", "sorts", "by id"], jam.files.read_ase, path, [0.3, 0.2, 0.2])
         self.assertEqual(jam.files.read_ase(path, 0.1).n, 3)
         s = jam.files.read_ase(self.dump(self.ROWS), [0.2, 0.2, 0.3])
         self.assertEqual(s.diameters[np.argmin(np.abs(s.positions[:, 0] - 0.35))], 0.3)

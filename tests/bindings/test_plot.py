@@ -65,7 +65,7 @@ class Pictures(unittest.TestCase):
         )
         self.assertEqual(list(ax.lines[0].get_xdata()), list(np.cumsum(h["factorisations"])[h["gain"] > 0]))
         self.assertGreater(len(jam.plot.convergence(self.flat.trace).lines), 0)
-        record = lambda phi, p: jam.Progress(2, phi, p, 0.0, 0.0, 0.0, 0.0, 10, 0, 0, 0)  # noqa: E731
+        record = lambda phi, p: jam.Progress(2, phi, p, 0.0, 0.0, 0.0, 0.0, 10, 0, 0, 0, 0.0, 0.0)  # noqa: E731
         ax = jam.plot.trace([record(0.3, 5.0), record(0.5, 20.0), record(0.5, float("nan"))])
         self.assertEqual(list(ax.lines[0].get_ydata()), [5.0, 20.0])
 

@@ -137,7 +137,7 @@ static void the_path_factorises_fewer_pairs_than_the_lps(void **state) {
   jam_estimate path, lps, wide;
   (void)state;
   jam_compress_options_init(&c, sizeof c);
-  c.growth_rate = 0.1, c.pressure = 1e3;
+  c.growth_rate = 0.1, c.pressure = 1e4;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   jam_crunch_options_init(&o, sizeof o);
   o.neighbour_radius = 0.9; /* shorter than a contact */

@@ -96,7 +96,14 @@ static void thin_cells(void **state) {
       cell[d * d - 1] = pow(h, 1 - d);
     o.dim = d, o.n = cases[k].n;
     o.packing_fraction = cases[k].n * ball * pow(0.35 * h, d);
-    assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys), JAM_OK);
+    const double longest = cases[k].flat ? wide : cell[d * d - 1];
+    const jam_status made = jam_create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys);
+    if (0.7 * h < 1e-9 * longest) { /* coordinates along the rod would not resolve its spheres */
+      assert_int_equal(made, JAM_E_ARGUMENT);
+      assert_non_null(strstr(jam_last_error(), "edge"));
+      continue;
+    }
+    assert_int_equal(made, JAM_OK);
     c.strain = JAM_STRAIN_FREE, c.wall_time = 10.0;
     const jam_status status = jam_crunch(sys, &c, NULL);
     if (status < 0) fail_msg("d %d height %g: %d %s", d, h, status, jam_last_error());

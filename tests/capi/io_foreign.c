@@ -160,7 +160,7 @@ static void frames(void **state) {
   sys = read_text(text);
   jam_positions_view(sys, &x, &k);
   assert_true(x[0] == 0.375);
-  assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 take others");
+  assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 read others");
   jam_destroy(sys);
   for (o.frame = -3; o.frame <= 2; ++o.frame) {
     sys = read_with(text, len, &o);

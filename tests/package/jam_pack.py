@@ -154,7 +154,7 @@ class JamPack(unittest.TestCase):
         self.refuse(2, "frame is 2, the file holds 2", "--input", file, "--frame", 2)
         self.assertEqual(self.report("--input", file, "--frame", 0, "--no-crunch")["notes"], [])
         said = run("--input", file, "--no-crunch").stdout
-        self.assertIn("  start     the last of 2 frames was read; frame=0 to 1 take others\n", said)
+        self.assertIn("  start     the last of 2 frames was read; frame=0 to 1 read others\n", said)
         run("--n", 8, "--dim", 2, "--no-md", "--no-crunch", "--output", self.dir / "state.xyz")
         kept = self.dir / "state"
         run("--n", 64, "--growth", "1e-2:1e5", "--wall-time", 0.02, "--checkpoint", kept)

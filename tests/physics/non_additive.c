@@ -112,7 +112,9 @@ static void is_kept(void **state) {
   assert_int_equal(jam_checkpoint_write(sys, saved), JAM_OK);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   jam_create_options_init(&o, sizeof o);
-  o.non_additivity = 0.5; /* the file's own value wins */
+  o.non_additivity = 0.5; /* contradicts the file */
+  assert_int_equal(jam_read(xyz, &o, &read), JAM_E_ARGUMENT);
+  o.non_additivity = 0.0;
   assert_int_equal(jam_read(xyz, &o, &read), JAM_OK);
   assert_int_equal(jam_checkpoint_read(saved, &restored), JAM_OK);
   assert_true(worst_gap(copy, -0.1, 0.0, &unlike) == gap);

@@ -4,6 +4,7 @@
 
 #include "analysis/structure.hpp"
 #include "core/cell_reduction.hpp"
+#include "core/math.hpp"
 #include "core/rng.hpp"
 // Last: cmocka defines a macro `fail`.
 extern "C" {
@@ -124,8 +125,8 @@ void bits_in_the_cube(void **) {
       double re = 0.0, im = 0.0;
       for (size_t i = 0; i < p.n(); ++i) {
         const double a = step * x * p.position[2 * i], b = step * y * p.position[2 * i + 1];
-        re += std::cos(a) * std::cos(b) - std::sin(a) * std::sin(b);
-        im += std::cos(a) * std::sin(b) + std::sin(a) * std::cos(b);
+        re += math::cos(a) * math::cos(b) - math::sin(a) * math::sin(b);
+        im += math::cos(a) * math::sin(b) + math::sin(a) * math::cos(b);
       }
       sum[x * x + y * y] += (re * re + im * im) / 30.0;
       ++count[x * x + y * y];

@@ -9,7 +9,7 @@ from ._types import Array
 from . import _calls, raw
 from ._generated import CheckReport, CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
 from ._handle import Base
-from ._methods import FlexResult, StressStatesResult
+from ._methods import FlexResult, RefinedPositionsResult, StressStatesResult
 from .results import Contacts, Modes
 
 
@@ -254,6 +254,22 @@ class Network(Base):
             self._note(status, found)
         object.__setattr__(found, "text", "" if status == StatusCode.CANCELLED else raw.jam_check_text(made))
         return found
+
+    def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
+        """Centres of the jammed packing as sums of two doubles, high + low: about 31 digits. Rattlers stay.
+
+        Parameters
+        ----------
+        ratio : array_like, shape (n,), optional
+            Exact ratios of the diameters, in any unit. Default: the diameters as they are.
+
+        Returns
+        -------
+        high, low : arrays, shape (n, d)
+            In the unit of the box.
+        """
+        found: RefinedPositionsResult = self.call("refined_positions", ratio)
+        return RefinedPositionsResult(*(np.asarray(part).reshape(self.n, self.dim) for part in found))
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
         """A motion that keeps or opens all contacts, for a packing that is not jammed.

@@ -201,9 +201,9 @@ class _Work:
             if self.system.info.paused == Phase.CRUNCH:
                 return []
             paused = {Phase.RUN: "run", Phase.COMPRESS: "compress"}.get(self.system.info.paused)
-            own = {"collisions_per_particle": o.nve} if paused == "run" and o.nve > 0 else {}
+            more = {"collisions_per_particle": o.nve} if paused == "run" and o.nve > 0 else {}
             if paused:
-                steps.insert(0, (paused, {"resume": 1, **own}))
+                steps.insert(0, (paused, {"resume": 1, **more}))
         return steps
 
     def run(self) -> int:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Time and radius of proofs against N, by Newton steps: draws what the program `proof` printed.
 
-usage: build/tests/bench/proof 64,256,1024,4096 3 | proof_chart.py --results proof.json --picture proof.png
+usage: build/tests/bench/proof 64,256,1024 3 | proof_chart.py --results proof.json --picture proof.png
        proof_chart.py --results proof.json --picture proof.png --only-draw
 
 The JSON holds machine and commit beside the runs. Times are of the processor.
@@ -62,7 +62,7 @@ parser.add_argument("--only-draw", action="store_true")
 options = parser.parse_args()
 if not options.only_draw:
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
-    found = {"command": "proof 64,256,1024,4096 3", "machine": machine(), "commit": commit, "runs": json.load(sys.stdin)}
+    found = {"command": "proof SIZES SEEDS", "machine": machine(), "commit": commit, "runs": json.load(sys.stdin)}
     with open(options.results, "w", encoding="ascii") as file:
         file.write(json.dumps({**found, "runs": None})[:-6] + "\n [" + ",\n  ".join(map(json.dumps, found["runs"])) + "]}\n")
 with open(options.results, encoding="ascii") as file:

@@ -212,12 +212,20 @@ void Engine<D, Shift>::next_event(int32_t i) {
 // are not missed. 0 where no sphere moves against another.
 template <int D, bool Shift>
 double Engine<D, Shift>::longest_wait() const {
-  constexpr double chances = 100.0, rounding = 1e-20;
-  double all = 0.0;  // with the motion of the centre of mass
+  constexpr double chances = 100.0, rounding = 1e-28;
+  // Of velocities against the mean one: a difference of sums would leave rounding where the spheres move as one.
+  double mean[D] = {}, own = 0.0, all = 0.0;
+  const auto mass = [this](int32_t i) { return mass_.empty() ? 1.0 : mass_[i]; };
   for (int32_t i = 0; i < n_; ++i)
-    for (const double v : body_[i].v) all += (mass_.empty() ? 1.0 : mass_[i]) * (v * unit) * (v * unit);
-  if (n_ < 2 || !(twice_kinetic_ > rounding * all)) return 0.0;
-  const double n = static_cast<double>(n_), speed = std::sqrt(2.0 * twice_kinetic_ / n);
+    for (int c = 0; c < D; ++c) mean[c] += mass(i) * body_[i].v[c] / n_;  // masses have mean 1
+  for (int32_t i = 0; i < n_; ++i)
+    for (int c = 0; c < D; ++c) {
+      const double v = body_[i].v[c], u = v - mean[c];
+      own += mass(i) * (u * unit) * (u * unit);
+      all += mass(i) * (v * unit) * (v * unit);
+    }
+  if (n_ < 2 || !(own > rounding * all)) return 0.0;
+  const double n = static_cast<double>(n_), speed = std::sqrt(2.0 * own / n);
   const double cross_section = unit_sphere_volume(D - 1) * math::pow(2.0 * mean_diameter(), D - 1);
   return chances / (0.5 * n * (n - 1.0) * cross_section * speed);
 }

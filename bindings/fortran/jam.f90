@@ -400,7 +400,7 @@ module jam
     integer(c_int64_t) :: snapshot = 0
     ! until the aim, from how `fraction` grew; NaN before a few reports
     real(c_double) :: seconds_left = 0
-    ! a factor above 1: about two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    ! a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
     real(c_double) :: seconds_left_spread = 0
   end type jam_progress
 

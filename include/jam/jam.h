@@ -352,8 +352,8 @@ typedef struct jam_progress {
   int64_t factorisations;     /* crunch: so far */
   int64_t snapshot;           /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
   double seconds_left;        /* until the aim, from how `fraction` grew; NaN before a few reports */
-  double seconds_left_spread; /* a factor above 1: about two of three calls end between seconds_left divided by it and
-                               * seconds_left times it; NaN with seconds_left */
+  double seconds_left_spread; /* a factor above 1: at least two of three calls end between seconds_left divided by it
+                               * and seconds_left times it; NaN with seconds_left */
 } jam_progress;
 
 /* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a

@@ -54,13 +54,15 @@ class TimeLeft {
     }
     if (!(most > 0.0)) return;
     p.seconds_left = recent > 0.0 ? recent : most;
-    p.seconds_left_spread = smallest_spread * std::max(most / p.seconds_left, p.seconds_left / least);
+    const bool unsteady = p.phase == JAM_PHASE_CRUNCH || p.phase == JAM_PHASE_POLISH;
+    p.seconds_left_spread = (unsteady ? crunch : steady) * std::max(most / p.seconds_left, p.seconds_left / least);
   }
 
  private:
   static constexpr size_t most_kept = 64, fewest = 4;
-  static constexpr double smallest_spread =
-      1.5;  // two thirds of the true times lie within it (tests/physics/progress.c)
+  // At least two thirds of the true times lie within these, measured on calls of 1 to 20 s: work of steady pace, and a
+  // crunch, which may wait long at a saddle.
+  static constexpr double steady = 1.2, crunch = 3.0;
   // The last record that is no later; the first one where none is.
   size_t at(double seconds) const {
     size_t k = 0;

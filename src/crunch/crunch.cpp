@@ -37,14 +37,14 @@ bool CrunchState::interrupted() {
   return false;
 }
 
-// An estimate for progress bars. A path's decades of mu take about equal times, as do decades of gain in sequential
-// LPs.
+// An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.
+// Decades of gain in sequential LPs take about equal times.
 double CrunchState::done(double path, double gain) {
   const Tuning &t = tuning;
   if (first_gain == 0.0) first_gain = gain;
   double part = path_taken ? 1.0 : 0.0;
   if (!std::isnan(path))
-    part = t.part_before_path + (1.0 - t.part_before_path) * path;
+    part = t.part_before_path + (1.0 - t.part_before_path) * std::sqrt(path);
   else if (o.method == JAM_CRUNCH_SEQUENTIAL_LP && !std::isnan(log_share(first_gain, gain, gain_tolerance)))
     part = log_share(first_gain, gain, gain_tolerance);
   const double rounds = o.strain == JAM_STRAIN_NONE ? 1.0 : 2.0, begun = strain.count() > 0 ? 1.0 : 0.0;

@@ -430,7 +430,7 @@ class Progress(Report):
     factorisations: crunch: so far
     snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
     seconds_left: until the aim, from how `fraction` grew; NaN before a few reports
-    seconds_left_spread: a factor above 1: about two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left"""
+    seconds_left_spread: a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left"""
     phase: Phase
     packing_fraction: float
     pressure: float

@@ -364,7 +364,7 @@ mutable struct jam_progress
     factorisations::Int64  # crunch: so far
     snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
     seconds_left::Cdouble  # until the aim, from how `fraction` grew; NaN before a few reports
-    seconds_left_spread::Cdouble  # a factor above 1: about two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    seconds_left_spread::Cdouble  # a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
     jam_progress() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 

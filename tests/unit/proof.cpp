@@ -63,7 +63,7 @@ void sums_are_exact(void **) {
     for (int k = 0; k < 12; ++k) {
       const auto m = static_cast<int64_t>(random() % 2097151) - 1048575;
       const int shift = static_cast<int>(random() % 40);
-      sum.add(std::ldexp(static_cast<double>(m), shift)), whole += static_cast<__int128>(m) << shift;
+      sum.add(std::ldexp(static_cast<double>(m), shift)), whole += static_cast<__int128>(m) * (int64_t{1} << shift);
       if (k < 3) other.add(static_cast<double>(m)), second += m;
     }
     Expansion product;

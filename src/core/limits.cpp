@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/with_dimension.hpp"
 
 namespace jam {
 
@@ -13,6 +14,9 @@ void check_range(const char *name, double value, double low, double high) {
 void check_dim(int64_t dim) {
   if (dim < 2 || dim > JAM_MAX_DIM)
     fail(JAM_E_DIMENSION, "dim is %lld, supported are 2..%d", static_cast<long long>(dim), JAM_MAX_DIM);
+  if (!is_compiled(dim))
+    fail(JAM_E_DIMENSION, "dim is %lld, this build of libjam has %s (JAM_DIMENSIONS of CMake)",
+         static_cast<long long>(dim), JAM_DIMENSIONS_TEXT);
 }
 
 void check_n(int64_t n) {

@@ -4,37 +4,18 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/with_dimension.hpp"
 #include "dynamics/engine.hpp"
 #include "dynamics/md.hpp"
 
 namespace jam {
 namespace {
 
-template <int D>
-std::unique_ptr<EngineBase> make_engine_of(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
-  if (images) return std::make_unique<Engine<D, true>>(p, o, from);
-  return std::make_unique<Engine<D, false>>(p, o, from);
-}
-
 std::unique_ptr<EngineBase> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
-  switch (p.dim) {
-    case 2:
-      return make_engine_of<2>(p, o, images, from);
-    case 3:
-      return make_engine_of<3>(p, o, images, from);
-    case 4:
-      return make_engine_of<4>(p, o, images, from);
-    case 5:
-      return make_engine_of<5>(p, o, images, from);
-    case 6:
-      return make_engine_of<6>(p, o, images, from);
-    case 7:
-      return make_engine_of<7>(p, o, images, from);
-    case 8:
-      return make_engine_of<8>(p, o, images, from);
-    default:
-      fail(JAM_E_DIMENSION, "dim is %d", p.dim);
-  }
+  return with_dimension(p.dim, [&](auto d) -> std::unique_ptr<EngineBase> {
+    if (images) return std::make_unique<Engine<d, true>>(p, o, from);
+    return std::make_unique<Engine<d, false>>(p, o, from);
+  });
 }
 
 void positive(double value, const char *name) {

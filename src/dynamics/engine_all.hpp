@@ -1,4 +1,4 @@
-// All parts of the engine, for the files that compile it (engine_2d.cpp to engine_8d.cpp).
+// All parts of the engine, for the files that compile it (copies of engine.cpp.in, one a dimension).
 #pragma once
 #include "dynamics/engine_archive.hpp"
 #include "dynamics/engine_blocks.hpp"

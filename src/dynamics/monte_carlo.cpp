@@ -9,10 +9,11 @@
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
+#include "core/with_dimension.hpp"
 
 namespace jam {
 
-// Compiled in monte_carlo_2d.cpp to monte_carlo_8d.cpp.
+// Compiled by copies of monte_carlo.cpp.in.
 template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run);
 
@@ -23,24 +24,7 @@ double largest_monte_carlo_step(const Packing &p) {
 }
 
 std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
-  switch (p.dim) {
-    case 2:
-      return make_monte_carlo_of<2>(p, o, run);
-    case 3:
-      return make_monte_carlo_of<3>(p, o, run);
-    case 4:
-      return make_monte_carlo_of<4>(p, o, run);
-    case 5:
-      return make_monte_carlo_of<5>(p, o, run);
-    case 6:
-      return make_monte_carlo_of<6>(p, o, run);
-    case 7:
-      return make_monte_carlo_of<7>(p, o, run);
-    case 8:
-      return make_monte_carlo_of<8>(p, o, run);
-    default:
-      fail(JAM_E_DIMENSION, "dim is %d", p.dim);
-  }
+  return with_dimension(p.dim, [&](auto d) { return make_monte_carlo_of<d>(p, o, run); });
 }
 
 // ---- options

@@ -1,5 +1,5 @@
-// The Metropolis trials: energies, moves and swaps. One file a dimension compiles them, monte_carlo_2d.cpp to
-// monte_carlo_8d.cpp.
+// The Metropolis trials: energies, moves and swaps. Copies of monte_carlo.cpp.in compile them,
+// one a dimension.
 #pragma once
 #include "core/math.hpp"
 #include "core/pair_energy.hpp"

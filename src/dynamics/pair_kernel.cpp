@@ -1,5 +1,7 @@
 #include "dynamics/pair_kernel.hpp"
 
+#include "core/with_dimension.hpp"
+
 namespace jam {
 
 namespace portable {
@@ -38,12 +40,7 @@ PairKernel<D> pair_kernel(InstructionSet set) {
   return portable::pair_kernel<D>();
 }
 
-template PairKernel<2> pair_kernel<2>(InstructionSet);
-template PairKernel<3> pair_kernel<3>(InstructionSet);
-template PairKernel<4> pair_kernel<4>(InstructionSet);
-template PairKernel<5> pair_kernel<5>(InstructionSet);
-template PairKernel<6> pair_kernel<6>(InstructionSet);
-template PairKernel<7> pair_kernel<7>(InstructionSet);
-template PairKernel<8> pair_kernel<8>(InstructionSet);
+#define JAM_INSTANCE(D) template PairKernel<D> pair_kernel<D>(InstructionSet);
+JAM_EACH_DIMENSION(JAM_INSTANCE)
 
 }  // namespace jam

@@ -1,5 +1,6 @@
 // The loops of pair_kernel.hpp in vectors of simd.hpp; a file for each instruction set includes them once.
 #pragma once
+#include "core/with_dimension.hpp"
 #include "dynamics/pair_kernel.hpp"
 #include "dynamics/simd.hpp"
 
@@ -250,13 +251,8 @@ template <int D>
 PairKernel<D> pair_kernel() {
   return {collisions<D>, search<D>, partners<D>};
 }
-template PairKernel<2> pair_kernel<2>();
-template PairKernel<3> pair_kernel<3>();
-template PairKernel<4> pair_kernel<4>();
-template PairKernel<5> pair_kernel<5>();
-template PairKernel<6> pair_kernel<6>();
-template PairKernel<7> pair_kernel<7>();
-template PairKernel<8> pair_kernel<8>();
+#define JAM_INSTANCE(D) template PairKernel<D> pair_kernel<D>();
+JAM_EACH_DIMENSION(JAM_INSTANCE)
 
 }  // namespace JAM_SIMD_NAMESPACE
 }  // namespace jam

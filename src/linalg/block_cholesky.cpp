@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/call_scope.hpp"
+#include "core/with_dimension.hpp"
 #include "linalg/blas.hpp"
 #include "linalg/dense_front.hpp"
 #include "linalg/two_threads.hpp"
@@ -20,6 +21,7 @@ constexpr size_t worth_a_look = 100000;
 // In floats a pivot below this part of its entry in the matrix is rounding alone: 64 roundings (tests/bench/README.md).
 constexpr double lost_in_floats = 4e-6;
 constexpr size_t columns_between_looks = 64, blocks_between_looks = 32;
+using BlockSizes = Numbered<1, 2, 3, 4, 5, 6, 7, 8>;
 
 }  // namespace
 
@@ -78,26 +80,7 @@ template <class Real>
 void BlockCholesky::extend_add(int32_t child, Real *update, int threads) {
   const size_t mc = below(supernodes_[child]);
   const auto add = [&](size_t start, size_t stride) {
-    switch (dim_) {
-      case 1:
-        return extend_add_columns<1>(child, update, start, stride);
-      case 2:
-        return extend_add_columns<2>(child, update, start, stride);
-      case 3:
-        return extend_add_columns<3>(child, update, start, stride);
-      case 4:
-        return extend_add_columns<4>(child, update, start, stride);
-      case 5:
-        return extend_add_columns<5>(child, update, start, stride);
-      case 6:
-        return extend_add_columns<6>(child, update, start, stride);
-      case 7:
-        return extend_add_columns<7>(child, update, start, stride);
-      case 8:
-        return extend_add_columns<8>(child, update, start, stride);
-      default:
-        return;  // analyse() has refused it
-    }
+    with_number(BlockSizes{}, dim_, [&](auto size) { extend_add_columns<size>(child, update, start, stride); });
   };
   if (threads < 2 || mc * mc < worth_a_thread) return add(0, 1);
   on_two_threads([&](int part) { add(part, 2); });

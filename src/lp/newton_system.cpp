@@ -9,6 +9,7 @@
 #include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/monitor.hpp"
+#include "core/with_dimension.hpp"
 #include "linalg/pair_products.hpp"
 
 namespace jam {
@@ -101,31 +102,7 @@ bool NewtonSystem::factorise(const double *a, const double *weight, const double
   a_ = a;
   weight_ = weight;
   std::copy(box, box + box_.size(), box_.begin());
-  switch (dim_) {
-    case 2:
-      assemble<2>(a, weight);
-      break;
-    case 3:
-      assemble<3>(a, weight);
-      break;
-    case 4:
-      assemble<4>(a, weight);
-      break;
-    case 5:
-      assemble<5>(a, weight);
-      break;
-    case 6:
-      assemble<6>(a, weight);
-      break;
-    case 7:
-      assemble<7>(a, weight);
-      break;
-    case 8:
-      assemble<8>(a, weight);
-      break;
-    default:
-      fail(JAM_E_INTERNAL, "dimension %d in NewtonSystem", dim_);
-  }
+  with_dimension(dim_, [&](auto d) { assemble<d>(a, weight); });
   const double t1 = now_seconds();
   seconds_assemble += t1 - t0;
   const int replaced = cholesky_.factorise(diag_.data(), off_.data(), precision);

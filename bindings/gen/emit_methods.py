@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from typing import Any, Callable, NamedTuple
 
-from ._generated import *  # noqa: F403  report classes
-from ._types import Array
+from .._api.generated import *  # noqa: F403  report classes
+from .._api.arrays import Array
 
 Progressing = bool | Callable[[Any], Any] | None
 
@@ -128,4 +128,4 @@ def emit(api):
         tuples += call.tuple_class()
         (methods if call.on_system else free).append(call.text("    " if call.on_system else ""))
     return (HEAD + "\n".join(methods) + "\n" + "\n".join(tuples) + "\n\n\ndef _call(name: str, *args: Any, **named: Any) -> Any:\n"
-            "    from . import _calls\n    return _calls.invoke(None, 0, name, args, named)[1]\n\n" + "\n\n".join(free) + "\n")
+            "    from .._api import calls\n    return calls.invoke(None, 0, name, args, named)[1]\n\n" + "\n\n".join(free) + "\n")

@@ -22,7 +22,7 @@ from pathlib import Path
 import jam
 from jam import store
 from jam.ensemble import Ensemble, LocalPool
-from jam.ensemble_folder import row_of
+from jam.ensemble.folder import row_of
 
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
 

@@ -15,8 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import jam
-from jam import Verdict
-from jam._generated import CheckReason
+from jam import CheckReason, Verdict
 from jam.cli import main
 from jamming_oracle import contacts, judge
 

@@ -20,7 +20,7 @@ import h5py
 import numpy as np
 
 import jam
-from jam import _paths
+from jam._formats import replacing
 from jam.ensemble import Ensemble, LocalPool, ProtocolError, StoreError, WorkerDied
 
 SMALL = dict(n=24, dim=2, diameters={"law": "bidisperse"}, stages=[{"growth_rate": 0.1, "pressure": 100.0}])
@@ -319,7 +319,7 @@ class Campaigns(unittest.TestCase):
         e = Ensemble(self.folder, SMALL)
         e.files.prepare()
         other = f"import jam; jam.ensemble.Ensemble({str(self.folder)!r}, {SMALL!r}).files.prepare()"
-        with _paths.replacing(self.folder / "packings/00/x.h5", parts=e.files.parts) as file:
+        with replacing.replacing(self.folder / "packings/00/x.h5", parts=e.files.parts) as file:
             file.write(b"under way")
             subprocess.run([sys.executable, "-c", other], check=True)
             self.assertEqual(len(list(e.files.parts.iterdir())), 1)
@@ -430,7 +430,7 @@ class Campaigns(unittest.TestCase):
                 (e.files.parts / f".jam-{'0' * 16}-{'1' * 32}.part").touch()
                 raise StoreError("the disk is full")
 
-        with unittest.mock.patch("jam.ensemble.LocalPool", KilledWhileItWrote):
+        with unittest.mock.patch("jam.ensemble.ensemble.LocalPool", KilledWhileItWrote):
             with self.assertRaisesRegex(StoreError, "the disk is full"):
                 e.run([1], progress=False)
         self.assertEqual(list(e.files.parts.iterdir()), [])

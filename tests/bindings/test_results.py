@@ -192,7 +192,7 @@ class Protocol(unittest.TestCase):
         self.assertGreater(r.pressure, 0.9e7)
 
     def test_ensembles_take_pairs(self):
-        from jam.ensemble_protocol import ProtocolError, complete
+        from jam.ensemble import ProtocolError, complete
 
         pairs, dicts = ([(1e-2, 1e5)], [{"growth_rate": 1e-2, "pressure": 1e5}])
         self.assertEqual(complete(dict(n=8, dim=2, stages=pairs)), complete(dict(n=8, dim=2, stages=dicts)))

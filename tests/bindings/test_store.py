@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 
 import jam
-from jam import _paths, sealed
+from jam._formats import replacing, sealed
 from jam.store import StoreError
 
 
@@ -344,12 +344,12 @@ class Parts(unittest.TestCase):
         users = [self.folder / name for name in ("x.part-20240101", ".jam-notes.part", "y.part")]
         for file in users:
             file.write_text("mine")
-        code = f"import os; from jam import _paths\nwith _paths.replacing({str(target)!r}) as f: os.kill(os.getpid(), 9)"
+        code = f"import os; from jam._formats import replacing\nwith replacing.replacing({str(target)!r}) as f: os.kill(os.getpid(), 9)"
         subprocess.run([sys.executable, "-c", code])
         left = set(self.folder.iterdir()) - set(users)
         self.assertEqual(len(left), 1)
-        with _paths.replacing(target) as file:  # two writers at once: neither takes the other's file
-            with _paths.replacing(target) as other:
+        with replacing.replacing(target) as file:  # two writers at once: neither takes the other's file
+            with replacing.replacing(target) as other:
                 other.write(b"other")
             file.write(b"last")
         self.assertEqual(target.read_bytes(), b"last")
@@ -359,11 +359,11 @@ class Parts(unittest.TestCase):
         target = self.folder / "a"
         target.write_text("old")
         target.chmod(0o640)
-        with self.assertRaises(ZeroDivisionError), _paths.replacing(target) as file:
+        with self.assertRaises(ZeroDivisionError), replacing.replacing(target) as file:
             file.write(b"new")
             1 // 0
         self.assertEqual(target.read_text(), "old")
-        with _paths.replacing(target, "w") as file:
+        with replacing.replacing(target, "w") as file:
             file.write("new")
         self.assertEqual((target.read_text(), target.stat().st_mode & 0o777), ("new", 0o640))
         self.assertEqual(list(self.folder.iterdir()), [target])

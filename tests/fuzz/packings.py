@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 import jam
-from jam import sealed
+from jam._formats import sealed
 
 SECONDS, MEMORY = 10, 2 << 30
 

@@ -151,7 +151,7 @@ def file_sizes():
         "bindings/**/*.py",
     ):
         count = len(path.read_text().splitlines())
-        if path.name in ("_generated.py", "_methods.py", "layout.c"):  # generated: as long as the header asks
+        if path.name in ("generated.py", "methods.py", "layout.c"):  # generated: as long as the header asks
             continue
         if count > 600:
             problem(path, count, "more than 600 lines")
@@ -243,7 +243,7 @@ def plain_words():
             # Python may label an axis with a Greek letter; long dashes stay out there too.
             if re.search(b"\xe2\x80[\x93\x94]", line) if path.suffix == ".py" else any(byte > 126 for byte in line):
                 problem(path, number, "not ASCII")
-            if line.rstrip() != line and not path.name.startswith("_generated"):
+            if line.rstrip() != line and not path.name == "generated.py":
                 problem(path, number, "blanks at the end of the line")
             if re.search(rb"/(home|root|work)/\w", line):
                 problem(path, number, "a path of one machine")

@@ -18,12 +18,12 @@ from ._built_for import refuse_another_python
 refuse_another_python()
 
 from . import errors as errors, raw as raw
-from ._generated import *  # noqa: F401,F403  enums and report dataclasses
-from ._generated import JAM_ABI, StatusCode as StatusCode
-from ._methods import eos as eos, glass_fit as glass_fit
+from ._api.generated import *  # noqa: F401,F403  enums and report dataclasses
+from ._api.generated import JAM_ABI, StatusCode as StatusCode
+from ._system.methods import eos as eos, glass_fit as glass_fit
 from .advice import Advice as Advice, advise as advise
-from .errors import JamError as JamError
-from ._observe import Observed as Observed, Step as Step
+from ._api.errors import JamError as JamError
+from ._system.observe import Observed as Observed, Step as Step
 from .system import Contacts as Contacts, Modes as Modes, System as System
 
 __version__ = raw.jam_version()

@@ -3,7 +3,7 @@ import sys
 
 if __name__ == "__main__":  # workers of mpi4py.futures import this file under another name
     if sys.argv[1:2] == ["ensemble"]:
-        from .ensemble_cli import main
+        from .ensemble.cli import main
 
         sys.exit(main(sys.argv[2:]))
     else:

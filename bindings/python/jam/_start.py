@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ._types import Array
+from ._api.arrays import Array
 from .system import System
 
 

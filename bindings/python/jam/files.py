@@ -8,11 +8,11 @@ import os
 
 import numpy as np
 
-from ._paths import replacing
-from ._types import Array
-from .errors import StateError, UnsupportedError
+from ._formats.replacing import replacing
+from ._api.arrays import Array
+from ._api.errors import StateError, UnsupportedError
 from .other_files import read_ase, read_gsd, write_gsd  # noqa: F401
-from .results import Modes
+from ._api.results import Modes
 from .system import System
 
 

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
-from ._types import Array
+from ._api.arrays import Array
 from . import statistics
-from .isoconf_runs import Runs, campaign, run, take_runs  # noqa: F401  public here
+from ._system.runs import Runs, campaign, run, take_runs  # noqa: F401  public here
 from .statistics import Estimate
 
 # ---- predictors

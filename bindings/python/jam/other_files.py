@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _gsd, errors
-from ._generated import StatusCode
-from ._given import sizes_of
-from ._paths import replacing
-from ._types import Array
+from ._formats import gsd as _gsd
+from ._api import errors
+from ._api.generated import StatusCode
+from ._api.given import sizes_of
+from ._formats.replacing import replacing
+from ._api.arrays import Array
 
 if TYPE_CHECKING:
     from .system import System

@@ -13,8 +13,8 @@ from typing import Any, Iterable, Sequence
 
 import numpy as np
 
-from ._types import Array
-from .errors import StateError
+from ._api.arrays import Array
+from ._api.errors import StateError
 from .files import half_bonds
 from .system import Modes, System
 

@@ -6,7 +6,7 @@ from typing import Any, Callable, Iterable, NamedTuple, Sequence
 import numpy as np
 
 
-from ._types import Array
+from ._api.arrays import Array
 
 
 class Estimate(NamedTuple):

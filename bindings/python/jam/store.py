@@ -11,8 +11,8 @@
     jam/protocol, jam/calls      JSON: the protocol; the calls made with every option and what ended them
     jam/analysis                 results of the protocol's analysis by name
 
-The file is sealed (see sealed.py): what is read was written by save() to the last bit, and libhdf5 does not parse it.
-Attributes beside the arrays say what they mean (see _explain.py).
+The file is sealed (see _formats/sealed.py): what is read was written by save() to the last bit, and libhdf5 does not parse it.
+Attributes beside the arrays say what they mean (see _formats/explain.py).
 
 A file is made in memory, written beside under a name nobody else has, flushed to the disk, and renamed. Readers hence
 see all of a file or none of it, and a writer that is killed leaves only a file of the folder `parts`.
@@ -37,13 +37,14 @@ from typing import Any, Mapping
 import h5py
 import numpy as np
 
-from ._types import Array
-from . import _generated, errors, raw
-from ._explain import explain, report_text, report_type
-from ._paths import replacing
-from .errors import StoreError
-from .results import Contacts
-from .sealed import Group, Shard, damaged, open_file, refusing, seal
+from ._api.arrays import Array
+from ._api import generated, errors
+from . import raw
+from ._formats.explain import explain, report_text, report_type
+from ._formats.replacing import replacing
+from ._api.errors import StoreError
+from ._api.results import Contacts
+from ._formats.sealed import Group, Shard, damaged, open_file, refusing, seal
 from .system import System, _restore
 
 SCHEMA = 1
@@ -70,7 +71,7 @@ def unpack(value: Array, cls: type) -> Any:
     for f in fields(cls):
         known, kind = f.name in (value.dtype.names or ()), str(f.type)
         number = value[f.name].item() if known else float("nan") if kind == "float" else 0
-        enum = getattr(_generated, kind, None) if kind not in ("int", "bool", "float") else None
+        enum = getattr(generated, kind, None) if kind not in ("int", "bool", "float") else None
         if isinstance(enum, type) and issubclass(enum, IntEnum) and number in set(enum):
             number = enum(number)
         given[f.name] = bool(number) if kind == "bool" else number
@@ -221,7 +222,7 @@ def image(
 
 
 def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLike[str] | None = None) -> None:
-    """Writes a file so that it is there as a whole or not at all; see _paths.replacing."""
+    """Writes a file so that it is there as a whole or not at all; see _formats/replacing.py."""
     try:
         with replacing(path, parts=parts) as file:
             file.write(data)
@@ -328,7 +329,7 @@ def results_of(jam: Group, n: int, dim: int) -> tuple[Any, ...] | None:
 
 
 def _report_class() -> type:
-    return _generated.REPORTS["jam_crunch_report"]
+    return generated.REPORTS["jam_crunch_report"]
 
 
 def load(

@@ -9,12 +9,13 @@ from typing import Any, Mapping
 
 import numpy as np
 
-from . import _calls, _given, errors, raw
-from ._network import Network
-from ._progress import end, reporter
-from ._state import State
-from ._verbs import Verbs
-from .results import Contacts, Modes
+from ._api import calls, given, errors
+from . import raw
+from ._system.network import Network
+from ._system.progress import end, reporter
+from ._system.state import State
+from ._system.verbs import Verbs
+from ._api.results import Contacts, Modes
 
 __all__ = ["Contacts", "Modes", "System"]
 
@@ -81,7 +82,7 @@ class System(State, Verbs, Network):
         >>> jam.System.random(n=100, dim=2, seed=7)
         System(n=100, dim=2, packing_fraction=0.2, box=1, seed=7)
         """
-        sizes = None if diameters is None else _calls.as_array(diameters, name="diameters").reshape(-1)
+        sizes = None if diameters is None else calls.as_array(diameters, name="diameters").reshape(-1)
         if packing_fraction is None:
             packing_fraction = 0.0  # the library's own, by dimension
         made = dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction)
@@ -127,13 +128,13 @@ class System(State, Verbs, Network):
         >>> jam.System.from_arrays([[1.0, 1.0], [3.0, 3.0]], radii=0.5, box=4.0).diameters
         array([1., 1.])
         """
-        x = _given.positions_of(positions, diameters, radii, dim)
-        sizes = _given.sizes_of(diameters, radii, len(x))
-        _given.refuse_start_options(options, ("packing_fraction",), "the diameters are given")
+        x = given.positions_of(positions, diameters, radii, dim)
+        sizes = given.sizes_of(diameters, radii, len(x))
+        given.refuse_start_options(options, ("packing_fraction",), "the diameters are given")
         if options.get("n") not in (None, len(x)):
             raise ValueError(f"n is {options['n']}, and there are {len(x)} positions")
         if box is None and cell is None:
-            _given.refuse_unnamed_box(x)
+            given.refuse_unnamed_box(x)
         options.update(n=len(x), dim=x.shape[1], box=box, cell=cell)
         return cls._create(options, x.reshape(-1), sizes)
 
@@ -163,8 +164,8 @@ class System(State, Verbs, Network):
                     f"{unknown}= goes with GSD files and jam.files.read_ase alone: "
                     "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
                 )
-        options["box"] = _given.side_of(options.get("box"))
-        return cls._made(*raw.read_watched(name, _calls.options("jam_create_options", options), None))
+        options["box"] = given.side_of(options.get("box"))
+        return cls._made(*raw.read_watched(name, calls.options("jam_create_options", options), None))
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
@@ -179,12 +180,12 @@ class System(State, Verbs, Network):
 
     @classmethod
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
-        box, vectors = _given.cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
-        made = _calls.options("jam_create_options", dict(options, box=box))
+        box, vectors = given.cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
+        made = calls.options("jam_create_options", dict(options, box=box))
         told = reporter(progress)
 
         def on_progress(p: Any) -> bool:
-            return bool(told(_calls.freeze(p, "jam_progress"))) if told else False
+            return bool(told(calls.freeze(p, "jam_progress"))) if told else False
 
         try:
             if vectors is None:
@@ -263,7 +264,7 @@ class System(State, Verbs, Network):
             from . import other_files
 
             return other_files.write_gsd(self, name)
-        _calls.finished(raw.jam_write(self.handle, name, _calls.as_enum(format, "Format")))
+        calls.finished(raw.jam_write(self.handle, name, calls.as_enum(format, "Format")))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
         """Writes the contact network: pairs, unit vectors, gaps and forces.
@@ -276,7 +277,7 @@ class System(State, Verbs, Network):
             'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
             behind it the file is compressed.
         """
-        _calls.finished(raw.jam_write_contacts(self.handle, os.fspath(path), _calls.as_enum(format, "ContactFormat")))
+        calls.finished(raw.jam_write_contacts(self.handle, os.fspath(path), calls.as_enum(format, "ContactFormat")))
 
     def page(
         self,
@@ -309,14 +310,14 @@ class System(State, Verbs, Network):
         >>> report = disks.crunch()
         >>> disks.page("disks.html", values={"height": disks.positions[:, 1]})
         """
-        columns = {name: _calls.as_array(x, name=name).reshape(-1) for name, x in (values or {}).items()}
+        columns = {name: calls.as_array(x, name=name).reshape(-1) for name, x in (values or {}).items()}
         for name, column in columns.items():
             if "\n" in name or not name:
                 raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty")
             if len(column) != self.n:
                 raise ValueError(f"{name} must have shape ({self.n},), not {column.shape}")
         numbers = np.concatenate(list(columns.values())) if columns else None
-        _calls.finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers))
+        calls.finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers))
 
     def _repr_html_(self) -> str:
         """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""

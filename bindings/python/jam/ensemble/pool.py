@@ -80,11 +80,11 @@ class LocalPool(Executor):
                 thread.join()
 
     def _begin(self, k: int) -> subprocess.Popen[bytes]:
-        home = str(Path(__file__).resolve().parent.parent)
+        home = str(Path(__file__).resolve().parents[2])
         paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(paths), OPENBLAS_NUM_THREADS="1")
         process = subprocess.Popen(
-            [sys.executable, "-m", "jam.ensemble_pool"],
+            [sys.executable, "-c", "from jam.ensemble.pool import main; main()"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env=environment,
@@ -162,7 +162,3 @@ def main() -> None:
             answers.flush()
         except BrokenPipeError:
             os._exit(1)  # the campaign is gone: nobody reads this answer
-
-
-if __name__ == "__main__":
-    main()

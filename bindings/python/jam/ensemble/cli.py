@@ -10,7 +10,9 @@ from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
 from typing import Any
 
-from .ensemble import Ensemble, ProtocolError, Status, StoreError
+from .._api.errors import StoreError
+from .ensemble import Ensemble, Status
+from .protocol import ProtocolError
 
 DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
 

@@ -19,12 +19,13 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
-from ._types import Array
-from . import _calls, _generated, errors, raw
-from . import _options as _programs
-from ._generated import OPTIONS, StatusCode
-from ._start import _uniform
-from .system import System
+from .._api.arrays import Array
+from .._api import calls, generated, errors
+from .. import raw
+from .. import _options as _programs
+from .._api.generated import OPTIONS, StatusCode
+from .._start import _uniform
+from ..system import System
 
 PARTS = ("start", "stages", "crunch", "analysis")
 LATTICES = ("fcc",)
@@ -46,10 +47,10 @@ def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple
         raise ProtocolError(f"{where}: unknown {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     numbers = {k: float(v) if known[k] == "float" and v is not None else v for k, v in given.items()}
     try:
-        made = _calls.options(struct, numbers)
+        made = calls.options(struct, numbers)
     except (TypeError, ValueError) as error:
         raise ProtocolError(f"{where}: {error}") from None
-    return {k: v for k, v in _calls.spelled_out(made, struct).items() if k in known}
+    return {k: v for k, v in calls.spelled_out(made, struct).items() if k in known}
 
 
 def _diameters(given: Any, n: int) -> Any:
@@ -112,7 +113,7 @@ def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str,
 def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     where = f"analysis[{name!r}]"
     method = getattr(System, name, None)
-    if name.startswith("_") or not callable(method) or "jam_" + name not in _generated.CALLS:
+    if name.startswith("_") or not callable(method) or "jam_" + name not in generated.CALLS:
         raise ProtocolError(f"{where}: System has no such analysis")
     made = {}
     for parameter in list(inspect.signature(method).parameters.values())[1:]:

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ._types import Array
-from . import _methods
-from ._generated import REPORTS, StatusCode
+from .arrays import Array
+from .._system import methods
+from .generated import REPORTS, StatusCode
 
 
 def _text(value: Any) -> str:
@@ -49,7 +49,7 @@ def _short(self: Any) -> str:
     return f"{type(self).__name__}({', '.join(parts)})"
 
 
-for _class in vars(_methods).values():
+for _class in vars(methods).values():
     if isinstance(_class, type) and issubclass(_class, tuple):
         setattr(_class, "__repr__", _short)
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
-from ._types import Array
+from .._api.arrays import Array
 
 if TYPE_CHECKING:
-    from .system import System
+    from ..system import System
 
 # Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
 _POSITION, _DIAMETER, _CELL = "jam/position", "jam/diameter", "jam/cell"

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from typing import Any, Callable, NamedTuple
 
-from ._generated import *  # noqa: F403  report classes
-from ._types import Array
+from .._api.generated import *  # noqa: F403  report classes
+from .._api.arrays import Array
 
 Progressing = bool | Callable[[Any], Any] | None
 
@@ -1301,8 +1301,8 @@ class CompareResult(NamedTuple):
 
 
 def _call(name: str, *args: Any, **named: Any) -> Any:
-    from . import _calls
-    return _calls.invoke(None, 0, name, args, named)[1]
+    from .._api import calls
+    return calls.invoke(None, 0, name, args, named)[1]
 
 
 def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:

@@ -9,9 +9,11 @@ from typing import Any, Callable
 
 import numpy as np
 
-from ._types import Array
-from . import _generated, _methods, errors, raw
-from ._generated import CALLS, OPTIONS, REPORTS, ROWS, TABLES, StatusCode
+from .arrays import Array
+from . import generated, errors
+from .._system import methods
+from .. import raw
+from .generated import CALLS, OPTIONS, REPORTS, ROWS, TABLES, StatusCode
 
 raw.set_error_factory(errors.make)
 _DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint64_t": np.uint64, "size_t": np.uint64}
@@ -31,7 +33,7 @@ def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
 def as_enum(value: Any, kind: str) -> int:
     """An enum value given by number, member or name ('mk')."""
     if isinstance(value, str):
-        enum = getattr(_generated, kind)
+        enum = getattr(generated, kind)
         try:
             return int(enum[value.upper()])
         except KeyError:
@@ -115,7 +117,7 @@ def spelled_out(made: Any, struct: str) -> dict[str, Any]:
         if kind == "float":
             plain[name] = float(value) if math.isfinite(value) else str(float(value))
         else:
-            plain[name] = int(value) if kind in ("int", "bool") else getattr(_generated, kind)(int(value)).name.lower()
+            plain[name] = int(value) if kind in ("int", "bool") else getattr(generated, kind)(int(value)).name.lower()
     return plain
 
 
@@ -129,7 +131,7 @@ def freeze(struct: Any, name: str) -> Any:
             value = bool(value)
         elif kind not in ("int", "float"):
             try:
-                value = getattr(_generated, kind)(value)
+                value = getattr(generated, kind)(value)
             except ValueError:
                 pass  # an unknown value of a newer library stays a number
         values[field] = value
@@ -156,7 +158,7 @@ def spell_out(method: Any, struct: str) -> None:
     ]
     rows[-1] += " stops the call."
     for name, (kind, text) in new.items():
-        enum = getattr(_generated, kind, None) if kind not in ("int", "float", "bool") else None
+        enum = getattr(generated, kind, None) if kind not in ("int", "float", "bool") else None
         choices = "{" + ", ".join(repr(e.name.lower()) for e in enum) + "}" if enum else kind
         rows.append(f"{name} : {choices}, optional")
         rows += textwrap.wrap(" ".join(text.split()), 100, initial_indent="    ", subsequent_indent="    ")
@@ -264,10 +266,10 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     results.update({a: v for a, v in zip(asked, scalars) if a not in ("needed", "rows")})
     if (columns := TABLES.get("jam_" + name)) and results["table"] is not None:
         flat = results["table"]
-        made = getattr(_methods, camel(name) + "Result")
+        made = getattr(methods, camel(name) + "Result")
         return StatusCode(status), made(*(np.ascontiguousarray(flat[k::columns]) for k in range(columns)))
     if len(results) > 1:
-        made = getattr(_methods, camel(name) + "Result", None)
+        made = getattr(methods, camel(name) + "Result", None)
         return StatusCode(status), made(*results.values()) if made else tuple(results.values())
     return StatusCode(status), next(iter(results.values()), None)
 

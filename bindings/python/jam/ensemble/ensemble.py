@@ -26,39 +26,20 @@ from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
-from ._types import Array
-from . import store
-from ._paths import remove_abandoned
-from .ensemble_folder import FIELDS, Folder, Found, builds_of
-from .ensemble_pool import LocalPool, WorkerDied
-from .ensemble_protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
+from .._api.arrays import Array
+from .. import store
+from .._formats.replacing import remove_abandoned
+from .folder import FIELDS, Folder, Found, builds_of
+from .pool import LocalPool, WorkerDied
+from .protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
 
-from .errors import StoreError
-from .sealed import open_file
-from .system import System
+from .._api.errors import StoreError
+from .._formats.sealed import open_file
+from ..system import System
 
 WINDOW = 1000  # calls handed to the executor ahead of time: bounds its memory, not the work
 ATTEMPTS = 3  # workers that may be lost over one packing before it is recorded as a failure
 INDEX_SECONDS = 10.0  # rows are added to the index so often
-
-__all__ = [
-    "DamagedWarning",
-    "Ensemble",
-    "Entry",
-    "LocalPool",
-    "ProtocolError",
-    "Status",
-    "StoreError",
-    "WorkerDied",
-    "begin",
-    "complete",
-    "make",
-    "minimal",
-    "protocols",
-    "table",
-    "to_json",
-]
-
 
 class DamagedWarning(UserWarning):
     """Files of an ensemble that cannot be read are left out; the text names them."""
@@ -212,7 +193,7 @@ class Ensemble:
     folder : path
         Made by run() where it is missing. Other protocols may live in it, and other campaigns may run in it.
     protocol : mapping or str, optional
-        See jam.ensemble_protocol; ``dict(n=128, dim=3)`` is enough. A str is the name of one of the folder, or its
+        See jam.ensemble.complete; ``dict(n=128, dim=3)`` is enough. A str is the name of one of the folder, or its
         beginning; None: the only one of the folder.
     unverified : bool
         Also reads files without a seal, or with one that does not fit: of an older version, or changed by another

@@ -7,10 +7,10 @@ from typing import Any, Callable, Iterator
 
 import numpy as np
 
-from ._types import Array
-from . import errors
-from ._handle import Base
-from ._methods import ObservedCorrelationResult, ObservedGapsResult, ObservedPairsResult, ObservedSpheresResult
+from .._api.arrays import Array
+from .._api import errors
+from .handle import Base
+from .methods import ObservedCorrelationResult, ObservedGapsResult, ObservedPairsResult, ObservedSpheresResult
 
 
 @dataclass(frozen=True, repr=False)

@@ -7,11 +7,12 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
-from ._types import Array
-from . import _calls, raw
-from ._generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode, StopReason
-from ._observe import Observing, Step
-from ._progress import end, reporter
+from .._api.arrays import Array
+from .._api import calls
+from .. import raw
+from .._api.generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode, StopReason
+from .observe import Observing, Step
+from .progress import end, reporter
 
 
 class Verbs(Observing):
@@ -19,16 +20,16 @@ class Verbs(Observing):
 
     def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None) -> Any:
         handle = self.handle
-        chosen = None if options is None else _calls.options(struct, dict(options))
-        made = _calls.new_report(report)
+        chosen = None if options is None else calls.options(struct, dict(options))
+        made = calls.new_report(report)
         with self._reporting(progress):
             status = getattr(raw, name)(handle, chosen, made)
-            frozen = _calls.freeze(made, report)
+            frozen = calls.freeze(made, report)
             self._note(status, frozen)
         self.calls.append(
             {
                 "verb": name.removeprefix("jam_"),
-                "options": {} if chosen is None else _calls.spelled_out(chosen, struct),
+                "options": {} if chosen is None else calls.spelled_out(chosen, struct),
                 "status": self.status.name.lower(),
                 "stop_reason": getattr(getattr(frozen, "stop_reason", None), "name", "none").lower(),
             }
@@ -204,7 +205,7 @@ class Verbs(Observing):
         -------
         near_jamming.Runs
         """
-        from .isoconf_runs import run
+        from .runs import run
 
         return run(self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options)
 
@@ -244,7 +245,7 @@ class Verbs(Observing):
     def log(self, callback: Callable[[int, str], Any] | None, level: int | str = "info") -> None:
         """Sends the library's log lines of up to this level to callback(level, line); None silences it."""
         handle = self.handle
-        raw.set_log(handle, callback, _calls.as_enum(level, "LogLevel"))
+        raw.set_log(handle, callback, calls.as_enum(level, "LogLevel"))
         handle._log = callback  # the C side holds a borrowed reference
 
 
@@ -256,4 +257,4 @@ for _verb, _struct in (
     ("relax", "relax"),
     ("decompress", "decompress"),
 ):
-    _calls.spell_out(getattr(Verbs, _verb), f"jam_{_struct}_options")
+    calls.spell_out(getattr(Verbs, _verb), f"jam_{_struct}_options")

@@ -5,10 +5,11 @@ import threading
 from contextlib import contextmanager
 from typing import Any, Callable
 
-from . import _calls, errors, raw
-from ._generated import Info, Progress, Report, StatusCode
-from ._methods import Methods
-from ._progress import end, reporter
+from .._api import calls, errors
+from .. import raw
+from .._api.generated import Info, Progress, Report, StatusCode
+from .methods import Methods
+from .progress import end, reporter
 
 TRACE_LENGTH = 200_000  # progress records kept by a system
 
@@ -85,7 +86,7 @@ class Base(Methods):
 
     def _recorder(self, user: Callable[..., Any] | None) -> Callable[..., Any]:
         def on_progress(p: Any) -> bool:
-            record = _calls.freeze(p, "jam_progress")
+            record = calls.freeze(p, "jam_progress")
             if len(self.trace) < TRACE_LENGTH:
                 self.trace.append(record)
             return bool(user(record)) if user else False
@@ -111,13 +112,13 @@ class Base(Methods):
         """
         handle = self.handle
         with self._reporting(progress):
-            status, result = _calls.invoke(handle, self.dim, name, args, named)
+            status, result = calls.invoke(handle, self.dim, name, args, named)
             self._note(status, result)
         return result
 
     def _ask(self, name: str, *args: Any) -> Any:
         """What call() returns, for properties: the status of the last call stays."""
-        return _calls.invoke(self.handle, self.dim, name, args, {})[1]
+        return calls.invoke(self.handle, self.dim, name, args, {})[1]
 
     def _note(self, status: int, report: Any = None) -> None:
         """Keeps the status of a call that has just returned, on this thread, and writes it on its report."""

@@ -23,8 +23,8 @@ from typing import Any, Callable, Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ._types import Array
-from .errors import StoreError
+from .._api.arrays import Array
+from .._api.errors import StoreError
 
 try:
     import h5py

@@ -11,8 +11,8 @@ from typing import Any
 import h5py
 import numpy as np
 
-from . import _generated
-from ._generated import HistoryColumn, StepPhase
+from .._api import generated
+from .._api.generated import HistoryColumn, StepPhase
 
 #: Unit and meaning of each array by its name. Lengths have the unit of the box.
 _MEANING = {
@@ -47,7 +47,7 @@ def _words(cls: type) -> str:
 
 
 def _enum(kind: str) -> Any:
-    found = getattr(_generated, kind, None)
+    found = getattr(generated, kind, None)
     return found if isinstance(found, type) and issubclass(found, IntEnum) else None
 
 

@@ -21,13 +21,13 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
-from ._types import Array
-from . import store
-from ._generated import REPORTS
-from ._paths import check_writable, remove_abandoned
-from .ensemble_protocol import identity
-from .errors import StoreError
-from .sealed import open_file, refusing
+from .._api.arrays import Array
+from .. import store
+from .._api.generated import REPORTS
+from .._formats.replacing import check_writable, remove_abandoned
+from .protocol import identity
+from .._api.errors import StoreError
+from .._formats.sealed import open_file, refusing
 
 _REPORT = store._dtype(REPORTS["jam_crunch_report"])
 _REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()

@@ -8,8 +8,8 @@ from typing import Any
 import h5py
 import numpy as np
 
-from ._types import Array
-from .errors import StoreError
+from .._api.arrays import Array
+from .._api.errors import StoreError
 from .sealed import Group, Shard, _plain_value
 
 _MOST_OBJECTS, _DEEPEST = 1_000_000, 12

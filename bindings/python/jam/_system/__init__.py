@@ -1,0 +1,1 @@
+"""The parts that a System is made of."""

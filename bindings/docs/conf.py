@@ -54,7 +54,6 @@ def as_text(app, what, name, thing, options, lines):
     """Stars, bars and underscores of plain docstrings mean themselves; lists of options become lists."""
     made, listing = [], False
     for line in lines:
-        line = re.sub(r"\s*@since \S+", "", line)
         if not line.lstrip().startswith(">>>"):
             parts = re.split(r"(`[^`]*`)", line)
             parts[::2] = [re.sub(r"([*|]|_(?!\w))", r"\\\1", part) for part in parts[::2]]

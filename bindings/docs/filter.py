@@ -8,18 +8,27 @@ RULE = re.compile(r"^/\* (-{10,}) (.*?) (?:-+ )?\*/\n(?:/\* ((?:(?!\*/).)*)\*/\n
 
 def header(text):
     text = RULE.sub("", text).replace("<sigma>", "&lt;sigma&gt;")
+    top = text.index("*/")
+    text = text[:top].replace("@", "\\@") + text[top:]
     text = re.sub(r"/\* libjam:", "/** @file jam.h\n * libjam:", text, count=1)
+    text = re.sub(
+        r"(?<!\*/\n)^(?=JAM_API jam_status jam_\w+_options_init\()",
+        "/* Fills *o with the defaults. */\n",
+        text,
+        flags=re.M,
+    )
     # One declaration each: Sphinx takes `typedef struct X {...} X` for two.
     text = re.sub(r"^typedef (struct|enum) (\w+) \{(.*?)^\} \2;", r"\1 \2 {\3};", text, flags=re.S | re.M)
     text = re.sub(r"(;|,|\d|\w)([ \t]*)/\* ", r"\1\2/**< ", text)  # behind a member
     text = re.sub(r"^/\* ", "/** ", text, flags=re.M)  # above a declaration
-    text = re.sub(r"@since \d+\.\d+\s*(?=\*/)", "", text)
+    text = re.sub(r"@enum jam_", "jam_", text)  # of a member
+    text = re.sub(r"@bool\b", "1:", text)
 
     def parts(found):
-        """What a comment says under a label of its own becomes a paragraph with that label."""
+        """What a comment says under a label or a tag of its own becomes a paragraph with that label."""
         comment = found.group(0)
-        for label in ("Status", "Errors", "Threads"):
-            comment = re.sub(rf"(?<=[\s*.]){label}:? ?(?=[^:\s])", f"\n *\n * @par {label}\n * ", comment, count=1)
+        for tag, label in (("@shape", "Shapes"), ("@enum", "Values"), ("@errors", "Errors"), ("Status:", "Status")):
+            comment = re.sub(rf"(?<=[\s*.]){tag}\s+(?:\* )?(?=\S)", f"\n *\n * @par {label}\n * ", comment, count=1)
         return re.sub(r"Example: (\S+)", r"Example: `\1`.\n *\n *", comment)
 
     return re.sub(r"^/\*\*(?!<)(?:(?!\*/).)*\*/\n(?=JAM_API)", parts, text, flags=re.S | re.M)

@@ -11,7 +11,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_ABI = 0
   integer(c_int32_t), parameter :: JAM_MAX_DIM = 8
 
-  ! jam_status_code: All status codes; values are ABI and never reused. @since 0.1
+  ! jam_status_code: All status codes; values are ABI and never reused.
   integer(c_int32_t), parameter :: JAM_OK = 0
   integer(c_int32_t), parameter :: JAM_CANCELLED = 1
   integer(c_int32_t), parameter :: JAM_LIMIT = 2
@@ -37,7 +37,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_E_UNSUPPORTED = -16
   integer(c_int32_t), parameter :: JAM_E_INTERNAL = -17
 
-  ! jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1
+  ! jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason).
   integer(c_int32_t), parameter :: JAM_STOP_NONE = 0
   integer(c_int32_t), parameter :: JAM_STOP_PRESSURE = 1
   integer(c_int32_t), parameter :: JAM_STOP_PACKING_FRACTION = 2
@@ -56,20 +56,20 @@ module jam
   integer(c_int32_t), parameter :: JAM_STOP_SADDLE = 15
   integer(c_int32_t), parameter :: JAM_STOP_DUALITY_GAP = 16
 
-  ! jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
+  ! jam_overlap_policy: What to do with overlaps in given positions.
   integer(c_int32_t), parameter :: JAM_OVERLAP_REFUSE = 0
   integer(c_int32_t), parameter :: JAM_OVERLAP_SHRINK = 1
   integer(c_int32_t), parameter :: JAM_OVERLAP_ALLOW = 2
 
-  ! jam_model: Pair distance. @since 0.1
+  ! jam_model: Pair distance.
   integer(c_int32_t), parameter :: JAM_MODEL_EUCLID = 0
   integer(c_int32_t), parameter :: JAM_MODEL_MK = 1
 
-  ! jam_masses: Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1
+  ! jam_masses: Masses of the spheres in molecular dynamics; the mean is 1.
   integer(c_int32_t), parameter :: JAM_MASSES_EQUAL = 0
   integer(c_int32_t), parameter :: JAM_MASSES_VOLUME = 1
 
-  ! jam_phase: Which part reports progress. @since 0.1
+  ! jam_phase: Which part reports progress.
   integer(c_int32_t), parameter :: JAM_PHASE_RUN = 1
   integer(c_int32_t), parameter :: JAM_PHASE_COMPRESS = 2
   integer(c_int32_t), parameter :: JAM_PHASE_CRUNCH = 3
@@ -81,30 +81,30 @@ module jam
   integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
   integer(c_int32_t), parameter :: JAM_PHASE_CREATE = 10
 
-  ! jam_log_level: Log levels. @since 0.1
+  ! jam_log_level: Log levels.
   integer(c_int32_t), parameter :: JAM_LOG_NONE = 0
   integer(c_int32_t), parameter :: JAM_LOG_WARNING = 1
   integer(c_int32_t), parameter :: JAM_LOG_INFO = 2
   integer(c_int32_t), parameter :: JAM_LOG_DEBUG = 3
 
-  ! jam_format: File formats. @since 0.1
+  ! jam_format: File formats.
   integer(c_int32_t), parameter :: JAM_FORMAT_AUTO = 0
   integer(c_int32_t), parameter :: JAM_FORMAT_PLAIN = 1
   integer(c_int32_t), parameter :: JAM_FORMAT_XYZ = 2
   integer(c_int32_t), parameter :: JAM_FORMAT_LAMMPS = 3
   integer(c_int32_t), parameter :: JAM_FORMAT_VTP = 4
 
-  ! jam_contact_format: Formats of contact networks. @since 0.1
+  ! jam_contact_format: Formats of contact networks.
   integer(c_int32_t), parameter :: JAM_CONTACTS_AUTO = 0
   integer(c_int32_t), parameter :: JAM_CONTACTS_CSV = 1
   integer(c_int32_t), parameter :: JAM_CONTACTS_DUMP = 2
   integer(c_int32_t), parameter :: JAM_CONTACTS_VTP = 3
 
-  ! jam_growth_law: How the spheres grow. @since 0.1
+  ! jam_growth_law: How the spheres grow.
   integer(c_int32_t), parameter :: JAM_GROWTH_DIAMETER = 0
   integer(c_int32_t), parameter :: JAM_GROWTH_DENSITY = 1
 
-  ! jam_series_column: Columns of jam_observed_series. @since 0.1
+  ! jam_series_column: Columns of jam_observed_series.
   integer(c_int32_t), parameter :: JAM_SERIES_TIME = 0
   integer(c_int32_t), parameter :: JAM_SERIES_COLLISIONS = 1
   integer(c_int32_t), parameter :: JAM_SERIES_FRACTION = 2
@@ -112,7 +112,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_SERIES_ERROR = 4
   integer(c_int32_t), parameter :: JAM_SERIES_MSD = 5
 
-  ! jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
+  ! jam_eos_form: Equations of state p(phi) in closed form.
   integer(c_int32_t), parameter :: JAM_EOS_CARNAHAN_STARLING = 0
   integer(c_int32_t), parameter :: JAM_EOS_PY_VIRIAL = 1
   integer(c_int32_t), parameter :: JAM_EOS_PY_COMPRESSIBILITY = 2
@@ -120,15 +120,15 @@ module jam
   integer(c_int32_t), parameter :: JAM_EOS_MK = 4
   integer(c_int32_t), parameter :: JAM_EOS_FREE_VOLUME = 5
 
-  ! jam_energy_unit: Unit of the overlap x of a soft pair. @since 0.1
+  ! jam_energy_unit: Unit of the overlap x of a soft pair.
   integer(c_int32_t), parameter :: JAM_ENERGY_LENGTH = 0
   integer(c_int32_t), parameter :: JAM_ENERGY_RELATIVE = 1
 
-  ! jam_clock: What instants are counted in. Monte Carlo always counts sweeps. @since 0.1
+  ! jam_clock: What instants are counted in. Monte Carlo always counts sweeps.
   integer(c_int32_t), parameter :: JAM_CLOCK_COLLISIONS = 0
   integer(c_int32_t), parameter :: JAM_CLOCK_TIME = 1
 
-  ! jam_isoconf_column: Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1
+  ! jam_isoconf_column: Columns of jam_isoconf_series: one number a run and instant, summed over runs.
   integer(c_int32_t), parameter :: JAM_ISOCONF_TIME = 0
   integer(c_int32_t), parameter :: JAM_ISOCONF_TIME2 = 1
   integer(c_int32_t), parameter :: JAM_ISOCONF_MSD = 2
@@ -143,15 +143,15 @@ module jam
   integer(c_int32_t), parameter :: JAM_ISOCONF_COLLISIONS = 11
   integer(c_int32_t), parameter :: JAM_ISOCONF_PRESSURE = 12
 
-  ! jam_lp_solver: How the LPs are solved. @since 0.1
+  ! jam_lp_solver: How the LPs are solved.
   integer(c_int32_t), parameter :: JAM_LP_IPM = 0
   integer(c_int32_t), parameter :: JAM_LP_CLP = 1
 
-  ! jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
+  ! jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more.
   integer(c_int32_t), parameter :: JAM_CRUNCH_BARRIER_PATH = 0
   integer(c_int32_t), parameter :: JAM_CRUNCH_SEQUENTIAL_LP = 1
 
-  ! jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1
+  ! jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it.
   integer(c_int32_t), parameter :: JAM_STRAIN_NONE = 0
   integer(c_int32_t), parameter :: JAM_STRAIN_EDGES = 1
   integer(c_int32_t), parameter :: JAM_STRAIN_TILTS = 2
@@ -161,13 +161,13 @@ module jam
   integer(c_int32_t), parameter :: JAM_STRAIN_TILTS_VOLUME = 6
   integer(c_int32_t), parameter :: JAM_STRAIN_ALL = 7
 
-  ! jam_step_phase: What kind of step a row of the history is. @since 0.1
+  ! jam_step_phase: What kind of step a row of the history is.
   integer(c_int32_t), parameter :: JAM_STEP_PATH = 1
   integer(c_int32_t), parameter :: JAM_STEP_LP = 2
   integer(c_int32_t), parameter :: JAM_STEP_POLISH = 3
 
   ! jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
-  ! mean diameters after the step. NaN where a column has no meaning. @since 0.1
+  ! mean diameters after the step. NaN where a column has no meaning.
   integer(c_int32_t), parameter :: JAM_HISTORY_PHASE = 0
   integer(c_int32_t), parameter :: JAM_HISTORY_GAIN = 1
   integer(c_int32_t), parameter :: JAM_HISTORY_PHI = 2
@@ -189,21 +189,21 @@ module jam
   integer(c_int32_t), parameter :: JAM_HISTORY_STEP_MSD_STABLE = 18
   integer(c_int32_t), parameter :: JAM_HISTORY_TOTAL_MSD_STABLE = 19
 
-  ! jam_soft_scale: Factor c and length l of the energy. @since 0.1
+  ! jam_soft_scale: Factor c and length l of the energy.
   integer(c_int32_t), parameter :: JAM_SOFT_RELATIVE = 0
   integer(c_int32_t), parameter :: JAM_SOFT_ABSOLUTE = 1
   integer(c_int32_t), parameter :: JAM_SOFT_BARE = 2
 
-  ! jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1
+  ! jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol.
   integer(c_int32_t), parameter :: JAM_MINIMISER_NEWTON = 0
   integer(c_int32_t), parameter :: JAM_MINIMISER_FIRE = 1
   integer(c_int32_t), parameter :: JAM_MINIMISER_LBFGS = 2
 
-  ! jam_soft_precision: How the overlap of a pair is computed. @since 0.1
+  ! jam_soft_precision: How the overlap of a pair is computed.
   integer(c_int32_t), parameter :: JAM_SOFT_REFERENCE = 0
   integer(c_int32_t), parameter :: JAM_SOFT_DOUBLE = 1
 
-  ! jam_soft_column: Columns of the history of a decompression, a row a minimum. @since 0.1
+  ! jam_soft_column: Columns of the history of a decompression, a row a minimum.
   integer(c_int32_t), parameter :: JAM_SOFT_PHI = 0
   integer(c_int32_t), parameter :: JAM_SOFT_PRESSURE = 1
   integer(c_int32_t), parameter :: JAM_SOFT_ENERGY = 2
@@ -216,35 +216,35 @@ module jam
   integer(c_int32_t), parameter :: JAM_SOFT_FACTORISATIONS = 9
   integer(c_int32_t), parameter :: JAM_SOFT_SECONDS = 10
 
-  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
+  ! jam_stiffness: Stiffness k of a contact, 1 at the mean force.
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARMONIC = 0
   integer(c_int32_t), parameter :: JAM_STIFFNESS_POWER = 1
   integer(c_int32_t), parameter :: JAM_STIFFNESS_HARD = 2
   integer(c_int32_t), parameter :: JAM_STIFFNESS_SOFT = 3
 
-  ! jam_modes_which: Which modes. @since 0.1
+  ! jam_modes_which: Which modes.
   integer(c_int32_t), parameter :: JAM_MODES_LOWEST = 0
   integer(c_int32_t), parameter :: JAM_MODES_HIGHEST = 1
   integer(c_int32_t), parameter :: JAM_MODES_NEAR = 2
   integer(c_int32_t), parameter :: JAM_MODES_ALL = 3
 
-  ! jam_candidate_column: Columns of jam_contact_candidates. @since 0.1
+  ! jam_candidate_column: Columns of jam_contact_candidates.
   integer(c_int32_t), parameter :: JAM_CANDIDATE_LIMIT = 0
   integer(c_int32_t), parameter :: JAM_CANDIDATE_JUMP = 1
   integer(c_int32_t), parameter :: JAM_CANDIDATE_CONTACTS = 2
   integer(c_int32_t), parameter :: JAM_CANDIDATE_EXCESS = 3
 
-  ! jam_rigidity_kind: Which motions must not open contacts. @since 0.1
+  ! jam_rigidity_kind: Which motions must not open contacts.
   integer(c_int32_t), parameter :: JAM_RIGIDITY_COLLECTIVE = 0
   integer(c_int32_t), parameter :: JAM_RIGIDITY_STRICT = 1
 
-  ! jam_verdict: Answer of a test. @since 0.1
+  ! jam_verdict: Answer of a test.
   integer(c_int32_t), parameter :: JAM_VERDICT_UNTESTED = -1
   integer(c_int32_t), parameter :: JAM_VERDICT_NO = 0
   integer(c_int32_t), parameter :: JAM_VERDICT_YES = 1
   integer(c_int32_t), parameter :: JAM_VERDICT_UNDECIDED = 2
 
-  ! jam_check_reason: Why jam_check_packing answers as it does. @since 0.1
+  ! jam_check_reason: Why jam_check_packing answers as it does.
   integer(c_int32_t), parameter :: JAM_CHECK_PROOF = 0
   integer(c_int32_t), parameter :: JAM_CHECK_APART = 1
   integer(c_int32_t), parameter :: JAM_CHECK_NO_FORCE = 2
@@ -254,12 +254,12 @@ module jam
   integer(c_int32_t), parameter :: JAM_CHECK_GAPS = 6
   integer(c_int32_t), parameter :: JAM_CHECK_MARGIN = 7
 
-  ! jam_theorem: What was proved. @since 0.1
+  ! jam_theorem: What was proved.
   integer(c_int32_t), parameter :: JAM_THEOREM_NONE = 0
   integer(c_int32_t), parameter :: JAM_THEOREM_TRAPPED = 1
   integer(c_int32_t), parameter :: JAM_THEOREM_EXACT = 2
 
-  ! jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1
+  ! jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound.
   integer(c_int32_t), parameter :: JAM_CAUSE_NONE = 0
   integer(c_int32_t), parameter :: JAM_CAUSE_EXCESS = 1
   integer(c_int32_t), parameter :: JAM_CAUSE_FORCE = 2
@@ -268,12 +268,12 @@ module jam
   integer(c_int32_t), parameter :: JAM_CAUSE_RATTLER = 5
   integer(c_int32_t), parameter :: JAM_CAUSE_IMAGES = 6
 
-  ! jam_contact_class: Flags of a contact. @since 0.1
+  ! jam_contact_class: Flags of a contact.
   integer(c_int32_t), parameter :: JAM_CONTACT_LOCALISED = 1
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
   integer(c_int32_t), parameter :: JAM_CONTACT_MEDIAN = 4
 
-  ! jam_quantity: What jam_class_values and jam_histogram look at. @since 0.1
+  ! jam_quantity: What jam_class_values and jam_histogram look at.
   integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE = 0
   integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_SUM = 1
   integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_PAIRS = 2
@@ -283,14 +283,14 @@ module jam
   integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_DOT = 6
   integer(c_int32_t), parameter :: JAM_QUANTITY_COORDINATION = 7
 
-  ! jam_class: Which of them. @since 0.1
+  ! jam_class: Which of them.
   integer(c_int32_t), parameter :: JAM_CLASS_ALL = 0
   integer(c_int32_t), parameter :: JAM_CLASS_LOCALISED = 1
   integer(c_int32_t), parameter :: JAM_CLASS_EXTENDED = 2
   integer(c_int32_t), parameter :: JAM_CLASS_SMALLEST = 3
   integer(c_int32_t), parameter :: JAM_CLASS_MEDIAN = 4
 
-  ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1
+  ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode.
   integer(c_int32_t), parameter :: JAM_FLOPPY_MEDIAN = 0
   integer(c_int32_t), parameter :: JAM_FLOPPY_WEIGHT = 1
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_PLUS = 2
@@ -298,7 +298,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_FLOPPY_STABILITY = 4
   integer(c_int32_t), parameter :: JAM_FLOPPY_S_RETURN = 5
 
-  ! jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1
+  ! jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega.
   integer(c_int32_t), parameter :: JAM_DOS_OMEGA = 0
   integer(c_int32_t), parameter :: JAM_DOS_DENSITY = 1
   integer(c_int32_t), parameter :: JAM_DOS_ERROR = 2
@@ -306,7 +306,7 @@ module jam
   integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE = 4
   integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE_ERROR = 5
 
-  ! Options of jam_create and jam_read. @since 0.1
+  ! Options of jam_create and jam_read.
   type, bind(c) :: jam_create_options
     ! sizeof(jam_create_options)
     integer(c_int32_t) :: struct_size = 0
@@ -342,7 +342,7 @@ module jam
     real(c_double) :: shrink_min = 0
   end type jam_create_options
 
-  ! What the system is now. @since 0.1
+  ! What the system is now.
   type, bind(c) :: jam_info
     ! set by the caller: sizeof(jam_info)
     integer(c_int32_t) :: struct_size = 80
@@ -372,7 +372,7 @@ module jam
     real(c_double) :: non_additivity = 0
   end type jam_info
 
-  ! Given to the progress callback; valid during the call only. @since 0.1
+  ! Given to the progress callback; valid during the call only.
   type, bind(c) :: jam_progress
     ! sizeof(jam_progress) as the library knows it
     integer(c_int32_t) :: struct_size = 104
@@ -404,7 +404,7 @@ module jam
     real(c_double) :: seconds_left_spread = 0
   end type jam_progress
 
-  ! Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1
+  ! Limits of jam_run (NVE). Whichever comes first ends the run.
   type, bind(c) :: jam_run_options
     ! sizeof(jam_run_options)
     integer(c_int32_t) :: struct_size = 0
@@ -420,7 +420,7 @@ module jam
 
   ! Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
   ! is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
-  ! two stages. @since 0.1
+  ! two stages.
   type, bind(c) :: jam_compress_options
     ! sizeof(jam_compress_options)
     integer(c_int32_t) :: struct_size = 0
@@ -446,7 +446,7 @@ module jam
     integer(c_int32_t) :: reserved = 0
   end type jam_compress_options
 
-  ! What MD did. @since 0.1
+  ! What MD did.
   type, bind(c) :: jam_md_report
     ! set by the caller: sizeof(jam_md_report)
     integer(c_int32_t) :: struct_size = 96
@@ -476,7 +476,7 @@ module jam
     real(c_double) :: growth_rate = 0
   end type jam_md_report
 
-  ! What jam_observe records. @since 0.1
+  ! What jam_observe records.
   type, bind(c) :: jam_observe_options
     ! sizeof(jam_observe_options)
     integer(c_int32_t) :: struct_size = 0
@@ -500,7 +500,7 @@ module jam
     real(c_double) :: snapshot_factor = 0
   end type jam_observe_options
 
-  ! A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
+  ! A fit of the glass branch p = d' / (1 - phi/phi_J).
   type, bind(c) :: jam_glass
     ! set by the caller: sizeof(jam_glass)
     integer(c_int32_t) :: struct_size = 48
@@ -518,7 +518,7 @@ module jam
     real(c_double) :: r_squared = 0
   end type jam_glass
 
-  ! Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1
+  ! Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
   type, bind(c) :: jam_monte_carlo_options
     ! sizeof(jam_monte_carlo_options)
     integer(c_int32_t) :: struct_size = 0
@@ -550,7 +550,7 @@ module jam
     real(c_double) :: wall_time = 0
   end type jam_monte_carlo_options
 
-  ! What Monte Carlo did. @since 0.1
+  ! What Monte Carlo did.
   type, bind(c) :: jam_monte_carlo_report
     ! set by the caller: sizeof(jam_monte_carlo_report)
     integer(c_int32_t) :: struct_size = 104
@@ -582,7 +582,7 @@ module jam
     real(c_double) :: seconds = 0
   end type jam_monte_carlo_report
 
-  ! Options of jam_isoconfigurational. @since 0.1
+  ! Options of jam_isoconfigurational.
   type, bind(c) :: jam_isoconf_options
     ! sizeof(jam_isoconf_options)
     integer(c_int32_t) :: struct_size = 0
@@ -612,7 +612,7 @@ module jam
     real(c_double) :: wall_time = 0
   end type jam_isoconf_options
 
-  ! What the runs gave so far. @since 0.1
+  ! What the runs gave so far.
   type, bind(c) :: jam_isoconf_report
     ! set by the caller: sizeof(jam_isoconf_report)
     integer(c_int32_t) :: struct_size = 80
@@ -643,7 +643,7 @@ module jam
   ! sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
   ! Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
   ! after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
-  ! jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1
+  ! jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break.
   type, bind(c) :: jam_crunch_options
     ! sizeof(jam_crunch_options)
     integer(c_int32_t) :: struct_size = 0
@@ -651,7 +651,7 @@ module jam
     integer(c_int32_t) :: lp_solver = 0
     ! jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
     integer(c_int32_t) :: method = 0
-    ! 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+    ! 1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     integer(c_int32_t) :: polish = 0
     ! >= 1, default 1000 (max_iters)
     integer(c_int32_t) :: max_lps = 0
@@ -681,7 +681,7 @@ module jam
     real(c_double) :: duality_gap = 0
   end type jam_crunch_options
 
-  ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
+  ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
   type, bind(c) :: jam_crunch_report
     ! set by the caller: sizeof(jam_crunch_report)
     integer(c_int32_t) :: struct_size = 336
@@ -778,7 +778,7 @@ module jam
     integer(c_int64_t) :: contacts_kept = 0
   end type jam_crunch_report
 
-  ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
+  ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
   type, bind(c) :: jam_estimate
     ! set by the caller: sizeof(jam_estimate)
     integer(c_int32_t) :: struct_size = 64
@@ -800,7 +800,7 @@ module jam
     real(c_double) :: seconds = 0
   end type jam_estimate
 
-  ! Options of jam_relax. @since 0.1
+  ! Options of jam_relax.
   type, bind(c) :: jam_relax_options
     ! sizeof(jam_relax_options)
     integer(c_int32_t) :: struct_size = 0
@@ -829,7 +829,7 @@ module jam
   end type jam_relax_options
 
   ! What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-  ! again and again; stable spheres are the others. @since 0.1
+  ! again and again; stable spheres are the others.
   type, bind(c) :: jam_relax_report
     ! set by the caller: sizeof(jam_relax_report)
     integer(c_int32_t) :: struct_size = 152
@@ -875,7 +875,7 @@ module jam
     real(c_double) :: stress_residual = 0
   end type jam_relax_report
 
-  ! Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1
+  ! Options of jam_decompress. Targets: the first that is reached ends it.
   type, bind(c) :: jam_decompress_options
     ! sizeof(jam_decompress_options)
     integer(c_int32_t) :: struct_size = 0
@@ -909,7 +909,7 @@ module jam
     real(c_double) :: wall_time = 0
   end type jam_decompress_options
 
-  ! What jam_decompress found. @since 0.1
+  ! What jam_decompress found.
   type, bind(c) :: jam_decompress_report
     ! set by the caller: sizeof(jam_decompress_report)
     integer(c_int32_t) :: struct_size = 168
@@ -959,7 +959,7 @@ module jam
     real(c_double) :: seconds_crunch = 0
   end type jam_decompress_report
 
-  ! Options of all calls that use a Hessian. @since 0.1
+  ! Options of all calls that use a Hessian.
   type, bind(c) :: jam_hessian_options
     ! sizeof(jam_hessian_options)
     integer(c_int32_t) :: struct_size = 0
@@ -971,7 +971,7 @@ module jam
     real(c_double) :: prestress = 0
   end type jam_hessian_options
 
-  ! Options of jam_modes. @since 0.1
+  ! Options of jam_modes.
   type, bind(c) :: jam_modes_options
     ! sizeof(jam_modes_options)
     integer(c_int32_t) :: struct_size = 0
@@ -987,7 +987,7 @@ module jam
     real(c_double) :: memory_limit = 0
   end type jam_modes_options
 
-  ! Options of jam_contacts_from_geometry. @since 0.1
+  ! Options of jam_contacts_from_geometry.
   type, bind(c) :: jam_geometry_options
     ! sizeof(jam_geometry_options)
     integer(c_int32_t) :: struct_size = 0
@@ -999,7 +999,7 @@ module jam
     real(c_double) :: window = 0
   end type jam_geometry_options
 
-  ! What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
+  ! What jam_contacts_from_geometry found; gaps relative to sigma_ij.
   type, bind(c) :: jam_geometry_report
     ! set by the caller: sizeof(jam_geometry_report)
     integer(c_int32_t) :: struct_size = 136
@@ -1040,7 +1040,7 @@ module jam
   end type jam_geometry_report
 
   ! What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-  ! that they touch, N' their number. @since 0.1
+  ! that they touch, N' their number.
   type, bind(c) :: jam_rigidity_report
     ! set by the caller: sizeof(jam_rigidity_report)
     integer(c_int32_t) :: struct_size = 96
@@ -1072,18 +1072,18 @@ module jam
     real(c_double) :: force_residual = 0
   end type jam_rigidity_report
 
-  ! Options of jam_check_packing. @since 0.1
+  ! Options of jam_check_packing.
   type, bind(c) :: jam_check_options
     ! sizeof(jam_check_options)
     integer(c_int32_t) :: struct_size = 0
-    ! 1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0
+    ! 1: an undecided packing is crunched, as a copy, to say what that changes; default 1
     integer(c_int32_t) :: crunch = 0
     ! limit for this crunch in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
   end type jam_check_options
 
   ! Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-  ! NaN: not known. @since 0.1
+  ! NaN: not known.
   type, bind(c) :: jam_check_report
     ! set by the caller: sizeof(jam_check_report)
     integer(c_int32_t) :: struct_size = 216
@@ -1149,7 +1149,7 @@ module jam
     real(c_double) :: crunch_displacement_rms = 0
   end type jam_check_report
 
-  ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1
+  ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
   type, bind(c) :: jam_proof_report
     ! set by the caller: sizeof(jam_proof_report)
     integer(c_int32_t) :: struct_size = 152
@@ -1193,7 +1193,7 @@ module jam
     real(c_double) :: rounding = 0
   end type jam_proof_report
 
-  ! Options of jam_density_of_states. @since 0.1
+  ! Options of jam_density_of_states.
   type, bind(c) :: jam_dos_options
     ! sizeof(jam_dos_options)
     integer(c_int32_t) :: struct_size = 0
@@ -1207,7 +1207,7 @@ module jam
     integer(c_int64_t) :: seed = 0
   end type jam_dos_options
 
-  ! Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
+  ! Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
   type, bind(c) :: jam_moduli
     ! set by the caller: sizeof(jam_moduli)
     integer(c_int32_t) :: struct_size = 56
@@ -1227,7 +1227,7 @@ module jam
     real(c_double) :: shear_max = 0
   end type jam_moduli
 
-  ! What jam_compare found; contacts only when both have a network. @since 0.1
+  ! What jam_compare found; contacts only when both have a network.
   type, bind(c) :: jam_comparison
     ! set by the caller: sizeof(jam_comparison)
     integer(c_int32_t) :: struct_size = 80
@@ -1262,9 +1262,9 @@ module jam
   end interface jam_defaults
 
   abstract interface
-    ! Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a
-    ! valid state. It must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves
-    ! the stage as it runs) and const getters. These show the state before the call, or the last snapshot. @since 0.1
+    ! Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
+    ! must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves the stage as it
+    ! runs) and const getters. These show the state before the call, or the last snapshot.
     function jam_progress_fn(progress, user) &
         bind(c) result(status)
       import
@@ -1272,7 +1272,7 @@ module jam
       type(c_ptr), value :: user
       integer(c_int32_t) :: status
     end function jam_progress_fn
-    ! Log callback: one line without newline, valid during the call. @since 0.1
+    ! Log callback: one line without newline, valid during the call.
     subroutine jam_log_fn(level, line, user) &
         bind(c)
       import
@@ -1284,22 +1284,22 @@ module jam
 
   interface
 
-    ! Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1
+    ! Version of the library, e.g. "0.1.0". Static storage.
     function jam_version() &
         bind(c, name="jam_version") result(status)
       import
       type(c_ptr) :: status
     end function jam_version
 
-    ! Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did
-    ! not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1
+    ! Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
+    ! find a commit. It does not show uncommitted changes. Static storage.
     function jam_commit() &
         bind(c, name="jam_commit") result(status)
       import
       type(c_ptr) :: status
     end function jam_commit
 
-    ! JAM_ABI of the library that is loaded. Threads: any. @since 0.1
+    ! JAM_ABI of the library that is loaded.
     function jam_abi_version() &
         bind(c, name="jam_abi_version") result(status)
       import
@@ -1307,14 +1307,14 @@ module jam
     end function jam_abi_version
 
     ! Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-    ! computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1
+    ! computes in place of OpenBLAS: the path of that library. Static storage.
     function jam_blas_kernel() &
         bind(c, name="jam_blas_kernel") result(status)
       import
       type(c_ptr) :: status
     end function jam_blas_kernel
 
-    ! One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1
+    ! One-line text of a status code ("unknown status" for others). Static storage.
     function jam_status_string(code) &
         bind(c, name="jam_status_string") result(status)
       import
@@ -1322,7 +1322,7 @@ module jam
       type(c_ptr) :: status
     end function jam_status_string
 
-    ! One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1
+    ! One-word name of a jam_stop_reason, e.g. "converged". Static storage.
     function jam_stop_string(reason) &
         bind(c, name="jam_stop_string") result(status)
       import
@@ -1332,15 +1332,13 @@ module jam
 
     ! Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
     ! none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
-    ! Threads: per thread. @since 0.1
     function jam_last_error() &
         bind(c, name="jam_last_error") result(status)
       import
       type(c_ptr) :: status
     end function jam_last_error
 
-    ! Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
-    ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    ! Fills *o with the defaults. size = sizeof *o as the caller compiled it.
     function jam_create_options_init(o, size) &
         bind(c, name="jam_create_options_init") result(status)
       import
@@ -1351,8 +1349,7 @@ module jam
 
     ! Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
     ! the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-    ! give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
-    ! @since 0.1
+    ! give the copy its own velocities by jam_set_velocities.
     function jam_copy(src, out) &
         bind(c, name="jam_copy") result(status)
       import
@@ -1361,14 +1358,14 @@ module jam
       integer(c_int32_t) :: status
     end function jam_copy
 
-    ! Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1
+    ! Frees a system; NULL is fine.
     subroutine jam_destroy(sys) &
         bind(c, name="jam_destroy")
       import
       type(c_ptr), value :: sys
     end subroutine jam_destroy
 
-    ! Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+    ! Fills *info.
     function jam_info_get(sys, info) &
         bind(c, name="jam_info_get") result(status)
       import
@@ -1377,9 +1374,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_info_get
 
-    ! View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
-    ! valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
-    ! JAM_E_NULL. @since 0.1
+    ! View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
+    ! content changes only at the end of calls that move spheres.
     function jam_positions_view(sys, view, view_len) &
         bind(c, name="jam_positions_view") result(status)
       import
@@ -1389,7 +1385,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_positions_view
 
-    ! View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1
+    ! View of the n diameters; lifetime as jam_positions_view.
     function jam_diameters_view(sys, view, view_len) &
         bind(c, name="jam_diameters_view") result(status)
       import
@@ -1399,8 +1395,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_diameters_view
 
-    ! View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
-    ! jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1
+    ! View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view.
     function jam_velocities_view(sys, view, view_len) &
         bind(c, name="jam_velocities_view") result(status)
       import
@@ -1410,8 +1405,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_velocities_view
 
-    ! Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1
+    ! Multiplies all diameters by factor > 0; results of crunch are dropped.
+    ! Errors: JAM_E_OVERLAP (when growing).
     function jam_scale_diameters(sys, factor) &
         bind(c, name="jam_scale_diameters") result(status)
       import
@@ -1420,10 +1415,9 @@ module jam
       integer(c_int32_t) :: status
     end function jam_scale_diameters
 
-    ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
-    ! setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
-    ! callback makes on its handle does not call it again. Threads: alone.
-    ! Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+    ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
+    ! too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
+    ! its handle does not call it again.
     function jam_set_progress(sys, callback, user) &
         bind(c, name="jam_set_progress") result(status)
       import
@@ -1433,8 +1427,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_set_progress
 
-    ! Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
+    ! Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes.
     function jam_set_log(sys, callback, level, user) &
         bind(c, name="jam_set_log") result(status)
       import
@@ -1446,8 +1439,7 @@ module jam
     end function jam_set_log
 
     ! Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
-    ! on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
-    ! Errors: JAM_E_NULL. @since 0.1
+    ! on sys stops, unless it is a setter. jam_cancel only increments an atomic counter.
     function jam_cancel(sys) &
         bind(c, name="jam_cancel") result(status)
       import
@@ -1458,8 +1450,7 @@ module jam
     ! Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
     ! infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
     ! memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
-    ! default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
+    ! default is half the machine's memory. An option memory_limit can lower the limit for its own call.
     function jam_set_memory_limit(sys, bytes) &
         bind(c, name="jam_set_memory_limit") result(status)
       import
@@ -1471,7 +1462,6 @@ module jam
     ! What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
     ! diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
     ! jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
-    ! Threads: const. @since 0.1
     function jam_notes(sys) &
         bind(c, name="jam_notes") result(status)
       import
@@ -1479,7 +1469,6 @@ module jam
       type(c_ptr) :: status
     end function jam_notes
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_run_options_init(o, size) &
         bind(c, name="jam_run_options_init") result(status)
       import
@@ -1488,7 +1477,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_run_options_init
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_compress_options_init(o, size) &
         bind(c, name="jam_compress_options_init") result(status)
       import
@@ -1497,17 +1485,15 @@ module jam
       integer(c_int32_t) :: status
     end function jam_compress_options_init
 
-    ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-    ! drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
-    ! report may be NULL. A run or stage that ends with
-    ! JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
-    ! So does one that was stopped while its lists were made, when nothing has moved.
-    ! With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
-    ! run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
-    ! Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-    ! JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
-    ! says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-    ! JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
+    ! Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
+    ! with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
+    ! spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
+    ! to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
+    ! does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
+    ! collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
+    ! paths that never meet). The log gives the reason of the last two.
+    ! Errors: JAM_E_OVERLAP.
     function jam_run(sys, o, report) &
         bind(c, name="jam_run") result(status)
       import
@@ -1519,13 +1505,13 @@ module jam
 
     ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
     ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-    ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
-    ! may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
-    ! the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
-    ! report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
-    ! image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
-    ! the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
-    ! protocol. Threads: alone. @since 0.1
+    ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
+    ! Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
+    ! velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+    ! report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
+    ! between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
+    ! equal spheres in d = 3) order under this protocol.
+    ! Errors: JAM_E_OVERLAP.
     function jam_compress(sys, o, report) &
         bind(c, name="jam_compress") result(status)
       import
@@ -1535,7 +1521,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_compress
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_observe_options_init(o, size) &
         bind(c, name="jam_observe_options_init") result(status)
       import
@@ -1546,8 +1531,7 @@ module jam
 
     ! From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
     ! dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
-    ! callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
-    ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+    ! callback is called with jam_progress.snapshot > 0: every const call works on that state there.
     function jam_observe(sys, o) &
         bind(c, name="jam_observe") result(status)
       import
@@ -1556,7 +1540,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_observe
 
-    ! Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+    ! Stops recording; what was recorded can still be read.
     function jam_observe_stop(sys) &
         bind(c, name="jam_observe_stop") result(status)
       import
@@ -1564,8 +1548,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_observe_stop
 
-    ! pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
-    ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1
+    ! pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
+    ! Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim).
     function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure) &
         bind(c, name="jam_eos") result(status)
       import
@@ -1577,7 +1561,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_eos
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_monte_carlo_options_init(o, size) &
         bind(c, name="jam_monte_carlo_options_init") result(status)
       import
@@ -1587,11 +1570,10 @@ module jam
     end function jam_monte_carlo_options_init
 
     ! Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
-    ! preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
-    ! numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
-    ! gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
-    ! JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
-    ! JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
+    ! overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
+    ! dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+    ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model).
     function jam_monte_carlo(sys, o, report) &
         bind(c, name="jam_monte_carlo") result(status)
       import
@@ -1601,7 +1583,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_monte_carlo
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_isoconf_options_init(o, size) &
         bind(c, name="jam_isoconf_options_init") result(status)
       import
@@ -1610,8 +1591,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_isoconf_options_init
 
-    ! The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
-    ! runs). @since 0.1
+    ! The report of these runs as they are now.
+    ! Errors: JAM_E_STATE (no runs).
     function jam_isoconf_report_get(sys, report) &
         bind(c, name="jam_isoconf_report_get") result(status)
       import
@@ -1620,7 +1601,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_isoconf_report_get
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_crunch_options_init(o, size) &
         bind(c, name="jam_crunch_options_init") result(status)
       import
@@ -1629,16 +1609,13 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crunch_options_init
 
-    ! Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
-    ! 106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
-    ! packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
-    ! then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
-    ! from the last call. report may be NULL.
-    ! Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
-    ! path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
-    ! valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-    ! JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
-    ! JAM_E_BUSY. Threads: alone. @since 0.1
+    ! Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
+    ! (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
+    ! call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+    ! on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
+    ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
+    ! along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
+    ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).
     function jam_crunch(sys, o, report) &
         bind(c, name="jam_crunch") result(status)
       import
@@ -1649,8 +1626,8 @@ module jam
     end function jam_crunch
 
     ! Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
-    ! same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-    ! JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+    ! same at JAM_LOG_INFO. Takes as long as a few steps.
+    ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW.
     function jam_crunch_estimate(sys, o, estimated) &
         bind(c, name="jam_crunch_estimate") result(status)
       import
@@ -1660,7 +1637,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crunch_estimate
 
-    ! The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1
+    ! The report of the last crunch.
+    ! Errors: JAM_E_STATE.
     function jam_crunch_report_get(sys, report) &
         bind(c, name="jam_crunch_report_get") result(status)
       import
@@ -1669,7 +1647,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crunch_report_get
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_relax_options_init(o, size) &
         bind(c, name="jam_relax_options_init") result(status)
       import
@@ -1682,14 +1659,10 @@ module jam
     ! the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
     ! contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
     ! the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-    ! network holds the digits beyond. report may be NULL. Example: examples/c/soft.c
-    !
-    ! Status: JAM_OK converged.
-    ! JAM_NOT_JAMMED converged to energy 0: no overlaps.
-    ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
-    ! JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.
-    ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW), JAM_E_MEMORY,
-    ! JAM_E_BUSY. Threads: alone. @since 0.1
+    ! network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+    ! JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
+    ! examples/c/soft.c
+    ! Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
     function jam_relax(sys, o, report) &
         bind(c, name="jam_relax") result(status)
       import
@@ -1699,7 +1672,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_relax
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_decompress_options_init(o, size) &
         bind(c, name="jam_decompress_options_init") result(status)
       import
@@ -1710,12 +1682,10 @@ module jam
 
     ! From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
     ! energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
-    ! taken back and its square root is tried. report may be NULL.
-    ! Status: JAM_OK a target was reached; with isostatic and crunch, both ways lead to one network.
-    ! JAM_NOT_JAMMED the start has no overlaps at its minimum.
-    ! JAM_PRECISION overlaps came down to the rounding of positions before a target.
-    ! JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
-    ! Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1
+    ! taken back and its square root is tried. Status: JAM_OK a target was reached; with isostatic and crunch, both ways
+    ! lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
+    ! rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept.
+    ! Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER.
     function jam_decompress(sys, o, report) &
         bind(c, name="jam_decompress") result(status)
       import
@@ -1725,7 +1695,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_decompress
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_hessian_options_init(o, size) &
         bind(c, name="jam_hessian_options_init") result(status)
       import
@@ -1734,7 +1703,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_hessian_options_init
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_modes_options_init(o, size) &
         bind(c, name="jam_modes_options_init") result(status)
       import
@@ -1743,7 +1711,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_modes_options_init
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_geometry_options_init(o, size) &
         bind(c, name="jam_geometry_options_init") result(status)
       import
@@ -1755,12 +1722,12 @@ module jam
     ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
     ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
     ! are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-    ! stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
-    ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-    ! JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-    ! above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
-    ! collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-    ! JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
+    ! time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+    ! candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
+    ! verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
+    ! these contacts closed.
+    ! Errors: JAM_E_SOLVER.
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)
       import
@@ -1774,14 +1741,13 @@ module jam
     ! pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
     ! Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
     ! spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
-    ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
-    ! Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
-    ! for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+    ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
+    ! opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
+    ! translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
     ! Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-    ! arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
-    ! be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-    ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
-    ! 0.1
+    ! arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
+    ! JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+    ! Errors: JAM_E_SOLVER.
     function jam_rigidity(sys, kind, report) &
         bind(c, name="jam_rigidity") result(status)
       import
@@ -1791,7 +1757,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_rigidity
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_check_options_init(o, size) &
         bind(c, name="jam_check_options_init") result(status)
       import
@@ -1803,9 +1768,9 @@ module jam
     ! Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
     ! handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
     ! few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-    ! o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-    ! jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-    ! JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+    ! Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
+    ! status above 0.
+    ! Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER.
     function jam_check_packing(sys, o, report) &
         bind(c, name="jam_check_packing") result(status)
       import
@@ -1816,7 +1781,7 @@ module jam
     end function jam_check_packing
 
     ! The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
-    ! wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1
+    ! wrong struct_size. Valid until this thread's next call of it.
     function jam_check_text(report) &
         bind(c, name="jam_check_text") result(status)
       import
@@ -1825,7 +1790,7 @@ module jam
     end function jam_check_text
 
     ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-    ! about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1
+    ! about 10 in a perfect FCC crystal.
     function jam_crystal_score(sys, score) &
         bind(c, name="jam_crystal_score") result(status)
       import
@@ -1834,7 +1799,6 @@ module jam
       integer(c_int32_t) :: status
     end function jam_crystal_score
 
-    ! Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
     function jam_dos_options_init(o, size) &
         bind(c, name="jam_dos_options_init") result(status)
       import
@@ -1843,8 +1807,8 @@ module jam
       integer(c_int32_t) :: status
     end function jam_dos_options_init
 
-    ! Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
-    ! the network unstable. Threads: alone. @since 0.1
+    ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
+    ! Errors: JAM_E_STATE, JAM_E_SOLVER.
     function jam_moduli_get(sys, h, moduli) &
         bind(c, name="jam_moduli_get") result(status)
       import
@@ -2550,35 +2514,32 @@ module jam
     end function c_jam_compare
   end interface
 
-  ! Makes a system. Example: examples/c/first.c
-  ! o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
-  ! [0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
-  ! diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
-  ! taken as they are. For a random start only their ratios count.
-  ! out: the new handle, owned by the caller, freed by jam_destroy.
-  ! Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
-  ! JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
-  ! Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1
+  ! Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
+  ! start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
+  ! given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
+  ! After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c
+  ! Shapes: positions (n, d), diameters (n).
+  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
   interface jam_create
     module procedure f_jam_create
     module procedure l_jam_create
   end interface jam_create
 
-  ! jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
-  ! Cartesian, in the frame of `cell`.
-  ! Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
-  ! Threads: any. @since 0.1
+  ! jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
+  ! or flat cell is refused. positions: Cartesian, in the frame of `cell`.
+  ! Shapes: cell (d, d), positions (n, d), diameters (n).
+  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   interface jam_create_in_cell
     module procedure f_jam_create_in_cell
     module procedure l_jam_create_in_cell
   end interface jam_create_in_cell
 
-  ! Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
-  ! crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
-  ! x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
-  ! cell vectors, so with other vectors the system is another one.
-  ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
-  ! JAM_E_BUSY. Threads: alone. @since 0.1
+  ! Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
+  ! frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
+  ! times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
+  ! vectors, so with other vectors the system is another one.
+  ! Shapes: cell (d, d), transform (d, d), rotation (d, d).
+  ! Errors: JAM_E_OVERLAP.
   interface jam_cell_set
     module procedure f_jam_cell_set
     module procedure l_jam_cell_set
@@ -2586,7 +2547,8 @@ module jam
 
   ! jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
   ! A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
-  ! Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1
+  ! Shapes: positions (n, d), diameters (n).
+  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
   interface jam_create_watched
     module procedure f_jam_create_watched
     module procedure l_jam_create_watched
@@ -2595,143 +2557,153 @@ module jam
   ! jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
   ! call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
   ! take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
-  ! jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1
+  ! jam_checkpoint_read_watched has no time limit.
+  ! Shapes: cell (d, d), positions (n, d), diameters (n).
+  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   interface jam_create_in_cell_watched
     module procedure f_jam_create_in_cell_watched
     module procedure l_jam_create_in_cell_watched
   end interface jam_create_in_cell_watched
 
-  ! Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
-  ! length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+  ! Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n.
+  ! Shapes: collisions (n), displacement (n, d).
+  ! Errors: JAM_E_STATE.
   interface jam_observed_spheres
     module procedure f_jam_observed_spheres
     module procedure l_jam_observed_spheres
   end interface jam_observed_spheres
 
-  ! Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
-  ! units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
-  ! Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+  ! Pairs that have collided, their collisions, and the momentum exchanged in units of sqrt(m kT), without the part of
+  ! the growth. momentum over *time, the simulated time, is the mean force.
+  ! Shapes: pair (m, 2), collisions (m), momentum (m).
+  ! Errors: JAM_E_STATE.
   interface jam_observed_pairs
     module procedure f_jam_observed_pairs
     module procedure l_jam_observed_pairs
   end interface jam_observed_pairs
 
-  ! Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
-  ! (bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
-  ! g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
-  ! Errors: as jam_observed_series. @since 0.1
+  ! Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
+  ! taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
+  ! phi) for equal spheres in d = 3.
+  ! Shapes: edge (bins + 1), density (bins), error (bins).
+  ! Errors: JAM_E_STATE.
   interface jam_observed_gaps
     module procedure f_jam_observed_gaps
     module procedure l_jam_observed_gaps
   end interface jam_observed_gaps
 
-  ! g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
-  ! Threads: const. Errors: as jam_observed_series. @since 0.1
+  ! g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
+  ! Shapes: r (bins), g (bins).
+  ! Errors: JAM_E_STATE.
   interface jam_observed_correlation
     module procedure f_jam_observed_correlation
     module procedure l_jam_observed_correlation
   end interface jam_observed_correlation
 
-  ! Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-  ! JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1
+  ! Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
+  ! Shapes: fraction (m), pressure (m).
+  ! Errors: JAM_E_TOO_FEW.
   interface jam_glass_fit
     module procedure f_jam_glass_fit
     module procedure l_jam_glass_fit
   end interface jam_glass_fit
 
   ! Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
-  ! is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
-  ! molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
-  ! instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
-  ! may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
-  ! order of their numbers. An early stop keeps the runs that were made; resume continues, also after
-  ! jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
-  ! JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
-  ! resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1
+  ! is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
+  ! from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
+  ! resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+  ! of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+  ! sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+  ! jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move).
+  ! Shapes: instant (instants), kept (k).
+  ! Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
   interface jam_isoconfigurational
     module procedure f_jam_isoconfigurational
     module procedure l_jam_isoconfigurational
   end interface jam_isoconfigurational
 
-  ! Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
-  ! of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
-  ! Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-  ! @since 0.1
+  ! Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
+  ! distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
+  ! Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+  ! Errors: JAM_E_STATE.
   interface jam_isoconf_sums
     module procedure f_jam_isoconf_sums
     module procedure l_jam_isoconf_sums
   end interface jam_isoconf_sums
 
-  ! Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
-  ! Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
-  ! 0.1
+  ! Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
+  ! Shapes: row_start (d N' + 1), column (entries), value (entries).
+  ! Errors: JAM_E_STATE.
   interface jam_hessian
     module procedure f_jam_hessian
     module procedure l_jam_hessian
   end interface jam_hessian
 
-  ! Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
-  ! participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
-  ! is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
-  ! JAM_E_BUSY. Threads: alone. @since 0.1
+  ! Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
+  ! |v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
+  ! Shapes: lambda (m), vector (m, N', d), participation (m).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   interface jam_modes
     module procedure f_jam_modes
     module procedure l_jam_modes
   end interface jam_modes
 
-  ! States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
-  ! space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-  ! NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
-  ! JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
+  ! States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
+  ! duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
+  ! of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
+  ! Shapes: force (n_c), basis (m, n_c).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   interface jam_stress_states
     module procedure f_jam_stress_states
     module procedure l_jam_stress_states
   end interface jam_stress_states
 
-  ! A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
-  ! collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
-  ! contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
-  ! Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
-  ! 0.1
+  ! A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
+  ! The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+  ! Shapes: out (n, d), strain (d, d).
+  ! Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion).
   interface jam_flex
     module procedure f_jam_flex
     module procedure l_jam_flex
   end interface jam_flex
 
-  ! Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
-  ! Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
-  ! JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
-  ! 0.1
+  ! Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
+  ! where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+  ! Shapes: ratio (n), high (n, d), low (n, d).
+  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED.
   interface jam_refined_positions
     module procedure f_jam_refined_positions
     module procedure l_jam_refined_positions
   end interface jam_refined_positions
 
-  ! Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
-  ! stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-  ! JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1
+  ! Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+  ! rattlers count too and no network is needed.
+  ! Shapes: gap (gaps), pair (gaps, 2).
+  ! Errors: JAM_E_STATE.
   interface jam_gaps
     module procedure f_jam_gaps
     module procedure l_jam_gaps
   end interface jam_gaps
 
-  ! c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-  ! *rows = n. Threads: const. Errors: as jam_contacts. @since 0.1
+  ! c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n.
+  ! Shapes: c (n, d), s (n).
+  ! Errors: JAM_E_STATE.
   interface jam_sphere_structure
     module procedure f_jam_sphere_structure
     module procedure l_jam_sphere_structure
   end interface jam_sphere_structure
 
-  ! n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
-  ! pairs. Threads: const. Errors: as jam_contacts. @since 0.1
+  ! n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
+  ! Shapes: dot (pairs), sphere (pairs).
+  ! Errors: JAM_E_STATE.
   interface jam_contact_dots
     module procedure f_jam_contact_dots
     module procedure l_jam_contact_dots
   end interface jam_contact_dots
 
-  ! g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
-  ! mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
-  ! @since 0.1
+  ! g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
+  ! diameters.
+  ! Shapes: kind (n), out (bins).
   interface jam_pair_correlation
     module procedure f_jam_pair_correlation
     module procedure l_jam_pair_correlation
@@ -2739,24 +2711,26 @@ module jam
 
   ! S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
   ! ascending. Lengths that differ by less than 5e-13 of |q| are one.
-  ! No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
-  ! Threads: alone. @since 0.1
+  ! Shapes: q (m), s (m).
   interface jam_structure_factor
     module procedure f_jam_structure_factor
     module procedure l_jam_structure_factor
   end interface jam_structure_factor
 
-  ! Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
-  ! squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+  ! Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
+  ! |u|^2.
+  ! Shapes: vector (m, N', d), u (N', d), out (m).
+  ! Errors: JAM_E_STATE.
   interface jam_project
     module procedure f_jam_project
     module procedure l_jam_project
   end interface jam_project
 
-  ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
-  ! (d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
-  ! With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
-  ! Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1
+  ! Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
+  ! jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
+  ! c_bacd differ: a rotation of stressed contacts counts.
+  ! Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   interface jam_elastic_tensor
     module procedure f_jam_elastic_tensor
     module procedure l_jam_elastic_tensor
@@ -2958,7 +2932,7 @@ contains
     error stop 1
   end subroutine jam_check
   ! Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
-  ! themselves. Long texts are truncated. Threads: per thread. @since 0.1
+  ! themselves. Long texts are truncated.
   subroutine jam_set_error(text)
     character(*), intent(in) :: text
     call c_jam_set_error(jam_c_string(text))
@@ -3042,8 +3016,9 @@ contains
     status = c_jam_create(o, at_positions, count_positions, at_diameters, count_diameters, out)
   end function l_jam_create
 
-  ! Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
-  ! Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1
+  ! Replaces the positions, wrapped into the box; results of crunch are dropped.
+  ! Shapes: positions (n, d).
+  ! Errors: JAM_E_OVERLAP.
   function jam_set_positions(sys, positions, positions_len) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: positions(..)
@@ -3067,9 +3042,9 @@ contains
     status = c_jam_set_positions(sys, at_positions, count_positions)
   end function jam_set_positions
 
-  ! Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
-  ! velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
-  ! (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
+  ! Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. jam_run uses the velocities
+  ! as they are. jam_compress rescales them to kT/m = 1.
+  ! Shapes: velocities (n, d).
   function jam_set_velocities(sys, velocities, velocities_len) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: velocities(..)
@@ -3201,7 +3176,8 @@ contains
       count_diameters, out)
   end function l_jam_create_in_cell
 
-  ! Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1
+  ! Cell vectors in normal form.
+  ! Shapes: out (d, d).
   function jam_cell_get(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -3330,10 +3306,10 @@ contains
       count_rotation, rows)
   end function l_jam_cell_set
 
-  ! Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
-  ! new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
-  ! Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
-  ! Threads: alone. @since 0.1
+  ! Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
+  ! reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+  ! Shapes: strain (d, d).
+  ! Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
   function jam_strain(sys, strain, strain_len) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: strain(..)
@@ -3456,6 +3432,10 @@ contains
     integer(c_size_t) :: count_positions
     type(c_ptr) :: at_diameters
     integer(c_size_t) :: count_diameters
+    integer(c_size_t) :: n_of_c, d_of_c
+    n_of_c = 0
+    d_of_c = 3
+    if (present(o)) d_of_c = o%dim
     at_cell = c_null_ptr
     count_cell = 0
     if (present(cell)) then
@@ -3463,7 +3443,7 @@ contains
       count_cell = size(cell, kind=c_size_t)
     end if
     if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), 0_c_size_t, count_cell)
+      status = checked('cell', shape(cell, kind=c_size_t), d_of_c, count_cell)
       if (status /= JAM_OK) return
     end if
     at_positions = c_null_ptr
@@ -3473,7 +3453,7 @@ contains
       count_positions = size(positions, kind=c_size_t)
     end if
     if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), 0_c_size_t, count_positions)
+      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
       if (status /= JAM_OK) return
     end if
     at_diameters = c_null_ptr
@@ -3509,6 +3489,10 @@ contains
     integer(c_size_t) :: count_positions
     type(c_ptr) :: at_diameters
     integer(c_size_t) :: count_diameters
+    integer(c_size_t) :: n_of_c, d_of_c
+    n_of_c = 0
+    d_of_c = 3
+    if (present(o)) d_of_c = o%dim
     at_cell = c_null_ptr
     count_cell = 0
     if (present(cell)) then
@@ -3517,7 +3501,7 @@ contains
     end if
     count_cell = cell_len
     if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), 0_c_size_t, count_cell)
+      status = checked('cell', shape(cell, kind=c_size_t), d_of_c, count_cell)
       if (status /= JAM_OK) return
     end if
     at_positions = c_null_ptr
@@ -3528,7 +3512,7 @@ contains
     end if
     count_positions = positions_len
     if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), 0_c_size_t, count_positions)
+      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
       if (status /= JAM_OK) return
     end if
     at_diameters = c_null_ptr
@@ -3546,7 +3530,8 @@ contains
       count_diameters, callback, user, out)
   end function l_jam_create_in_cell_watched
 
-  ! See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1
+  ! See jam_create_in_cell_watched.
+  ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   function jam_read_watched(path, o, callback, user, out) result(status)
     character(*), intent(in) :: path
     type(jam_create_options), intent(in), optional :: o
@@ -3557,7 +3542,8 @@ contains
     status = c_jam_read_watched(jam_c_string(path), o, callback, user, out)
   end function jam_read_watched
 
-  ! See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1
+  ! See jam_create_in_cell_watched.
+  ! Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
   function jam_checkpoint_read_watched(path, callback, user, out) result(status)
     character(*), intent(in) :: path
     type(c_funptr), intent(in) :: callback
@@ -3568,13 +3554,12 @@ contains
   end function jam_checkpoint_read_watched
 
   ! Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
-  ! by the content. For a file of another format the error names that format and what to do. o:
-  ! overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
-  ! the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
-  ! or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
-  ! is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
-  ! JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
-  ! @since 0.1
+  ! by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
+  ! model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
+  ! what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
+  ! order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
+  ! lost digits.
+  ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
   function jam_read(path, o, out) result(status)
     character(*), intent(in) :: path
     type(jam_create_options), intent(in), optional :: o
@@ -3583,12 +3568,12 @@ contains
     status = c_jam_read(jam_c_string(path), o, out)
   end function jam_read
 
-  ! Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-  ! under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
-  ! are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
-  ! read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
-  ! can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
-  ! JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+  ! Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
+  ! then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
+  ! a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
+  ! same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+  ! non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+  ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -3597,8 +3582,8 @@ contains
     status = c_jam_write(sys, jam_c_string(path), format)
   end function jam_write
 
-  ! Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
-  ! Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+  ! Writes the contact network of the last crunch. The file appears as of jam_write.
+  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write_contacts(sys, path, format) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -3609,9 +3594,10 @@ contains
 
   ! Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
   ! numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-  ! title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
-  ! or NULL; names: k names, one a line, or "". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
-  ! JAM_E_MEMORY. Threads: const. @since 0.1
+  ! title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
+  ! names: k names, one a line, or "".
+  ! Shapes: values (k, n).
+  ! Errors: JAM_E_IO.
   function jam_write_page(sys, path, title, small, names, values, values_len) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -3645,8 +3631,8 @@ contains
   ! steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
   ! checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
   ! under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-  ! crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
-  ! const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+  ! crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+  ! Errors: JAM_E_IO.
   function jam_checkpoint_write(sys, path) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -3654,8 +3640,8 @@ contains
     status = c_jam_checkpoint_write(sys, jam_c_string(path))
   end function jam_checkpoint_write
 
-  ! Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-  ! damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+  ! Makes a system from such a file.
+  ! Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
   function jam_checkpoint_read(path, out) result(status)
     character(*), intent(in) :: path
     type(c_ptr), intent(out) :: out
@@ -3663,8 +3649,9 @@ contains
     status = c_jam_checkpoint_read(jam_c_string(path), out)
   end function jam_checkpoint_read
 
-  ! Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
-  ! Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+  ! Series of samples.
+  ! Shapes: table (samples, jam_series_column).
+  ! Errors: JAM_E_STATE (nothing observed).
   function jam_observed_series(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
@@ -4311,8 +4298,9 @@ contains
       at_distance2, count_distance2, at_distance4, count_distance4, runs, needed)
   end function l_jam_isoconf_sums
 
-  ! One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
-  ! jam_isoconf_sums. @since 0.1
+  ! One column of that block (or -1: all), a sum over runs at each instant.
+  ! Shapes: out (instants).
+  ! Errors: JAM_E_STATE.
   function jam_isoconf_series(sys, block, column, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int64_t), intent(in) :: block
@@ -4337,8 +4325,9 @@ contains
     status = c_jam_isoconf_series(sys, block, column, at_out, count_out, needed)
   end function jam_isoconf_series
 
-  ! Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
-  ! @since 0.1
+  ! Displacements at one kept instant, given by its index.
+  ! Shapes: out (runs, n, d).
+  ! Errors: JAM_E_STATE.
   function jam_isoconf_kept(sys, instant, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: instant
@@ -4364,8 +4353,9 @@ contains
     status = c_jam_isoconf_kept(sys, instant, at_out, count_out, needed)
   end function jam_isoconf_kept
 
-  ! One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
-  ! JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+  ! One column of the last crunch, a value a step.
+  ! Shapes: out (steps).
+  ! Errors: JAM_E_STATE.
   function jam_crunch_history(sys, column, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: column
@@ -4389,10 +4379,11 @@ contains
     status = c_jam_crunch_history(sys, column, at_out, count_out, needed)
   end function jam_crunch_history
 
-  ! Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
-  ! steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
-  ! with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
-  ! JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+  ! Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
+  ! leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
+  ! steps = 1, when a step has just ended.
+  ! Shapes: out (n, d).
+  ! Errors: JAM_E_STATE.
   function jam_crunch_step_displacements(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -4417,8 +4408,9 @@ contains
     status = c_jam_crunch_step_displacements(sys, at_out, count_out, needed)
   end function jam_crunch_step_displacements
 
-  ! Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
-  ! none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
+  ! Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
+  ! Shapes: iout (m, 2).
+  ! Errors: JAM_E_STATE.
   function jam_crunch_step_contacts(sys, iout, iout_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
@@ -4441,7 +4433,9 @@ contains
     status = c_jam_crunch_step_contacts(sys, at_iout, count_iout, needed)
   end function jam_crunch_step_contacts
 
-  ! r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1
+  ! r_ij of these pairs before the step, unit of box.
+  ! Shapes: out (m, d).
+  ! Errors: JAM_E_STATE.
   function jam_crunch_step_vectors(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -4466,9 +4460,10 @@ contains
     status = c_jam_crunch_step_vectors(sys, at_out, count_out, needed)
   end function jam_crunch_step_vectors
 
-  ! Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-  ! sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
-  ! 0.1
+  ! Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+  ! sigma_ij^2 = 1 with the diameters before the step.
+  ! Shapes: out (m).
+  ! Errors: JAM_E_STATE.
   function jam_crunch_step_duals(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -4491,8 +4486,9 @@ contains
     status = c_jam_crunch_step_duals(sys, at_out, count_out, needed)
   end function jam_crunch_step_duals
 
-  ! One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-  ! JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+  ! One column of the last decompression.
+  ! Shapes: out (steps).
+  ! Errors: JAM_E_STATE.
   function jam_decompress_history(sys, column, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: column
@@ -4516,9 +4512,10 @@ contains
     status = c_jam_decompress_history(sys, column, at_out, count_out, needed)
   end function jam_decompress_history
 
-  ! Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
-  ! with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
-  ! Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1
+  ! Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
+  ! cell. Each stands for both opposite images, so it adds 2 to the coordination.
+  ! Shapes: iout (contacts, 2).
+  ! Errors: JAM_E_STATE (no crunch yet).
   function jam_contacts(sys, iout, iout_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
@@ -4541,8 +4538,9 @@ contains
     status = c_jam_contacts(sys, at_iout, count_iout, needed)
   end function jam_contacts
 
-  ! Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
-  ! 0.1
+  ! Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
+  ! Shapes: out (contacts, d).
+  ! Errors: JAM_E_STATE.
   function jam_contact_vectors(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -4567,9 +4565,10 @@ contains
     status = c_jam_contact_vectors(sys, at_out, count_out, needed)
   end function jam_contact_vectors
 
-  ! Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
-  ! a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
-  ! f. Threads: const. Errors: as jam_contacts. @since 0.1
+  ! Gaps h of the contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the
+  ! weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f.
+  ! Shapes: out (contacts).
+  ! Errors: JAM_E_STATE.
   function jam_contact_gaps(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -4592,10 +4591,11 @@ contains
     status = c_jam_contact_gaps(sys, at_out, count_out, needed)
   end function jam_contact_gaps
 
-  ! Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
-  ! self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
-  ! least norm if none is negative, else the LP's.
-  ! Threads: const. Errors: as jam_contacts. @since 0.1
+  ! Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
+  ! (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
+  ! none is negative, else the LP's.
+  ! Shapes: out (contacts).
+  ! Errors: JAM_E_STATE.
   function jam_forces(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -4618,7 +4618,9 @@ contains
     status = c_jam_forces(sys, at_out, count_out, needed)
   end function jam_forces
 
-  ! Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1
+  ! Number of contacts of each sphere; 0 for rattlers.
+  ! Shapes: iout (n).
+  ! Errors: JAM_E_STATE.
   function jam_coordination(sys, iout, iout_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
@@ -4641,8 +4643,9 @@ contains
     status = c_jam_coordination(sys, at_iout, count_iout, needed)
   end function jam_coordination
 
-  ! The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
-  ! Errors: as jam_contacts. @since 0.1
+  ! The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
+  ! Shapes: iout (N').
+  ! Errors: JAM_E_STATE.
   function jam_hessian_map(sys, iout, iout_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
@@ -4876,10 +4879,10 @@ contains
       count_participation, rows)
   end function l_jam_modes
 
-  ! Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-  ! jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
-  ! as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
-  ! network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+  ! Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
+  ! the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
+  ! largest jump comes first.
+  ! Shapes: table (m, jam_candidate_column).
   function jam_contact_candidates(sys, window, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in) :: window
@@ -5053,11 +5056,11 @@ contains
 
   ! Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
   ! steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
-  ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio
-  ! (n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
-  ! be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
-  ! JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
-  ! (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1
+  ! smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
+  ! ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
+  ! exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
+  ! Shapes: ratio (n).
+  ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model).
   function jam_prove(sys, ratio, ratio_len, report) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: ratio(..)
@@ -5082,8 +5085,9 @@ contains
 
   ! Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
   ! file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-  ! JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
-  ! @since 0.1
+  ! JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+  ! Shapes: ratio (n).
+  ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write_proof(sys, path, ratio, ratio_len) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
@@ -5282,7 +5286,9 @@ contains
     status = c_jam_gaps(sys, h_max, stable_only, at_gap, count_gap, at_pair, count_pair, rows)
   end function l_jam_gaps
 
-  ! Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1
+  ! Flags (jam_contact_class) of every contact.
+  ! Shapes: iout (n_c).
+  ! Errors: JAM_E_STATE.
   function jam_contact_classes(sys, iout, iout_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
@@ -5453,8 +5459,9 @@ contains
     status = c_jam_contact_dots(sys, weighted, at_dot, count_dot, at_sphere, count_sphere, rows)
   end function l_jam_contact_dots
 
-  ! Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
-  ! Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1
+  ! Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots.
+  ! Shapes: out (values).
+  ! Errors: JAM_E_STATE.
   function jam_class_values(sys, quantity, which, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: quantity
@@ -5480,7 +5487,9 @@ contains
   end function jam_class_values
 
   ! Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
-  ! values there. Threads: const. Errors: as jam_class_values. @since 0.1
+  ! values there.
+  ! Shapes: out (bins).
+  ! Errors: JAM_E_STATE.
   function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: quantity
@@ -5659,7 +5668,8 @@ contains
   end function l_jam_structure_factor
 
   ! Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
-  ! 3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
+  ! 3] (1.2 is usual).
+  ! Shapes: out (n).
   function jam_bond_order(sys, l, cutoff, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: l
@@ -5684,8 +5694,9 @@ contains
     status = c_jam_bond_order(sys, l, cutoff, at_out, count_out, needed)
   end function jam_bond_order
 
-  ! Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
-  ! JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
+  ! Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+  ! Shapes: out (n).
+  ! Errors: JAM_E_UNSUPPORTED (d, or built without voro++).
   function jam_local_fraction(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
@@ -5708,9 +5719,11 @@ contains
     status = c_jam_local_fraction(sys, at_out, count_out, needed)
   end function jam_local_fraction
 
-  ! Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
-  ! all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
-  ! a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
+  ! Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
+  ! diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
+  ! single state of self-stress (JAM_E_STATE says how many there are).
+  ! Shapes: out (N', d).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   function jam_floppy_mode(sys, contact, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int64_t), intent(in) :: contact
@@ -5736,8 +5749,9 @@ contains
     status = c_jam_floppy_mode(sys, contact, at_out, count_out, needed)
   end function jam_floppy_mode
 
-  ! The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
-  ! JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+  ! The floppy mode of every contact, measured.
+  ! Shapes: table (n_c, jam_floppy_column).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER.
   function jam_floppy_modes(sys, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: table(..)
@@ -5761,9 +5775,10 @@ contains
   end function jam_floppy_modes
 
   ! Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-  ! left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
-  ! -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-  ! JAM_E_TOO_FEW. Threads: alone. @since 0.1
+  ! left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
+  ! 0.
+  ! Shapes: table (points, jam_dos_column).
+  ! Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW.
   function jam_density_of_states(sys, h, o, table, table_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
@@ -5890,7 +5905,9 @@ contains
     status = c_jam_project(sys, at_vector, count_vector, at_u, count_u, at_out, count_out, needed)
   end function l_jam_project
 
-  ! value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+  ! value = u . H . u for a displacement u.
+  ! Shapes: u (N', d).
+  ! Errors: JAM_E_STATE.
   function jam_curvature(sys, h, u, u_len, value) result(status)
     type(c_ptr), intent(in) :: sys
     type(jam_hessian_options), intent(in), optional :: h
@@ -5992,9 +6009,9 @@ contains
     status = c_jam_elastic_tensor(sys, h, at_affine, count_affine, at_relaxed, count_relaxed, needed)
   end function l_jam_elastic_tensor
 
-  ! Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
-  ! other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
-  ! Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+  ! Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
+  ! nearest images, without its mean over spheres stable in both.
+  ! Shapes: out (n, d).
   function jam_compare(sys, other, comparison, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     type(c_ptr), intent(in) :: other

@@ -13,7 +13,8 @@ import emit_methods
 import emit_options
 import emit_python
 import emit_swig
-from model import HeaderError, read_header
+from annotations import HeaderError
+from model import read_header
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = {

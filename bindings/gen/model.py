@@ -10,6 +10,9 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import annotations
+from annotations import HeaderError
+
 # ctype: (bytes, Julia, Fortran, Python, numpy). Alignment equals size for all of them on LP64.
 TYPES = {
     "double": (8, "Cdouble", "real(c_double)", "float", "float64"),
@@ -22,10 +25,6 @@ TYPES = {
 }
 ALIASES = {"jam_status": "int32_t"}  # typedefs of scalars in the header
 HANDLE = "jam_system"
-
-
-class HeaderError(Exception):
-    """The header has something that the rules of the project do not foresee."""
 
 
 @dataclass
@@ -54,7 +53,11 @@ class Function:
     name: str
     result: Type
     args: list
-    doc: str = ""
+    doc: str = ""  # as people read it, with its tags in words
+    prose: str = ""
+    shapes: dict = field(default_factory=dict)  # {array: extents}
+    enums: dict = field(default_factory=dict)  # {argument: enum}
+    errors: list = field(default_factory=list)  # (name without JAM_E_, why)
 
 
 @dataclass
@@ -63,6 +66,8 @@ class Member:
     type: str
     offset: int = 0
     doc: str = ""
+    enum: str = None  # whose values it takes
+    bool: bool = False
 
 
 @dataclass
@@ -227,7 +232,8 @@ def read_header(header, swig="swig"):
                     raise HeaderError(
                         f"{name}.{b['name']}: members are flat and of fixed width, not {b.get('decl')}{b['type']}"
                     )
-                members.append(Member(b["name"], b["type"], doc=docs.get((name, b["name"]), "")))
+                tags = annotations.of_member(f"{name}.{b['name']}", docs.get((name, b["name"]), ""))
+                members.append(Member(b["name"], b["type"], 0, *tags))
             struct = Struct(name, members, doc=docs.get(name, ""))
             _layout(struct)
             api.structs.append(struct)
@@ -243,10 +249,13 @@ def read_header(header, swig="swig"):
         elif node.tag == "cdecl" and a.get("kind") == "function" and name.startswith("jam_"):
             stars = a["decl"].rsplit(").", 1)[1].count("p.")
             result = parse_type("p." * stars + a["type"])
-            api.functions.append(Function(name, result, list(_parms(node)), docs.get(name, "")))
+            tags = annotations.of_function(name, docs.get(name, ""))
+            api.functions.append(Function(name, result, list(_parms(node)), "", *tags))
+            api.functions[-1].doc = annotations.readable(api.functions[-1])
     callbacks, structs = {c.name for c in api.callbacks}, {s.name for s in api.structs}
     for f in api.functions:
         classify(f.args, callbacks, structs)
+    annotations.check(api)
     lower = [
         n.lower()
         for n in [c[0] for c in api.constants]
@@ -261,16 +270,6 @@ def read_header(header, swig="swig"):
     return api
 
 
-def columns_of(f, api):
-    """Of a function that fills a `table`: the enum of its columns, which its comment names."""
-    if not any(a.name == "table" for a in f.args):
-        return None
-    named = [e for e in api.enums for word in re.findall(r"jam_\w+", f.doc) if e.name == word and word.endswith("_column")]
-    if not named:
-        raise HeaderError(f"{f.name} fills a table, and its comment names no enum of columns")
-    return named[0]
-
-
 def item_names(e):
     """Names of an enum's items without what they have in common."""
     names = [n for n, _, _ in e.items]
@@ -283,49 +282,3 @@ def item_names(e):
 def options_init(api):
     """{struct: init function} for the option structs."""
     return {s.name: s.name + "_init" for s in api.structs if any(f.name == s.name + "_init" for f in api.functions)}
-
-
-# Last extent of the arrays of rank 2 and more, "d", "n" or a number: the first extent of the Fortran array. The others
-# are flat, or their last extent (contacts, runs) is known only to the call. Tables end with their columns.
-LAST_EXTENT = {
-    "jam_create": {"positions": "d"},
-    "jam_create_in_cell": {"cell": "d", "positions": "d"},
-    "jam_create_watched": {"positions": "d"},
-    "jam_set_positions": {"positions": "d"},
-    "jam_set_velocities": {"velocities": "d"},
-    "jam_cell_get": {"out": "d"},
-    "jam_cell_set": {"cell": "d", "transform": "d", "rotation": "d"},
-    "jam_strain": {"strain": "d"},
-    "jam_write_page": {"values": "n"},
-    "jam_observed_spheres": {"displacement": "d"},
-    "jam_observed_pairs": {"pair": 2},
-    "jam_isoconf_sums": {"displacement": "d", "square": "d", "distance2": "n", "distance4": "n"},
-    "jam_isoconf_kept": {"out": "d"},
-    "jam_crunch_step_displacements": {"out": "d"},
-    "jam_crunch_step_contacts": {"iout": 2},
-    "jam_crunch_step_vectors": {"out": "d"},
-    "jam_contacts": {"iout": 2},
-    "jam_contact_vectors": {"out": "d"},
-    "jam_modes": {"vector": "d"},
-    "jam_flex": {"out": "d", "strain": "d"},
-    "jam_refined_positions": {"high": "d", "low": "d"},
-    "jam_gaps": {"pair": 2},
-    "jam_sphere_structure": {"c": "d"},
-    "jam_floppy_mode": {"out": "d"},
-    "jam_project": {"vector": "d", "u": "d"},
-    "jam_curvature": {"u": "d"},
-    "jam_elastic_tensor": {"affine": "d", "relaxed": "d"},
-    "jam_compare": {"out": "d"},
-}
-
-
-def last_extent(f, a, api):
-    """Of an array argument, or None. A shape in the comment that the table does not hold is refused."""
-    if a.name == "table":
-        return len(columns_of(f, api).items)
-    held = LAST_EXTENT.get(f.name, {}).get(a.name)
-    for said in re.findall(rf"\b{a.name}(?: \w+)? \(([^()]*, (\w+))\)", f.doc):
-        if said[1] in ("d", "n") or said[1].isdigit():
-            if str(held) != said[1]:
-                raise HeaderError(f"{f.name}: {a.name} ({said[0]}) is not the shape of LAST_EXTENT in model.py")
-    return held

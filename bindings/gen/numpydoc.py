@@ -5,30 +5,20 @@ import textwrap
 from emit_python import camel
 from model import item_names
 
-NEVER = ("NULL", "STRUCT_SIZE", "BUFFER")  # errors that the Python layer cannot make
+# Of an array or a number that the caller asks for, Python fills in lengths itself.
 DROPPED = (
-    r"Threads: [^.]*\.(?: on both\.)?",
-    r"@since \S+",
-    r"(?:Arrays|Each(?: output)?|report) may be NULL(?: with length 0)?\.",
-    r"(?:, )?\*(?:rows|needed) = (?:their number )?\w+(?: \w+)?(?=[:;.,])",
+    r"[,;.]? ?\*(?:rows|needed) = (?:their number )?\w+(?:\^\d)?(?: \w+)?(?=[:;.,])",
 )
 
 
-def split_errors(doc):
-    """The text without its list of errors, and that list."""
-    found = re.search(r"Errors: (.*?)(?:\.(?= |$)(?! [a-z])|$)", doc, re.S)
-    return (doc[: found.start()] + doc[found.end() :], found.group(1)) if found else (doc, "")
-
-
-def errors(f, api, depth=0):
-    """Names of Python's exceptions that a call can raise; `as jam_x` means those of x too."""
-    words, names = split_errors(" ".join(f.doc.split()))[1], []
-    for word in re.findall(r"as (?:before|jam_\w+)|JAM_E_\w+", words):
-        if word.startswith("as jam_") and depth < 4:
-            names += [e for g in api.functions if g.name == word[3:] for e in errors(g, api, depth + 1)]
-        elif word.startswith("JAM_E_") and word[6:] not in NEVER:
-            names.append(camel(word[6:].lower()) + "Error")
-    return list(dict.fromkeys(names))
+def errors(f):
+    """Names of Python's exceptions that a call can raise: by its arguments, those of its comment, and those of work."""
+    roles = {a.role for a in f.args}
+    names = ["ARGUMENT"] * bool(roles & {"scalar", "array_in", "struct_in"})
+    names += ["NONFINITE"] * any(a.role == "array_in" and a.type.base == "double" for a in f.args)
+    names += [e for e, _ in f.errors]
+    names += ["MEMORY", "BUSY"] * any(a.role == "handle" and not a.type.const for a in f.args)
+    return [camel(n.lower()) + "Error" for n in names]
 
 
 def spoken(text, api):
@@ -52,19 +42,17 @@ def spoken(text, api):
 
 
 def cleaned(doc, api):
-    text = split_errors(" ".join(doc.split()))[0]
+    text = " ".join(doc.split())
     for pattern in DROPPED:
         text = re.sub(pattern, "", text)
     return re.sub(r"\s+([.,;:])", r"\1", " ".join(spoken(text, api).split()))
 
 
-def shape(name, doc):
-    """What the comment says in brackets behind the name of an array."""
-    found = re.search(rf"\b{re.escape(name)} \(([\w' +]+(?:, [\w' ]+)*)\)", doc)
-    if not found:
+def shape(f, a):
+    extents = f.shapes.get(a.name, ())
+    if a.name == "table" or not extents:
         return ""
-    inner = found.group(1)
-    return f", shape ({inner}{'' if ',' in inner else ','})"
+    return f", shape ({', '.join(extents)}{',' if len(extents) == 1 else ''})"
 
 
 def choices(enum, api):

@@ -66,7 +66,7 @@
   }
   ~jam_create_options() { free($self); }
 }
-%feature("docstring") jam_create_options "Options of jam_create and jam_read. @since 0.1"
+%feature("docstring") jam_create_options "Options of jam_create and jam_read."
 %extend jam_info {
   jam_info() {
     jam_info *made = (jam_info *)calloc(1, sizeof *made);
@@ -75,7 +75,7 @@
   }
   ~jam_info() { free($self); }
 }
-%feature("docstring") jam_info "What the system is now. @since 0.1"
+%feature("docstring") jam_info "What the system is now."
 %extend jam_progress {
   jam_progress() {
     jam_progress *made = (jam_progress *)calloc(1, sizeof *made);
@@ -84,7 +84,7 @@
   }
   ~jam_progress() { free($self); }
 }
-%feature("docstring") jam_progress "Given to the progress callback; valid during the call only. @since 0.1"
+%feature("docstring") jam_progress "Given to the progress callback; valid during the call only."
 %extend jam_run_options {
   jam_run_options() {
     jam_run_options *made = (jam_run_options *)calloc(1, sizeof *made);
@@ -93,7 +93,7 @@
   }
   ~jam_run_options() { free($self); }
 }
-%feature("docstring") jam_run_options "Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1"
+%feature("docstring") jam_run_options "Limits of jam_run (NVE). Whichever comes first ends the run."
 %extend jam_compress_options {
   jam_compress_options() {
     jam_compress_options *made = (jam_compress_options *)calloc(1, sizeof *made);
@@ -104,7 +104,7 @@
 }
 %feature("docstring") jam_compress_options "Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
 is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
-two stages. @since 0.1"
+two stages."
 %extend jam_md_report {
   jam_md_report() {
     jam_md_report *made = (jam_md_report *)calloc(1, sizeof *made);
@@ -113,7 +113,7 @@ two stages. @since 0.1"
   }
   ~jam_md_report() { free($self); }
 }
-%feature("docstring") jam_md_report "What MD did. @since 0.1"
+%feature("docstring") jam_md_report "What MD did."
 %extend jam_observe_options {
   jam_observe_options() {
     jam_observe_options *made = (jam_observe_options *)calloc(1, sizeof *made);
@@ -122,7 +122,7 @@ two stages. @since 0.1"
   }
   ~jam_observe_options() { free($self); }
 }
-%feature("docstring") jam_observe_options "What jam_observe records. @since 0.1"
+%feature("docstring") jam_observe_options "What jam_observe records."
 %extend jam_glass {
   jam_glass() {
     jam_glass *made = (jam_glass *)calloc(1, sizeof *made);
@@ -131,7 +131,7 @@ two stages. @since 0.1"
   }
   ~jam_glass() { free($self); }
 }
-%feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1"
+%feature("docstring") jam_glass "A fit of the glass branch p = d' / (1 - phi/phi_J)."
 %extend jam_monte_carlo_options {
   jam_monte_carlo_options() {
     jam_monte_carlo_options *made = (jam_monte_carlo_options *)calloc(1, sizeof *made);
@@ -140,7 +140,7 @@ two stages. @since 0.1"
   }
   ~jam_monte_carlo_options() { free($self); }
 }
-%feature("docstring") jam_monte_carlo_options "Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1"
+%feature("docstring") jam_monte_carlo_options "Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere."
 %extend jam_monte_carlo_report {
   jam_monte_carlo_report() {
     jam_monte_carlo_report *made = (jam_monte_carlo_report *)calloc(1, sizeof *made);
@@ -149,7 +149,7 @@ two stages. @since 0.1"
   }
   ~jam_monte_carlo_report() { free($self); }
 }
-%feature("docstring") jam_monte_carlo_report "What Monte Carlo did. @since 0.1"
+%feature("docstring") jam_monte_carlo_report "What Monte Carlo did."
 %extend jam_isoconf_options {
   jam_isoconf_options() {
     jam_isoconf_options *made = (jam_isoconf_options *)calloc(1, sizeof *made);
@@ -158,7 +158,7 @@ two stages. @since 0.1"
   }
   ~jam_isoconf_options() { free($self); }
 }
-%feature("docstring") jam_isoconf_options "Options of jam_isoconfigurational. @since 0.1"
+%feature("docstring") jam_isoconf_options "Options of jam_isoconfigurational."
 %extend jam_isoconf_report {
   jam_isoconf_report() {
     jam_isoconf_report *made = (jam_isoconf_report *)calloc(1, sizeof *made);
@@ -167,7 +167,7 @@ two stages. @since 0.1"
   }
   ~jam_isoconf_report() { free($self); }
 }
-%feature("docstring") jam_isoconf_report "What the runs gave so far. @since 0.1"
+%feature("docstring") jam_isoconf_report "What the runs gave so far."
 %extend jam_crunch_options {
   jam_crunch_options() {
     jam_crunch_options *made = (jam_crunch_options *)calloc(1, sizeof *made);
@@ -181,7 +181,7 @@ CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units
 sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
 Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
 after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
-jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1"
+jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break."
 %extend jam_crunch_report {
   jam_crunch_report() {
     jam_crunch_report *made = (jam_crunch_report *)calloc(1, sizeof *made);
@@ -190,7 +190,7 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @sinc
   }
   ~jam_crunch_report() { free($self); }
 }
-%feature("docstring") jam_crunch_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1"
+%feature("docstring") jam_crunch_report "Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij."
 %extend jam_estimate {
   jam_estimate() {
     jam_estimate *made = (jam_estimate *)calloc(1, sizeof *made);
@@ -199,7 +199,7 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @sinc
   }
   ~jam_estimate() { free($self); }
 }
-%feature("docstring") jam_estimate "Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1"
+%feature("docstring") jam_estimate "Memory and time of a crunch, estimated from the graph of pairs and its elimination tree."
 %extend jam_relax_options {
   jam_relax_options() {
     jam_relax_options *made = (jam_relax_options *)calloc(1, sizeof *made);
@@ -208,7 +208,7 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @sinc
   }
   ~jam_relax_options() { free($self); }
 }
-%feature("docstring") jam_relax_options "Options of jam_relax. @since 0.1"
+%feature("docstring") jam_relax_options "Options of jam_relax."
 %extend jam_relax_report {
   jam_relax_report() {
     jam_relax_report *made = (jam_relax_report *)calloc(1, sizeof *made);
@@ -218,7 +218,7 @@ jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @sinc
   ~jam_relax_report() { free($self); }
 }
 %feature("docstring") jam_relax_report "What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-again and again; stable spheres are the others. @since 0.1"
+again and again; stable spheres are the others."
 %extend jam_decompress_options {
   jam_decompress_options() {
     jam_decompress_options *made = (jam_decompress_options *)calloc(1, sizeof *made);
@@ -227,7 +227,7 @@ again and again; stable spheres are the others. @since 0.1"
   }
   ~jam_decompress_options() { free($self); }
 }
-%feature("docstring") jam_decompress_options "Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1"
+%feature("docstring") jam_decompress_options "Options of jam_decompress. Targets: the first that is reached ends it."
 %extend jam_decompress_report {
   jam_decompress_report() {
     jam_decompress_report *made = (jam_decompress_report *)calloc(1, sizeof *made);
@@ -236,7 +236,7 @@ again and again; stable spheres are the others. @since 0.1"
   }
   ~jam_decompress_report() { free($self); }
 }
-%feature("docstring") jam_decompress_report "What jam_decompress found. @since 0.1"
+%feature("docstring") jam_decompress_report "What jam_decompress found."
 %extend jam_hessian_options {
   jam_hessian_options() {
     jam_hessian_options *made = (jam_hessian_options *)calloc(1, sizeof *made);
@@ -245,7 +245,7 @@ again and again; stable spheres are the others. @since 0.1"
   }
   ~jam_hessian_options() { free($self); }
 }
-%feature("docstring") jam_hessian_options "Options of all calls that use a Hessian. @since 0.1"
+%feature("docstring") jam_hessian_options "Options of all calls that use a Hessian."
 %extend jam_modes_options {
   jam_modes_options() {
     jam_modes_options *made = (jam_modes_options *)calloc(1, sizeof *made);
@@ -254,7 +254,7 @@ again and again; stable spheres are the others. @since 0.1"
   }
   ~jam_modes_options() { free($self); }
 }
-%feature("docstring") jam_modes_options "Options of jam_modes. @since 0.1"
+%feature("docstring") jam_modes_options "Options of jam_modes."
 %extend jam_geometry_options {
   jam_geometry_options() {
     jam_geometry_options *made = (jam_geometry_options *)calloc(1, sizeof *made);
@@ -263,7 +263,7 @@ again and again; stable spheres are the others. @since 0.1"
   }
   ~jam_geometry_options() { free($self); }
 }
-%feature("docstring") jam_geometry_options "Options of jam_contacts_from_geometry. @since 0.1"
+%feature("docstring") jam_geometry_options "Options of jam_contacts_from_geometry."
 %extend jam_geometry_report {
   jam_geometry_report() {
     jam_geometry_report *made = (jam_geometry_report *)calloc(1, sizeof *made);
@@ -272,7 +272,7 @@ again and again; stable spheres are the others. @since 0.1"
   }
   ~jam_geometry_report() { free($self); }
 }
-%feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1"
+%feature("docstring") jam_geometry_report "What jam_contacts_from_geometry found; gaps relative to sigma_ij."
 %extend jam_rigidity_report {
   jam_rigidity_report() {
     jam_rigidity_report *made = (jam_rigidity_report *)calloc(1, sizeof *made);
@@ -282,7 +282,7 @@ again and again; stable spheres are the others. @since 0.1"
   ~jam_rigidity_report() { free($self); }
 }
 %feature("docstring") jam_rigidity_report "What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-that they touch, N' their number. @since 0.1"
+that they touch, N' their number."
 %extend jam_check_options {
   jam_check_options() {
     jam_check_options *made = (jam_check_options *)calloc(1, sizeof *made);
@@ -291,7 +291,7 @@ that they touch, N' their number. @since 0.1"
   }
   ~jam_check_options() { free($self); }
 }
-%feature("docstring") jam_check_options "Options of jam_check_packing. @since 0.1"
+%feature("docstring") jam_check_options "Options of jam_check_packing."
 %extend jam_check_report {
   jam_check_report() {
     jam_check_report *made = (jam_check_report *)calloc(1, sizeof *made);
@@ -301,7 +301,7 @@ that they touch, N' their number. @since 0.1"
   ~jam_check_report() { free($self); }
 }
 %feature("docstring") jam_check_report "Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-NaN: not known. @since 0.1"
+NaN: not known."
 %extend jam_proof_report {
   jam_proof_report() {
     jam_proof_report *made = (jam_proof_report *)calloc(1, sizeof *made);
@@ -310,7 +310,7 @@ NaN: not known. @since 0.1"
   }
   ~jam_proof_report() { free($self); }
 }
-%feature("docstring") jam_proof_report "What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1"
+%feature("docstring") jam_proof_report "What jam_prove found. Bounds are rounded outward; NaN where they do not apply."
 %extend jam_dos_options {
   jam_dos_options() {
     jam_dos_options *made = (jam_dos_options *)calloc(1, sizeof *made);
@@ -319,7 +319,7 @@ NaN: not known. @since 0.1"
   }
   ~jam_dos_options() { free($self); }
 }
-%feature("docstring") jam_dos_options "Options of jam_density_of_states. @since 0.1"
+%feature("docstring") jam_dos_options "Options of jam_density_of_states."
 %extend jam_moduli {
   jam_moduli() {
     jam_moduli *made = (jam_moduli *)calloc(1, sizeof *made);
@@ -328,7 +328,7 @@ NaN: not known. @since 0.1"
   }
   ~jam_moduli() { free($self); }
 }
-%feature("docstring") jam_moduli "Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1"
+%feature("docstring") jam_moduli "Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included."
 %extend jam_comparison {
   jam_comparison() {
     jam_comparison *made = (jam_comparison *)calloc(1, sizeof *made);
@@ -337,372 +337,394 @@ NaN: not known. @since 0.1"
   }
   ~jam_comparison() { free($self); }
 }
-%feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network. @since 0.1"
-%feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" when the build did
-not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded. Threads: any. @since 0.1"
+%feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network."
+%feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage."
+%feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" when the build did not
+find a commit. It does not show uncommitted changes. Static storage."
+%feature("docstring") jam_abi_version "JAM_ABI of the library that is loaded."
 %feature("docstring") jam_blas_kernel "Name of the kernel that OpenBLAS chose for this processor, e.g. \"Haswell\". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage. Threads: any. @since 0.1"
-%feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage. Threads: any. @since 0.1"
+computes in place of OpenBLAS: the path of that library. Static storage."
+%feature("docstring") jam_status_string "One-line text of a status code (\"unknown status\" for others). Static storage."
+%feature("docstring") jam_stop_string "One-word name of a jam_stop_reason, e.g. \"converged\". Static storage."
 %feature("docstring") jam_last_error "Reason for the last status other than JAM_OK on this thread, with the name and value at fault; \"\" when there was
-none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
-Threads: per thread. @since 0.1"
+none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread."
 %feature("docstring") jam_set_error "Sets the text that jam_last_error() returns on this thread; NULL sets \"\". For language bindings that check arguments
-themselves. Long texts are truncated. Threads: per thread. @since 0.1"
-%feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_create "Makes a system. Example: examples/c/first.c
-o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
-[0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
-diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
-taken as they are. For a random start only their ratios count.
-out: the new handle, owned by the caller, freed by jam_destroy.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
-JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
-Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1"
+themselves. Long texts are truncated."
+%feature("docstring") jam_create_options_init "Fills *o with the defaults. size = sizeof *o as the caller compiled it."
+%feature("docstring") jam_create "Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
+start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
+given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
+After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c
+Shapes: positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach)."
 %feature("docstring") jam_copy "Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
 the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
-@since 0.1"
-%feature("docstring") jam_destroy "Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1"
-%feature("docstring") jam_info_get "Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_positions_view "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
-valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
-JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_diameters_view "View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_velocities_view "View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
-jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_set_positions "Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_set_velocities "Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
-velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
-(length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_create_in_cell "jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
-Cartesian, in the frame of `cell`.
-Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
-Threads: any. @since 0.1"
-%feature("docstring") jam_cell_get "Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_cell_set "Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
-crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
-x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
-cell vectors, so with other vectors the system is another one.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
-JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
-new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
-Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
-Threads: alone. @since 0.1"
-%feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
-setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
-callback makes on its handle does not call it again. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
+give the copy its own velocities by jam_set_velocities."
+%feature("docstring") jam_destroy "Frees a system; NULL is fine."
+%feature("docstring") jam_info_get "Fills *info."
+%feature("docstring") jam_positions_view "View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
+content changes only at the end of calls that move spheres."
+%feature("docstring") jam_diameters_view "View of the n diameters; lifetime as jam_positions_view."
+%feature("docstring") jam_velocities_view "View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view."
+%feature("docstring") jam_set_positions "Replaces the positions, wrapped into the box; results of crunch are dropped.
+Shapes: positions (n, d).
+Errors: JAM_E_OVERLAP."
+%feature("docstring") jam_set_velocities "Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. jam_run uses the velocities
+as they are. jam_compress rescales them to kT/m = 1.
+Shapes: velocities (n, d)."
+%feature("docstring") jam_scale_diameters "Multiplies all diameters by factor > 0; results of crunch are dropped.
+Errors: JAM_E_OVERLAP (when growing)."
+%feature("docstring") jam_create_in_cell "jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
+or flat cell is refused. positions: Cartesian, in the frame of `cell`.
+Shapes: cell (d, d), positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
+%feature("docstring") jam_cell_get "Cell vectors in normal form.
+Shapes: out (d, d)."
+%feature("docstring") jam_cell_set "Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
+frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
+times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
+vectors, so with other vectors the system is another one.
+Shapes: cell (d, d), transform (d, d), rotation (d, d).
+Errors: JAM_E_OVERLAP."
+%feature("docstring") jam_strain "Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
+reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+Shapes: strain (d, d).
+Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
+%feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
+too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
+its handle does not call it again."
 %feature("docstring") jam_create_watched "jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
 A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
-Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1"
+Shapes: positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach)."
 %feature("docstring") jam_create_in_cell_watched "jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
 call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
 take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
-jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1"
-%feature("docstring") jam_read_watched "See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1"
-%feature("docstring") jam_checkpoint_read_watched "See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1"
-%feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1"
+jam_checkpoint_read_watched has no time limit.
+Shapes: cell (d, d), positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
+%feature("docstring") jam_read_watched "See jam_create_in_cell_watched.
+Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
+%feature("docstring") jam_checkpoint_read_watched "See jam_create_in_cell_watched.
+Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP."
+%feature("docstring") jam_set_log "Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes."
 %feature("docstring") jam_cancel "Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
-on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
-Errors: JAM_E_NULL. @since 0.1"
+on sys stops, unless it is a setter. jam_cancel only increments an atomic counter."
 %feature("docstring") jam_set_memory_limit "Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
 infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
 memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
-default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1"
+default is half the machine's memory. An option memory_limit can lower the limit for its own call."
 %feature("docstring") jam_read "Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
-by the content. For a file of another format the error names that format and what to do. o:
-overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
-the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
-or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
-is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
-JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
-@since 0.1"
+by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
+model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
+what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
+order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
+lost digits.
+Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-jam_set_log sends these lines to its callback. Valid as long as the handle; \"\" for NULL. Checkpoints hold it.
-Threads: const. @since 0.1"
-%feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
-are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
-read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
-can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
-JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
-%feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1"
+jam_set_log sends these lines to its callback. Valid as long as the handle; \"\" for NULL. Checkpoints hold it."
+%feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
+then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
+a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
+same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+Errors: JAM_E_UNSUPPORTED, JAM_E_IO."
+%feature("docstring") jam_write_contacts "Writes the contact network of the last crunch. The file appears as of jam_write.
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
 %feature("docstring") jam_write_page "Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
 numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-title: its heading, or \"\". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
-or NULL; names: k names, one a line, or \"\". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
-JAM_E_MEMORY. Threads: const. @since 0.1"
-%feature("docstring") jam_run_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_compress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
-report may be NULL. A run or stage that ends with
-JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
-So does one that was stopped while its lists were made, when nothing has moved.
-With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
-run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
-Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
-says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+title: its heading, or \"\". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
+names: k names, one a line, or \"\".
+Shapes: values (k, n).
+Errors: JAM_E_IO."
+%feature("docstring") jam_run_options_init ""
+%feature("docstring") jam_compress_options_init ""
+%feature("docstring") jam_run "Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
+Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
+with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
+spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
+to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
+does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
+collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
+paths that never meet). The log gives the reason of the last two.
+Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
-may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
-the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
-report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
-image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
-the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
-protocol. Threads: alone. @since 0.1"
+default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
+Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
+velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
+between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
+equal spheres in d = 3) order under this protocol.
+Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
 under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
-const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1"
-%feature("docstring") jam_checkpoint_read "Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1"
-%feature("docstring") jam_observe_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+Errors: JAM_E_IO."
+%feature("docstring") jam_checkpoint_read "Makes a system from such a file.
+Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP."
+%feature("docstring") jam_observe_options_init ""
 %feature("docstring") jam_observe "From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
 dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
-callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_observe_stop "Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1"
-%feature("docstring") jam_observed_series "Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
-Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_observed_spheres "Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
-length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_pairs "Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
-units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
-Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
-(bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
-g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
-Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_observed_correlation "g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
-Threads: const. Errors: as jam_observed_series. @since 0.1"
-%feature("docstring") jam_eos "pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1"
-%feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1"
-%feature("docstring") jam_monte_carlo_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+callback is called with jam_progress.snapshot > 0: every const call works on that state there."
+%feature("docstring") jam_observe_stop "Stops recording; what was recorded can still be read."
+%feature("docstring") jam_observed_series "Series of samples.
+Shapes: table (samples, jam_series_column).
+Errors: JAM_E_STATE (nothing observed)."
+%feature("docstring") jam_observed_spheres "Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n.
+Shapes: collisions (n), displacement (n, d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_observed_pairs "Pairs that have collided, their collisions, and the momentum exchanged in units of sqrt(m kT), without the part of
+the growth. momentum over *time, the simulated time, is the mean force.
+Shapes: pair (m, 2), collisions (m), momentum (m).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_observed_gaps "Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
+taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
+phi) for equal spheres in d = 3.
+Shapes: edge (bins + 1), density (bins), error (bins).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_observed_correlation "g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
+Shapes: r (bins), g (bins).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_eos "pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
+Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim)."
+%feature("docstring") jam_glass_fit "Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
+Shapes: fraction (m), pressure (m).
+Errors: JAM_E_TOO_FEW."
+%feature("docstring") jam_monte_carlo_options_init ""
 %feature("docstring") jam_monte_carlo "Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
-preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
-numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
-gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
-JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
-JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_isoconf_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
+overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
+dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model)."
+%feature("docstring") jam_isoconf_options_init ""
 %feature("docstring") jam_isoconfigurational "Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
-is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
-molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
-instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
-may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
-order of their numbers. An early stop keeps the runs that were made; resume continues, also after
-jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
-JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
-resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_isoconf_report_get "The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
-runs). @since 0.1"
-%feature("docstring") jam_isoconf_sums "Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
-of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
-Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-@since 0.1"
-%feature("docstring") jam_isoconf_series "One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
-jam_isoconf_sums. @since 0.1"
-%feature("docstring") jam_isoconf_kept "Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
-@since 0.1"
-%feature("docstring") jam_crunch_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
-106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
-packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
-then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
-from the last call. report may be NULL.
-Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
-path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
-valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
-JAM_E_BUSY. Threads: alone. @since 0.1"
+is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
+from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
+resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move).
+Shapes: instant (instants), kept (k).
+Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED."
+%feature("docstring") jam_isoconf_report_get "The report of these runs as they are now.
+Errors: JAM_E_STATE (no runs)."
+%feature("docstring") jam_isoconf_sums "Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
+distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
+Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_isoconf_series "One column of that block (or -1: all), a sum over runs at each instant.
+Shapes: out (instants).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_isoconf_kept "Displacements at one kept instant, given by its index.
+Shapes: out (runs, n, d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_crunch_options_init ""
+%feature("docstring") jam_crunch "Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
+(2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
+call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
+last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
+along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
+Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept)."
 %feature("docstring") jam_crunch_estimate "Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
-same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1"
-%feature("docstring") jam_crunch_report_get "The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_history "One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
-JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_step_displacements "Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
-steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
-with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
-JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
-none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1"
-%feature("docstring") jam_crunch_step_vectors "r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1"
-%feature("docstring") jam_crunch_step_duals "Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
-0.1"
-%feature("docstring") jam_relax_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+same at JAM_LOG_INFO. Takes as long as a few steps.
+Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW."
+%feature("docstring") jam_crunch_report_get "The report of the last crunch.
+Errors: JAM_E_STATE."
+%feature("docstring") jam_crunch_history "One column of the last crunch, a value a step.
+Shapes: out (steps).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_crunch_step_displacements "Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
+leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
+steps = 1, when a step has just ended.
+Shapes: out (n, d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_crunch_step_contacts "Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
+Shapes: iout (m, 2).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_crunch_step_vectors "r_ij of these pairs before the step, unit of box.
+Shapes: out (m, d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_crunch_step_duals "Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+sigma_ij^2 = 1 with the diameters before the step.
+Shapes: out (m).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_relax_options_init ""
 %feature("docstring") jam_relax "Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
 the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
 contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
 the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-network holds the digits beyond. report may be NULL. Example: examples/c/soft.c
-
-Status: JAM_OK converged.
-JAM_NOT_JAMMED converged to energy 0: no overlaps.
-JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
-JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW), JAM_E_MEMORY,
-JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_decompress_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
+examples/c/soft.c
+Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW)."
+%feature("docstring") jam_decompress_options_init ""
 %feature("docstring") jam_decompress "From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
 energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
-taken back and its square root is tried. report may be NULL.
-Status: JAM_OK a target was reached; with isostatic and crunch, both ways lead to one network.
-JAM_NOT_JAMMED the start has no overlaps at its minimum.
-JAM_PRECISION overlaps came down to the rounding of positions before a target.
-JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
-Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1"
-%feature("docstring") jam_decompress_history "One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-JAM_E_BUFFER, JAM_E_STATE. @since 0.1"
-%feature("docstring") jam_contacts "Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
-with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
-Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1"
-%feature("docstring") jam_contact_vectors "Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
-0.1"
-%feature("docstring") jam_contact_gaps "Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
-a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
-f. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_forces "Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
-self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
-least norm if none is negative, else the LP's.
-Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_coordination "Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_hessian_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_modes_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
-%feature("docstring") jam_hessian_map "The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
-Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_hessian "Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
-Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
-0.1"
-%feature("docstring") jam_modes "Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
-participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
-is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
-JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_geometry_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+taken back and its square root is tried. Status: JAM_OK a target was reached; with isostatic and crunch, both ways
+lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
+rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept.
+Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER."
+%feature("docstring") jam_decompress_history "One column of the last decompression.
+Shapes: out (steps).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_contacts "Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
+cell. Each stands for both opposite images, so it adds 2 to the coordination.
+Shapes: iout (contacts, 2).
+Errors: JAM_E_STATE (no crunch yet)."
+%feature("docstring") jam_contact_vectors "Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
+Shapes: out (contacts, d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_contact_gaps "Gaps h of the contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the
+weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f.
+Shapes: out (contacts).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_forces "Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
+(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
+none is negative, else the LP's.
+Shapes: out (contacts).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_coordination "Number of contacts of each sphere; 0 for rattlers.
+Shapes: iout (n).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_hessian_options_init ""
+%feature("docstring") jam_modes_options_init ""
+%feature("docstring") jam_hessian_map "The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
+Shapes: iout (N').
+Errors: JAM_E_STATE."
+%feature("docstring") jam_hessian "Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
+Shapes: row_start (d N' + 1), column (entries), value (entries).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_modes "Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
+|v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
+Shapes: lambda (m), vector (m, N', d), participation (m).
+Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_geometry_options_init ""
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
 are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
-network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
-collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
-%feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
-as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
-network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
-%feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
-space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
-JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1"
+stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
+time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
+verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
+these contacts closed.
+Errors: JAM_E_SOLVER."
+%feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
+the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
+largest jump comes first.
+Shapes: table (m, jam_candidate_column)."
+%feature("docstring") jam_stress_states "States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
+duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
+of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
+Shapes: force (n_c), basis (m, n_c).
+Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_rigidity "Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
-where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
-Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
-for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
+opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
+translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
-be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
-0.1"
-%feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
-collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
-contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
-Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
-0.1"
-%feature("docstring") jam_check_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
+JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+Errors: JAM_E_SOLVER."
+%feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
+The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+Shapes: out (n, d), strain (d, d).
+Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion)."
+%feature("docstring") jam_check_options_init ""
 %feature("docstring") jam_check_packing "Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
 handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
 few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1"
+Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
+status above 0.
+Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER."
 %feature("docstring") jam_check_text "The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. \"\" for NULL or a
-wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1"
+wrong struct_size. Valid until this thread's next call of it."
 %feature("docstring") jam_prove "Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
-smallest singular value, and Kantorovich's theorem the rest: the guide's page \"Proofs\" has theorems and limits. ratio
-(n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
-be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
-JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
-(Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1"
+smallest singular value, and Kantorovich's theorem the rest: the guide's page \"Proofs\" has theorems and limits.
+ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
+exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
+Shapes: ratio (n).
+Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model)."
 %feature("docstring") jam_write_proof "Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
 file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
-@since 0.1"
-%feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
-Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
-JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
-0.1"
-%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
-stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1"
-%feature("docstring") jam_contact_classes "Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_sphere_structure "c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-*rows = n. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
-pairs. Threads: const. Errors: as jam_contacts. @since 0.1"
-%feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
-Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1"
+JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+Shapes: ratio (n).
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO."
+%feature("docstring") jam_refined_positions "Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
+where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+Shapes: ratio (n), high (n, d), low (n, d).
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED."
+%feature("docstring") jam_gaps "Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+rattlers count too and no network is needed.
+Shapes: gap (gaps), pair (gaps, 2).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_contact_classes "Flags (jam_contact_class) of every contact.
+Shapes: iout (n_c).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_sphere_structure "c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n.
+Shapes: c (n, d), s (n).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_contact_dots "n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
+Shapes: dot (pairs), sphere (pairs).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_class_values "Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots.
+Shapes: out (values).
+Errors: JAM_E_STATE."
 %feature("docstring") jam_histogram "Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
-values there. Threads: const. Errors: as jam_class_values. @since 0.1"
-%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
-mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
-@since 0.1"
+values there.
+Shapes: out (bins).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_pair_correlation "g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
+diameters.
+Shapes: kind (n), out (bins)."
 %feature("docstring") jam_structure_factor "S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
 ascending. Lengths that differ by less than 5e-13 of |q| are one.
-No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
-Threads: alone. @since 0.1"
+Shapes: q (m), s (m)."
 %feature("docstring") jam_bond_order "Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
-3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1"
+3] (1.2 is usual).
+Shapes: out (n)."
 %feature("docstring") jam_crystal_score "Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1"
-%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
-JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1"
-%feature("docstring") jam_floppy_mode "Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
-all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
-a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1"
-%feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
-JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1"
-%feature("docstring") jam_dos_options_init "Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1"
+about 10 in a perfect FCC crystal."
+%feature("docstring") jam_local_fraction "Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+Shapes: out (n).
+Errors: JAM_E_UNSUPPORTED (d, or built without voro++)."
+%feature("docstring") jam_floppy_mode "Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
+diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
+single state of self-stress (JAM_E_STATE says how many there are).
+Shapes: out (N', d).
+Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_floppy_modes "The floppy mode of every contact, measured.
+Shapes: table (n_c, jam_floppy_column).
+Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_dos_options_init ""
 %feature("docstring") jam_density_of_states "Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
--sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-JAM_E_TOO_FEW. Threads: alone. @since 0.1"
-%feature("docstring") jam_project "Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
-squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
-%feature("docstring") jam_curvature "value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1"
-%feature("docstring") jam_moduli_get "Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
-the network unstable. Threads: alone. @since 0.1"
-%feature("docstring") jam_elastic_tensor "Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
-(d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
-With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
-Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1"
-%feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
-other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
-Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1"
+left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
+0.
+Shapes: table (points, jam_dos_column).
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW."
+%feature("docstring") jam_project "Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
+|u|^2.
+Shapes: vector (m, N', d), u (N', d), out (m).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_curvature "value = u . H . u for a displacement u.
+Shapes: u (N', d).
+Errors: JAM_E_STATE."
+%feature("docstring") jam_moduli_get "Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
+Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_elastic_tensor "Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
+jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
+c_bacd differ: a rotation of stressed contacts counts.
+Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
+Errors: JAM_E_STATE, JAM_E_SOLVER."
+%feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
+nearest images, without its mean over spheres stable in both.
+Shapes: out (n, d)."

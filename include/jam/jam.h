@@ -25,7 +25,7 @@
  * - Spheres stand in the brick [0, a_00) x [0, a_11) x ..., which repeats as the cell does.
  * - The plain text format holds cubes alone. All else works in any cell.
  *
- * Arrays
+ * Arrays and pointers
  * - Arrays of shape (n, d) are row-major: the same bytes as numpy (n, d), Fortran x(d, n)
  *   and a Julia d-by-n matrix. Indices are 0-based.
  * - Arrays in: pointer and length in elements. The length is checked.
@@ -35,23 +35,38 @@
  * - A `table` has shape (rows, columns); an enum names its columns.
  * - A call with several arrays gives `rows` instead of `needed`: the shapes given there, for
  *   that many rows, are the lengths. Each of these arrays may be NULL with length 0.
- *
- * Status and options
- * - Status: 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the
- *   state is valid and kept; < 0 failed, the state is as before the call unless said otherwise.
- *   For every status but 0 jam_last_error() gives the reason in one sentence. Outputs are written
- *   only when the status is >= 0.
- * - Every call that works on a system or makes one may return JAM_CANCELLED. A setter or a const
- *   call that returns it has changed nothing and written no output.
  * - Option structs begin with struct_size. Fill them with jam_X_options_init(&o, sizeof o),
  *   then change what differs. A NULL option pointer means all defaults. Fields named
  *   `reserved` must be 0.
+ * - The `report` of a call that computes may be NULL, and so may a callback. Other pointers
+ *   must not be NULL unless the comment says so; where it does, the length is 0.
+ *
+ * Status, for every call unless its comment says otherwise
+ * - 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the state
+ *   is valid and kept; < 0 failed, the state is as before the call. For every status but 0
+ *   jam_last_error() gives the reason in one sentence. Outputs are written only when the
+ *   status is >= 0.
+ * - Calls that work on a system or make one may return JAM_CANCELLED, those with a wall_time
+ *   JAM_LIMIT. A setter or a const call that returns one of them has changed nothing and
+ *   written no output.
+ * - Errors of any call: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (a value or a length is
+ *   out of its range), JAM_E_NONFINITE, JAM_E_BUFFER, JAM_E_MEMORY, JAM_E_BUSY. Comments name
+ *   the others.
+ *
+ * How a comment here is written
+ * - It gives what the call computes, equation, source, unit and range, and leaves out what
+ *   stands above: common errors, threads, sizes, null pointers. All is since 0.1 unless `@since` says otherwise.
+ * - Tags end it. The bindings are made from declarations and tags alone, prose changes none:
+ *   @shape a (n, d), table (m, jam_x_column)   shape of each array; an enum: its columns
+ *   @enum kind jam_x, form jam_y               whose values an argument takes
+ *   @errors STATE (why), IO                    JAM_E_STATE and JAM_E_IO beside the common ones
+ *   A member has `@enum jam_x`, or `@bool` when it is 1 or 0. Text after @bool describes 1.
  *
  * Threads
- * - Distinct handles are independent. On one handle, calls marked const may run together.
+ * - Distinct handles are independent. On one handle, calls that take it as const may run together.
  *   Any other call must be alone. While it runs, calls of other threads get JAM_E_BUSY, and
  *   its callback may use const calls. jam_cancel may be called from any thread or signal
- *   handler at any time.
+ *   handler at any time. Calls without a handle may be called from any thread.
  * - The same seed, build, options and processor give the same packing bit for bit on one
  *   thread. On another processor OpenBLAS may choose another kernel (jam_blas_kernel), whose
  *   sums round otherwise. Then a crunch can end at another jamming point. The variable
@@ -101,17 +116,17 @@
 extern "C" {
 #endif
 
-/* ABI number of this header, equal to the SOVERSION of the library. @since 0.1 */
+/* ABI number of this header, equal to the SOVERSION of the library. */
 #define JAM_ABI 0
-/* Largest dimension compiled in. @since 0.1 */
+/* Largest dimension compiled in. */
 #define JAM_MAX_DIM 8
 
 /* ------------------------------------------------------------------ status and text */
 
-/* Status of a call: a jam_status_code. @since 0.1 */
+/* Status of a call: a jam_status_code. */
 typedef int32_t jam_status;
 
-/* All status codes; values are ABI and never reused. @since 0.1 */
+/* All status codes; values are ABI and never reused. */
 typedef enum jam_status_code {
   JAM_OK = 0,              /* done: the target was reached */
   JAM_CANCELLED = 1,       /* jam_cancel or a callback asked to stop */
@@ -139,7 +154,7 @@ typedef enum jam_status_code {
   JAM_E_INTERNAL = -17     /* a bug in libjam; please report the text */
 } jam_status_code;
 
-/* Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1 */
+/* Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). */
 typedef enum jam_stop_reason {
   JAM_STOP_NONE = 0,             /* has not run */
   JAM_STOP_PRESSURE = 1,         /* MD reached its pressure */
@@ -160,34 +175,33 @@ typedef enum jam_stop_reason {
   JAM_STOP_DUALITY_GAP = 16      /* crunch: it reached the duality gap of its options */
 } jam_stop_reason;
 
-/* Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1 */
+/* Version of the library, e.g. "0.1.0". Static storage. */
 JAM_API const char *jam_version(void);
-/* Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did
- * not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1 */
+/* Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
+ * find a commit. It does not show uncommitted changes. Static storage. */
 JAM_API const char *jam_commit(void);
-/* JAM_ABI of the library that is loaded. Threads: any. @since 0.1 */
+/* JAM_ABI of the library that is loaded. */
 JAM_API int32_t jam_abi_version(void);
 /* Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
- * computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1 */
+ * computes in place of OpenBLAS: the path of that library. Static storage. */
 JAM_API const char *jam_blas_kernel(void);
-/* One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1 */
+/* One-line text of a status code ("unknown status" for others). Static storage. */
 JAM_API const char *jam_status_string(jam_status code);
-/* One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1 */
+/* One-word name of a jam_stop_reason, e.g. "converged". Static storage. */
 JAM_API const char *jam_stop_string(int32_t reason);
 /* Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
- * none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
- * Threads: per thread. @since 0.1 */
+ * none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread. */
 JAM_API const char *jam_last_error(void);
 /* Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
- * themselves. Long texts are truncated. Threads: per thread. @since 0.1 */
+ * themselves. Long texts are truncated. */
 JAM_API void jam_set_error(const char *text);
 
 /* ------------------------------------------------------------------ the system */
 
-/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read or jam_copy. @since 0.1 */
+/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read or jam_copy. */
 typedef struct jam_system jam_system;
 
-/* What to do with overlaps in given positions. @since 0.1 */
+/* What to do with overlaps in given positions. */
 typedef enum jam_overlap_policy {
   JAM_OVERLAP_REFUSE = 0, /* JAM_E_OVERLAP naming the worst pair */
   JAM_OVERLAP_SHRINK = 1, /* scale all diameters down until the worst pair just touches; jam_notes gives the factor */
@@ -195,19 +209,19 @@ typedef enum jam_overlap_policy {
                            * Calls for hard spheres refuse a system that overlaps */
 } jam_overlap_policy;
 
-/* Pair distance. @since 0.1 */
+/* Pair distance. */
 typedef enum jam_model {
   JAM_MODEL_EUCLID = 0, /* |r_i - r_j|, nearest images */
   JAM_MODEL_MK = 1      /* Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts */
 } jam_model;
 
-/* Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1 */
+/* Masses of the spheres in molecular dynamics; the mean is 1. */
 typedef enum jam_masses {
   JAM_MASSES_EQUAL = 0, /* all 1 */
   JAM_MASSES_VOLUME = 1 /* as the volumes, sigma_i^d */
 } jam_masses;
 
-/* Options of jam_create and jam_read. @since 0.1 */
+/* Options of jam_create and jam_read. */
 typedef struct jam_create_options {
   uint32_t struct_size;    /* sizeof(jam_create_options) */
   int32_t dim;             /* 2..8, default 3; with a file: 3 or the file's dimension */
@@ -215,11 +229,11 @@ typedef struct jam_create_options {
   int64_t seed;            /* of every random stream, default 1; recorded */
   double box;              /* side of the cube, > 0, default 1 */
   double packing_fraction; /* of a random start, > 0; default 0: by dim, 0.2 halved for each dimension above 3 */
-  int32_t overlap;         /* jam_overlap_policy for given positions, default REFUSE */
-  int32_t model;           /* jam_model, default EUCLID */
+  int32_t overlap;         /* @enum jam_overlap_policy for given positions, default REFUSE */
+  int32_t model;           /* @enum jam_model, default EUCLID */
   double mk_zeta;   /* MK: strength of the shifts, 0..1e15; default infinity: uniform shifts. A random start is planted
                        in equilibrium */
-  int32_t masses;   /* jam_masses, default EQUAL */
+  int32_t masses;   /* @enum jam_masses, default EQUAL */
   int32_t reserved; /* 0 */
   double non_additivity; /* Delta in (-1, 1]: spheres of unequal diameters touch at (1 + Delta) (sigma_i + sigma_j) / 2;
                           * default 0. With a file that gives a value: 0 or that value */
@@ -231,30 +245,24 @@ typedef struct jam_create_options {
                         * one is refused: it points to duplicate spheres or wrong units */
 } jam_create_options;
 
-/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
- * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+/* Fills *o with the defaults. size = sizeof *o as the caller compiled it. */
 JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
 
-/* Makes a system. Example: examples/c/first.c
- * o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
- * [0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
- * diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
- * taken as they are. For a random start only their ratios count.
- * out: the new handle, owned by the caller, freed by jam_destroy.
- * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
- * JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
- * Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1 */
+/* Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
+ * start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
+ * given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
+ * After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c @shape positions (n, d), diameters (n) @errors
+ * DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach) */
 JAM_API jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
                               const double *diameters, size_t diameters_len, jam_system **out);
 /* Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
  * the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
- * give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
- * @since 0.1 */
+ * give the copy its own velocities by jam_set_velocities. */
 JAM_API jam_status jam_copy(const jam_system *src, jam_system **out);
-/* Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1 */
+/* Frees a system; NULL is fine. */
 JAM_API void jam_destroy(jam_system *sys);
 
-/* What the system is now. @since 0.1 */
+/* What the system is now. */
 typedef struct jam_info {
   uint32_t struct_size;    /* set by the caller: sizeof(jam_info) */
   int32_t dim;             /* d */
@@ -264,65 +272,58 @@ typedef struct jam_info {
   double packing_fraction; /* sum of sphere volumes over V */
   double diameter_mean;    /* mean diameter, unit of box */
   double pressure;         /* reduced pressure p last measured by MD, NaN before */
-  int32_t model;           /* jam_model */
+  int32_t model;           /* @enum jam_model */
   int32_t monodisperse;    /* 1 when all diameters are equal */
-  int32_t masses;          /* jam_masses */
-  int32_t paused;        /* jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch */
+  int32_t masses;          /* @enum jam_masses */
+  int32_t paused; /* @enum jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch */
   double non_additivity; /* Delta of a non-additive mixture, 0 for additive diameters */
 } jam_info;
 
-/* Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
+/* Fills *info. */
 JAM_API jam_status jam_info_get(const jam_system *sys, jam_info *info);
 
-/* View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
- * valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
- * JAM_E_NULL. @since 0.1 */
+/* View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
+ * content changes only at the end of calls that move spheres. */
 JAM_API jam_status jam_positions_view(const jam_system *sys, const double **view, size_t *view_len);
-/* View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
+/* View of the n diameters; lifetime as jam_positions_view. */
 JAM_API jam_status jam_diameters_view(const jam_system *sys, const double **view, size_t *view_len);
-/* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
- * jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
+/* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view. */
 JAM_API jam_status jam_velocities_view(const jam_system *sys, const double **view, size_t *view_len);
 
-/* Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1 */
+/* Replaces the positions, wrapped into the box; results of crunch are dropped. @shape positions (n, d) @errors
+ * OVERLAP */
 JAM_API jam_status jam_set_positions(jam_system *sys, const double *positions, size_t positions_len);
-/* Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
- * velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
- * (length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1 */
+/* Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. jam_run uses the velocities
+ * as they are. jam_compress rescales them to kT/m = 1. @shape velocities (n, d) */
 JAM_API jam_status jam_set_velocities(jam_system *sys, const double *velocities, size_t velocities_len);
-/* Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1 */
+/* Multiplies all diameters by factor > 0; results of crunch are dropped. @errors OVERLAP (when growing) */
 JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
 
 /* ------------------------------------------------------------------ the cell */
 
-/* jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
- * Cartesian, in the frame of `cell`.
- * Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
- * Threads: any. @since 0.1 */
+/* jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
+ * or flat cell is refused. positions: Cartesian, in the frame of `cell`. @shape cell (d, d), positions (n, d),
+ * diameters (n) @errors DIMENSION, OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len,
                                       const double *positions, size_t positions_len, const double *diameters,
                                       size_t diameters_len, jam_system **out);
-/* Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1 */
+/* Cell vectors in normal form. @shape out (d, d) */
 JAM_API jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
- * crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
- * x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
- * cell vectors, so with other vectors the system is another one.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
- * JAM_E_BUSY. Threads: alone. @since 0.1 */
+/* Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
+ * frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
+ * times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
+ * vectors, so with other vectors the system is another one. @shape cell (d, d), transform (d, d), rotation (d, d)
+ * @errors OVERLAP */
 JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
-/* Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
- * new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
- * Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
- * Threads: alone. @since 0.1 */
+/* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
+ * reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction. @shape strain
+ * (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors) */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 
 /* ------------------------------------------------------------------ progress, log, cancel */
 
-/* Which part reports progress. @since 0.1 */
+/* Which part reports progress. */
 typedef enum jam_phase {
   JAM_PHASE_RUN = 1,                /* NVE molecular dynamics */
   JAM_PHASE_COMPRESS = 2,           /* molecular dynamics with growth */
@@ -336,10 +337,10 @@ typedef enum jam_phase {
   JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
 } jam_phase;
 
-/* Given to the progress callback; valid during the call only. @since 0.1 */
+/* Given to the progress callback; valid during the call only. */
 typedef struct jam_progress {
   uint32_t struct_size;    /* sizeof(jam_progress) as the library knows it */
-  int32_t phase;           /* jam_phase */
+  int32_t phase;           /* @enum jam_phase */
   double packing_fraction; /* now */
   double pressure;         /* MD: reduced pressure of the last window, NaN before */
   double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
@@ -356,18 +357,17 @@ typedef struct jam_progress {
                                * and seconds_left times it; NaN with seconds_left */
 } jam_progress;
 
-/* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a
- * valid state. It must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves
- * the stage as it runs) and const getters. These show the state before the call, or the last snapshot. @since 0.1 */
+/* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
+ * must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves the stage as it
+ * runs) and const getters. These show the state before the call, or the last snapshot. */
 typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
-/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
- * setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
- * callback makes on its handle does not call it again. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
+/* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
+ * too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
+ * its handle does not call it again. */
 JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user);
 /* jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
- * A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
- * Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1 */
+ * A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback. @shape positions
+ * (n, d), diameters (n) @errors DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach) */
 JAM_API jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
                                       const double *diameters, size_t diameters_len, jam_progress_fn callback,
                                       void *user, jam_system **out);
@@ -375,19 +375,22 @@ JAM_API jam_status jam_create_watched(const jam_create_options *o, const double 
 /* jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
  * call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
  * take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
- * jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1 */
+ * jam_checkpoint_read_watched has no time limit. @shape cell (d, d), positions (n, d), diameters (n) @errors DIMENSION,
+ * OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
                                               const double *positions, size_t positions_len, const double *diameters,
                                               size_t diameters_len, jam_progress_fn callback, void *user,
                                               jam_system **out);
-/* See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1 */
+/* See jam_create_in_cell_watched. @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION,
+ * OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_read_watched(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
                                     jam_system **out);
-/* See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1 */
+/* See jam_create_in_cell_watched. @errors IO, FORMAT (no checkpoint, or damaged, or from a machine with another byte
+ * order), OVERLAP */
 JAM_API jam_status jam_checkpoint_read_watched(const char *path, jam_progress_fn callback, void *user,
                                                jam_system **out);
 
-/* Log levels. @since 0.1 */
+/* Log levels. */
 typedef enum jam_log_level {
   JAM_LOG_NONE = 0,    /* silent, the default */
   JAM_LOG_WARNING = 1, /* what a user should know, e.g. a fallback solver was used */
@@ -395,25 +398,23 @@ typedef enum jam_log_level {
   JAM_LOG_DEBUG = 3    /* solver detail */
 } jam_log_level;
 
-/* Log callback: one line without newline, valid during the call. @since 0.1 */
+/* Log callback: one line without newline, valid during the call. */
 typedef void (*jam_log_fn)(int32_t level, const char *line, void *user);
-/* Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1 */
+/* Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. @enum level
+ * jam_log_level */
 JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user);
 /* Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
- * on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
- * Errors: JAM_E_NULL. @since 0.1 */
+ * on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. */
 JAM_API jam_status jam_cancel(jam_system *sys);
 /* Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
  * infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
  * memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
- * default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1 */
+ * default is half the machine's memory. An option memory_limit can lower the limit for its own call. */
 JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
 /* ------------------------------------------------------------------ files */
 
-/* File formats. @since 0.1 */
+/* File formats. */
 typedef enum jam_format {
   JAM_FORMAT_AUTO = 0,   /* by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN;
                           * others are refused. With .gz behind it the file is compressed */
@@ -428,28 +429,26 @@ typedef enum jam_format {
 } jam_format;
 
 /* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
- * by the content. For a file of another format the error names that format and what to do. o:
- * overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
- * the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
- * or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
- * is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
- * JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
- * @since 0.1 */
+ * by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
+ * model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
+ * what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
+ * order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
+ * lost digits. @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP,
+ * UNPLACEABLE */
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
  * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
- * jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
- * Threads: const. @since 0.1 */
+ * jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it. */
 JAM_API const char *jam_notes(const jam_system *sys);
-/* Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
- * under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
- * are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
- * read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
- * can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
- * JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
+/* Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
+ * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
+ * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
+ * same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+ * non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED. @enum
+ * format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
 
-/* Formats of contact networks. @since 0.1 */
+/* Formats of contact networks. */
 typedef enum jam_contact_format {
   JAM_CONTACTS_AUTO = 0, /* by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused */
   JAM_CONTACTS_CSV = 1,  /* a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits */
@@ -457,30 +456,29 @@ typedef enum jam_contact_format {
   JAM_CONTACTS_VTP = 3 /* VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the
                         * cell, with force, gap and number of the contact */
 } jam_contact_format;
-/* Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1 */
+/* Writes the contact network of the last crunch. The file appears as of jam_write. @enum format jam_contact_format
+ * @errors STATE, UNSUPPORTED, IO */
 JAM_API jam_status jam_write_contacts(const jam_system *sys, const char *path, int32_t format);
 /* Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
  * numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
- * title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
- * or NULL; names: k names, one a line, or "". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
- * JAM_E_MEMORY. Threads: const. @since 0.1 */
+ * title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
+ * names: k names, one a line, or "". @shape values (k, n) @errors IO */
 JAM_API jam_status jam_write_page(const jam_system *sys, const char *path, const char *title, int32_t small,
                                   const char *names, const double *values, size_t values_len);
 
 /* ------------------------------------------------------------------ molecular dynamics */
 
-/* Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1 */
+/* Limits of jam_run (NVE). Whichever comes first ends the run. */
 typedef struct jam_run_options {
   uint32_t struct_size;           /* sizeof(jam_run_options) */
-  int32_t resume;                 /* 1: go on with the run that stopped early; default 0 */
+  int32_t resume;                 /* @bool go on with the run that stopped early; default 0 */
   double collisions_per_particle; /* to make since the run began, > 0, default 100 */
   double wall_time;               /* seconds of this call, > 0, default infinity */
   double time; /* to simulate (to the last event before it) since the run began, unit box / sqrt(kT/m), > 0, default
                   infinity */
 } jam_run_options;
 
-/* How the spheres grow. @since 0.1 */
+/* How the spheres grow. */
 typedef enum jam_growth_law {
   JAM_GROWTH_DIAMETER = 0, /* growth_rate is d<sigma>/dt over sqrt(kT/m), constant */
   JAM_GROWTH_DENSITY = 1   /* growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of
@@ -490,12 +488,12 @@ typedef enum jam_growth_law {
 
 /* Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
  * is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
- * two stages. @since 0.1 */
+ * two stages. */
 typedef struct jam_compress_options {
   uint32_t struct_size; /* sizeof(jam_compress_options) */
-  int32_t resume;       /* 1: go on with the stage that stopped early, of which all but the limits is kept; default 0 */
-  double growth_rate;   /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
-  double pressure;      /* target reduced pressure of the last stage, > 1, default 1e7 */
+  int32_t resume; /* @bool go on with the stage that stopped early, of which all but the limits is kept; default 0 */
+  double growth_rate;             /* G > 0: one stage at this rate; 0, the default: the two stages of jam_compress */
+  double pressure;                /* target reduced pressure of the last stage, > 1, default 1e7 */
   double packing_fraction;        /* target, > 0, default infinity */
   double collisions_per_particle; /* limit, counted from the start of each stage, > 0, default infinity */
   double wall_time;               /* limit in seconds of this call, > 0, default infinity */
@@ -503,14 +501,14 @@ typedef struct jam_compress_options {
                                    * infinity */
   double growth_rate_end;         /* quasi-static: the rate falls as a power of p to this one at the target pressure; in
                                    * [0, growth_rate], default 0: constant */
-  int32_t growth_law;             /* jam_growth_law, default DIAMETER */
+  int32_t growth_law;             /* @enum jam_growth_law, default DIAMETER */
   int32_t reserved;               /* 0 */
 } jam_compress_options;
 
-/* What MD did. @since 0.1 */
+/* What MD did. */
 typedef struct jam_md_report {
   uint32_t struct_size;         /* set by the caller: sizeof(jam_md_report) */
-  int32_t stop_reason;          /* jam_stop_reason */
+  int32_t stop_reason;          /* @enum jam_stop_reason */
   int64_t collisions;           /* in this call */
   int64_t events;               /* collisions, list updates, stale events */
   double collisions_per_second; /* of wall time */
@@ -525,32 +523,26 @@ typedef struct jam_md_report {
   double growth_rate;           /* d<sigma>/dt over sqrt(kT/m) at the end */
 } jam_md_report;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_run_options_init(jam_run_options *o, size_t size);
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t size);
 
-/* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
- * drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
- * report may be NULL. A run or stage that ends with
- * JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
- * So does one that was stopped while its lists were made, when nothing has moved.
- * With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
- * run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
- * Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
- * JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
- * says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
- * JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+/* Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
+ * Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
+ * with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
+ * spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
+ * to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
+ * does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
+ * collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
+ * paths that never meet). The log gives the reason of the last two. @errors OVERLAP */
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
  * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
- * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
- * may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
- * the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
- * report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
- * image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
- * the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
- * protocol. Threads: alone. @since 0.1 */
+ * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
+ * Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
+ * velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+ * report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
+ * between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
+ * equal spheres in d = 3) order under this protocol. @errors OVERLAP */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
@@ -558,17 +550,16 @@ JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, 
  * steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
  * checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
  * under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
- * crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
- * const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1 */
+ * crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. @errors IO */
 JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
-/* Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
- * damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1 */
+/* Makes a system from such a file. @errors IO, FORMAT (no checkpoint, or damaged, or from a machine with another byte
+ * order), OVERLAP */
 JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
 
-/* What jam_observe records. @since 0.1 */
+/* What jam_observe records. */
 typedef struct jam_observe_options {
   uint32_t struct_size;   /* sizeof(jam_observe_options) */
-  int32_t collisions;     /* 1: collisions of each sphere, and collisions and momentum of each pair; default 0 */
+  int32_t collisions;     /* @bool collisions of each sphere, and collisions and momentum of each pair; default 0 */
   int32_t gap_bins;       /* bins of the gap histogram, 0 (default: none) or >= 2 */
   int32_t r_bins;         /* bins of g(r), default 0: none */
   double sample_every;    /* collisions per particle between samples of the series, gaps and g(r), > 0, default 10 */
@@ -579,17 +570,14 @@ typedef struct jam_observe_options {
   double snapshot_factor; /* each interval between snapshots is so many times the one before, >= 1, default 1 */
 } jam_observe_options;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
 /* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
  * dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
- * callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
- * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
- */
+ * callback is called with jam_progress.snapshot > 0: every const call works on that state there. */
 JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
-/* Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1 */
+/* Stops recording; what was recorded can still be read. */
 JAM_API jam_status jam_observe_stop(jam_system *sys);
-/* Columns of jam_observed_series. @since 0.1 */
+/* Columns of jam_observed_series. */
 typedef enum jam_series_column {
   JAM_SERIES_TIME = 0,       /* simulated time, unit box / sqrt(kT/m) */
   JAM_SERIES_COLLISIONS = 1, /* collisions per particle */
@@ -598,31 +586,29 @@ typedef enum jam_series_column {
   JAM_SERIES_ERROR = 4,      /* its standard error, from eight parts */
   JAM_SERIES_MSD = 5         /* mean-square displacement since jam_observe, unit box^2 */
 } jam_series_column;
-/* Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
- * Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1 */
+/* Series of samples. @shape table (samples, jam_series_column) @errors STATE (nothing observed) */
 JAM_API jam_status jam_observed_series(const jam_system *sys, double *table, size_t table_len, size_t *needed);
-/* Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
- * length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+/* Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n. @shape collisions (n),
+ * displacement (n, d) @errors STATE */
 JAM_API jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len,
                                         double *displacement, size_t displacement_len, size_t *rows);
-/* Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
- * units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
- * Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1 */
+/* Pairs that have collided, their collisions, and the momentum exchanged in units of sqrt(m kT), without the part of
+ * the growth. momentum over *time, the simulated time, is the mean force. @shape pair (m, 2), collisions (m), momentum
+ * (m) @errors STATE */
 JAM_API jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_len, int64_t *collisions,
                                       size_t collisions_len, double *momentum, size_t momentum_len, double *time,
                                       size_t *rows);
-/* Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
- * (bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
- * g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
- * Errors: as jam_observed_series. @since 0.1 */
+/* Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
+ * taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
+ * phi) for equal spheres in d = 3. @shape edge (bins + 1), density (bins), error (bins) @errors STATE */
 JAM_API jam_status jam_observed_gaps(const jam_system *sys, double *edge, size_t edge_len, double *density,
                                      size_t density_len, double *error, size_t error_len, size_t *rows);
-/* g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
- * Threads: const. Errors: as jam_observed_series. @since 0.1 */
+/* g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters. @shape r (bins), g (bins) @errors
+ * STATE */
 JAM_API jam_status jam_observed_correlation(const jam_system *sys, double *r, size_t r_len, double *g, size_t g_len,
                                             size_t *rows);
 
-/* Equations of state p(phi) in closed form. @since 0.1 */
+/* Equations of state p(phi) in closed form. */
 typedef enum jam_eos_form {
   JAM_EOS_CARNAHAN_STARLING = 0,  /* d = 3, as the next three */
   JAM_EOS_PY_VIRIAL = 1,          /* Percus-Yevick, virial route */
@@ -631,12 +617,12 @@ typedef enum jam_eos_form {
   JAM_EOS_MK = 4,                 /* 1 + 2^d phi / 2, exact for zeta infinite */
   JAM_EOS_FREE_VOLUME = 5         /* glass: d / (1 - phi / jammed_fraction) */
 } jam_eos_form;
-/* *pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
- * Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1 */
+/* *pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only. @enum form
+ * jam_eos_form @errors DIMENSION, UNSUPPORTED (form not of this dim) */
 JAM_API jam_status jam_eos(int32_t form, int32_t dim, double packing_fraction, double jammed_fraction,
                            double *pressure);
 
-/* A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1 */
+/* A fit of the glass branch p = d' / (1 - phi/phi_J). */
 typedef struct jam_glass {
   uint32_t struct_size;   /* set by the caller: sizeof(jam_glass) */
   int32_t reserved;       /* 0 */
@@ -646,24 +632,24 @@ typedef struct jam_glass {
   double dimension_error; /* its standard error */
   double r_squared;       /* of the straight line 1/p against phi */
 } jam_glass;
-/* Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
- * JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1 */
+/* Least squares on 1/pressure against fraction, at least 3 points; the line must fall. @shape fraction (m), pressure
+ * (m) @errors TOO_FEW */
 JAM_API jam_status jam_glass_fit(const double *fraction, size_t fraction_len, const double *pressure,
                                  size_t pressure_len, jam_glass *fit);
 
 /* ------------------------------------------------------------------ Monte Carlo, runs from one configuration */
 
-/* Unit of the overlap x of a soft pair. @since 0.1 */
+/* Unit of the overlap x of a soft pair. */
 typedef enum jam_energy_unit {
   JAM_ENERGY_LENGTH = 0,  /* x = sigma_ij - r, unit of the box */
   JAM_ENERGY_RELATIVE = 1 /* x = 1 - r / sigma_ij */
 } jam_energy_unit;
 
-/* Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1 */
+/* Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. */
 typedef struct jam_monte_carlo_options {
   uint32_t struct_size; /* sizeof(jam_monte_carlo_options) */
-  int32_t resume;       /* 1: continue the run that stopped early; default 0 */
-  int32_t energy_unit;  /* jam_energy_unit, default LENGTH */
+  int32_t resume;       /* @bool continue the run that stopped early; default 0 */
+  int32_t energy_unit;  /* @enum jam_energy_unit, default LENGTH */
   int32_t reserved;     /* 0 */
   double alpha;         /* 0, the default: hard spheres; > 1: the energy of an overlap x is energy_scale x^alpha */
   double energy_scale;  /* > 0, default 1 */
@@ -678,10 +664,10 @@ typedef struct jam_monte_carlo_options {
   double wall_time; /* seconds of this call, > 0, default infinity */
 } jam_monte_carlo_options;
 
-/* What Monte Carlo did. @since 0.1 */
+/* What Monte Carlo did. */
 typedef struct jam_monte_carlo_report {
   uint32_t struct_size;     /* set by the caller: sizeof(jam_monte_carlo_report) */
-  int32_t stop_reason;      /* jam_stop_reason; COLLISIONS: all sweeps were made */
+  int32_t stop_reason;      /* @enum jam_stop_reason; COLLISIONS: all sweeps were made */
   int64_t sweeps;           /* since the run began */
   int64_t next_sweep;       /* number of the sweep that would come next */
   double acceptance;        /* of moves */
@@ -696,29 +682,26 @@ typedef struct jam_monte_carlo_report {
   double seconds;           /* of this call, wall time */
 } jam_monte_carlo_report;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size);
 /* Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
- * preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
- * numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
- * gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
- * JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
- * JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
- */
+ * preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
+ * overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
+ * dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+ * @errors STATE, UNSUPPORTED (Mari-Kurchan model) */
 JAM_API jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report);
 
-/* What instants are counted in. Monte Carlo always counts sweeps. @since 0.1 */
+/* What instants are counted in. Monte Carlo always counts sweeps. */
 typedef enum jam_clock {
   JAM_CLOCK_COLLISIONS = 0, /* collisions per particle; each collision counts for both of its spheres */
   JAM_CLOCK_TIME = 1        /* simulated time, box / sqrt(kT/m) at T = 1 */
 } jam_clock;
 
-/* Options of jam_isoconfigurational. @since 0.1 */
+/* Options of jam_isoconfigurational. */
 typedef struct jam_isoconf_options {
   uint32_t struct_size;  /* sizeof(jam_isoconf_options) */
   int32_t threads;       /* 1 or 2, default 1; the bits are the same */
-  int32_t clock;         /* jam_clock, default COLLISIONS */
-  int32_t resume;        /* 1: continue the runs that this handle holds; default 0 */
+  int32_t clock;         /* @enum jam_clock, default COLLISIONS */
+  int32_t resume;        /* @bool continue the runs that this handle holds; default 0 */
   int64_t first_run;     /* number of the first run, >= 0, default 0 */
   int64_t runs;          /* from that number on, >= 1, default 100 */
   int64_t block;         /* sums are kept of each block of so many run numbers, >= 1, default 20 */
@@ -730,10 +713,11 @@ typedef struct jam_isoconf_options {
   double wall_time;      /* seconds of this call, > 0, default infinity */
 } jam_isoconf_options;
 
-/* What the runs gave so far. @since 0.1 */
+/* What the runs gave so far. */
 typedef struct jam_isoconf_report {
   uint32_t struct_size; /* set by the caller: sizeof(jam_isoconf_report) */
-  int32_t stop_reason;  /* jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move */
+  int32_t stop_reason;  /* @enum jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot
+                           move */
   int64_t first_run;    /* number of the first run */
   int64_t runs;         /* that are in the sums */
   int64_t blocks;       /* that these runs fill or touch */
@@ -745,7 +729,7 @@ typedef struct jam_isoconf_report {
   double seconds;       /* wall time over all calls */
 } jam_isoconf_report;
 
-/* Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1 */
+/* Columns of jam_isoconf_series: one number a run and instant, summed over runs. */
 typedef enum jam_isoconf_column {
   JAM_ISOCONF_TIME = 0,        /* simulated time, or sweeps */
   JAM_ISOCONF_TIME2 = 1,       /* its square */
@@ -762,49 +746,43 @@ typedef enum jam_isoconf_column {
   JAM_ISOCONF_PRESSURE = 12    /* reduced pressure: since the start of the run; soft spheres: at the instant */
 } jam_isoconf_column;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size);
 /* Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
- * is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
- * molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
- * instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
- * may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
- * order of their numbers. An early stop keeps the runs that were made; resume continues, also after
- * jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
- * JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
- * resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
+ * from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
+ * resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+ * of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+ * sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+ * jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE
+ * (nothing to resume, or not the same), OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
                                           const jam_monte_carlo_options *m, const double *instant, size_t instant_len,
                                           const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
-/* The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
- * runs). @since 0.1 */
+/* The report of these runs as they are now. @errors STATE (no runs) */
 JAM_API jam_status jam_isoconf_report_get(const jam_system *sys, jam_isoconf_report *report);
-/* Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
- * of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
- * Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
- * @since 0.1 */
+/* Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
+ * distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n. @shape displacement (instants, n,
+ * d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n) @errors STATE */
 JAM_API jam_status jam_isoconf_sums(const jam_system *sys, int64_t block, double *displacement, size_t displacement_len,
                                     double *square, size_t square_len, double *distance2, size_t distance2_len,
                                     double *distance4, size_t distance4_len, int64_t *runs, size_t *needed);
-/* One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
- * jam_isoconf_sums. @since 0.1 */
+/* One column of that block (or -1: all), a sum over runs at each instant. @shape out (instants) @enum column
+ * jam_isoconf_column @errors STATE */
 JAM_API jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t column, double *out, size_t out_len,
                                       size_t *needed);
-/* Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
- * @since 0.1 */
+/* Displacements at one kept instant, given by its index. @shape out (runs, n, d) @errors STATE */
 JAM_API jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, double *out, size_t out_len,
                                     size_t *needed);
 
 /* ------------------------------------------------------------------ crunch to the jamming point */
 
-/* How the LPs are solved. @since 0.1 */
+/* How the LPs are solved. */
 typedef enum jam_lp_solver {
   JAM_LP_IPM = 0, /* libjam's interior point on the particle graph; Clp if it fails */
   JAM_LP_CLP = 1  /* Clp's simplex: slow, independent */
 } jam_lp_solver;
 
-/* Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
- */
+/* Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. */
 typedef enum jam_crunch_method {
   JAM_CRUNCH_BARRIER_PATH =
       0, /* LPs far from jamming, then one barrier path whose constraints are linearised again after
@@ -812,7 +790,7 @@ typedef enum jam_crunch_method {
   JAM_CRUNCH_SEQUENTIAL_LP = 1 /* LPs alone, as published */
 } jam_crunch_method;
 
-/* What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1 */
+/* What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. */
 typedef enum jam_free_strain {
   JAM_STRAIN_NONE = 0,         /* a fixed cell */
   JAM_STRAIN_EDGES = 1,        /* the diagonal of the cell: lengths of a brick */
@@ -829,14 +807,14 @@ typedef enum jam_free_strain {
  * sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
  * Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
  * after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
- * jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1 */
+ * jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. */
 typedef struct jam_crunch_options {
   uint32_t struct_size; /* sizeof(jam_crunch_options) */
-  int32_t lp_solver;    /* jam_lp_solver, default IPM (optimizer) */
-  int32_t method;       /* jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does */
-  int32_t polish;  /* 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then
-                    * also  ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer
-                    * (tol_mechanical_equilibrium: the extra LP past it) */
+  int32_t lp_solver;    /* @enum jam_lp_solver, default IPM (optimizer) */
+  int32_t method;       /* @enum jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does */
+  int32_t polish;  /* @bool close the contacts at the end and balance the forces to rounding, default 1. A crunch then
+                      also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer
+                      (tol_mechanical_equilibrium: the extra LP past it) */
   int32_t max_lps; /* >= 1, default 1000 (max_iters) */
   int32_t threads; /* 1 or 2, default 1; bits are reproducible on 1 (threads) */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence) */
@@ -845,14 +823,14 @@ typedef struct jam_crunch_options {
   double neighbour_radius; /* largest pair distance in an LP; 0, the default: adapts (l0, default 4 R) */
   double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts (sbound, in radii) */
   double wall_time;        /* limit in seconds, > 0, default infinity */
-  int32_t steps;           /* 1: the callback hears of every step and may call jam_crunch_step_*. 0, the default */
-  int32_t full_lps; /* 1: every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an LP
-                     * that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
-  int32_t strain;   /* jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
-                     * optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own
-                     * images, which only strains move */
-  int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there
-                       * are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
+  int32_t steps;           /* @bool the callback hears of every step and may call jam_crunch_step_*. 0, the default */
+  int32_t full_lps; /* @bool every LP is solved to lp_tolerance, so that its linear network balances. 0, the default: an
+                       LP that gains more than 1e-7 ends at a duality gap of 0.02 of its gain */
+  int32_t strain;   /* @enum jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's
+                       optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own
+                       images, which only strains move */
+  int32_t keep_steps; /* states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are
+                         more, or more than 2^24 coordinates in all, every second, fourth, ... is kept */
   double duality_gap; /* 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the
                        * barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their
                        * own duality gap e is in the report. To first order no motion lets Gamma grow by more than e,
@@ -860,16 +838,16 @@ typedef struct jam_crunch_options {
                        * as undecided. Needs BARRIER_PATH and no strain */
 } jam_crunch_options;
 
-/* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1 */
+/* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. */
 typedef struct jam_crunch_report {
   uint32_t struct_size; /* set by the caller: sizeof(jam_crunch_report) */
-  int32_t jammed;       /* 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested */
-  int32_t stop_reason;  /* jam_stop_reason */
-  int32_t lp_solver;    /* jam_lp_solver that gave the last LP */
-  int32_t method; /* jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only LPs
-                     ran */
-  int32_t stationary;      /* 1: non-negative contact forces balance, so no small motion lets the diameters grow */
-  int32_t strictly_jammed; /* jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
+  int32_t jammed;       /* @bool collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested */
+  int32_t stop_reason;  /* @enum jam_stop_reason */
+  int32_t lp_solver;    /* @enum jam_lp_solver that gave the last LP */
+  int32_t method; /* @enum jam_crunch_method that led here: BARRIER_PATH if the path was followed, SEQUENTIAL_LP if only
+                     LPs ran */
+  int32_t stationary;      /* @bool non-negative contact forces balance, so no small motion lets the diameters grow */
+  int32_t strictly_jammed; /* @enum jam_verdict of the strict test; UNTESTED until jam_rigidity runs it */
   int32_t reserved;        /* 0 */
   double packing_fraction; /* phi_J when jammed */
   double diameter_mean;    /* unit of box */
@@ -906,7 +884,7 @@ typedef struct jam_crunch_report {
   double seconds_factor;          /* of it in factorisations */
   double seconds_assemble;        /* of it in neighbour lists and assembly */
   double seconds_solve;           /* of it in triangular solves */
-  int32_t status;                 /* jam_status_code of the call that made this report */
+  int32_t status;                 /* @enum jam_status_code of the call that made this report */
   int32_t reserved_end;           /* 0 */
   double packing_fraction_start;  /* before this call. This and the next six say what the crunch did to the packing
                                    * that it was given; NaN or -1 where no crunch made the report */
@@ -920,21 +898,17 @@ typedef struct jam_crunch_report {
   int64_t contacts_kept;  /* of these the contacts of this report; -1 where contacts are unknown */
 } jam_crunch_report;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
-/* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
- * 106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
- * packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
- * then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
- * from the last call. report may be NULL.
- * Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
- * path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
- * valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
- * JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
- * JAM_E_BUSY. Threads: alone. @since 0.1 */
+/* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
+ * (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
+ * call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+ * on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
+ * last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
+ * along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why. @errors
+ * OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
-/* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1 */
+/* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
 typedef struct jam_estimate {
   uint32_t struct_size;  /* set by the caller: sizeof(jam_estimate) */
   int32_t reserved;      /* 0 */
@@ -948,13 +922,12 @@ typedef struct jam_estimate {
 } jam_estimate;
 
 /* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
- * same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
- * JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1 */
+ * same at JAM_LOG_INFO. Takes as long as a few steps. @errors OVERLAP, TOO_FEW */
 JAM_API jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
-/* The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1 */
+/* The report of the last crunch. @errors STATE */
 JAM_API jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_report *report);
 
-/* What kind of step a row of the history is. @since 0.1 */
+/* What kind of step a row of the history is. */
 typedef enum jam_step_phase {
   JAM_STEP_PATH = 1,  /* a Newton step of the barrier path (the first row: all steps that open it) */
   JAM_STEP_LP = 2,    /* an LP and the move to its solution */
@@ -962,7 +935,7 @@ typedef enum jam_step_phase {
 } jam_step_phase;
 
 /* Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
- * mean diameters after the step. NaN where a column has no meaning. @since 0.1 */
+ * mean diameters after the step. NaN where a column has no meaning. */
 typedef enum jam_history_column {
   JAM_HISTORY_PHASE = 0,           /* a jam_step_phase */
   JAM_HISTORY_GAIN = 1,            /* sqrt(Gamma) - 1: relative growth of the diameters in this step */
@@ -987,37 +960,34 @@ typedef enum jam_history_column {
   JAM_HISTORY_TOTAL_MSD_STABLE = 19 /* LP, polish: TOTAL_MSD over the spheres that are stable now */
 } jam_history_column;
 
-/* One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
- * JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+/* One column of the last crunch, a value a step. @shape out (steps) @enum column jam_history_column @errors STATE */
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
                                       size_t *needed);
-/* Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
- * steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
- * with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
- * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+/* Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
+ * leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
+ * steps = 1, when a step has just ended. @shape out (n, d) @errors STATE */
 JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
- * none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1 */
+/* Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
+ * @shape iout (m, 2) @errors STATE */
 JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
-/* r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1 */
+/* r_ij of these pairs before the step, unit of box. @shape out (m, d) @errors STATE */
 JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
- * sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
- * 0.1 */
+/* Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+ * sigma_ij^2 = 1 with the diameters before the step. @shape out (m) @errors STATE */
 JAM_API jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ soft spheres */
 /* Spheres that overlap repel by an energy U = sum of v over overlapping pairs, v = c ((sigma_ij - r) / l)^alpha;
  * energies in units of epsilon. Systems that hold overlaps are made with JAM_OVERLAP_ALLOW. */
 
-/* Factor c and length l of the energy. @since 0.1 */
+/* Factor c and length l of the energy. */
 typedef enum jam_soft_scale {
   JAM_SOFT_RELATIVE = 0, /* c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance */
   JAM_SOFT_ABSOLUTE = 1, /* c = 1 / alpha, l = 1 in the unit of the box */
   JAM_SOFT_BARE = 2      /* c = 1, l = 1 */
 } jam_soft_scale;
 
-/* How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1 */
+/* How the energy is minimised. Methods end in different minima of the same start: each is a protocol. */
 typedef enum jam_minimiser {
   JAM_MINIMISER_NEWTON = 0, /* FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress;
                              * rattlers are put in the middle of their cages */
@@ -1025,36 +995,36 @@ typedef enum jam_minimiser {
   JAM_MINIMISER_LBFGS = 2   /* limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980)) */
 } jam_minimiser;
 
-/* How the overlap of a pair is computed. @since 0.1 */
+/* How the overlap of a pair is computed. */
 typedef enum jam_soft_precision {
   JAM_SOFT_REFERENCE = 0, /* from a reference in twice the digits and small displacements: forces balance to 1e-14 at
                            * any overlap */
   JAM_SOFT_DOUBLE = 1     /* from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison */
 } jam_soft_precision;
 
-/* Options of jam_relax. @since 0.1 */
+/* Options of jam_relax. */
 typedef struct jam_relax_options {
   uint32_t struct_size;    /* sizeof(jam_relax_options) */
-  int32_t minimiser;       /* jam_minimiser, default NEWTON */
-  int32_t scale;           /* jam_soft_scale, default RELATIVE */
-  int32_t precision;       /* jam_soft_precision, default REFERENCE */
+  int32_t minimiser;       /* @enum jam_minimiser, default NEWTON */
+  int32_t scale;           /* @enum jam_soft_scale, default RELATIVE */
+  int32_t precision;       /* @enum jam_soft_precision, default REFERENCE */
   double alpha;            /* exponent of the energy, > 1, default 2 */
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, >= 1, default 1e6 */
   double wall_time;        /* limit in seconds, > 0, default infinity */
-  int32_t strain;   /* jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one */
+  int32_t strain; /* @enum jam_free_strain, default NONE: what of the cell is free after the minimum of the fixed one */
   int32_t reserved; /* 0 */
   double pressure;  /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also from no contacts; else 0, the default */
   int64_t components; /* bit c d + k: component (c, k) of the strain may change, c <= k, default -1: all */
 } jam_relax_options;
 
 /* What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
- * again and again; stable spheres are the others. @since 0.1 */
+ * again and again; stable spheres are the others. */
 typedef struct jam_relax_report {
   uint32_t struct_size;    /* set by the caller: sizeof(jam_relax_report) */
-  int32_t converged;       /* 1: both residuals are below force_tolerance, or no spheres overlap */
-  int32_t stop_reason;     /* jam_stop_reason */
-  int32_t minimiser;       /* jam_minimiser */
+  int32_t converged;       /* @bool both residuals are below force_tolerance, or no spheres overlap */
+  int32_t stop_reason;     /* @enum jam_stop_reason */
+  int32_t minimiser;       /* @enum jam_minimiser */
   double force_residual;   /* max |F_i| of stable spheres over the mean contact force; 0 without contacts */
   double energy;           /* U, unit epsilon */
   double pressure;         /* sum of f r over d V, unit epsilon / length^d */
@@ -1074,49 +1044,43 @@ typedef struct jam_relax_report {
   double stress_residual;  /* largest stress that a free cell leaves, less the target, over the pressure */
 } jam_relax_report;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
 /* Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
  * the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
  * contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
  * the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
- * network holds the digits beyond. report may be NULL. Example: examples/c/soft.c
- *
- * Status: JAM_OK converged.
- * JAM_NOT_JAMMED converged to energy 0: no overlaps.
- * JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
- * JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.
- * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW), JAM_E_MEMORY,
- * JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+ * JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
+ * examples/c/soft.c @errors STATE (made without JAM_OVERLAP_ALLOW) */
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
-/* Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1 */
+/* Options of jam_decompress. Targets: the first that is reached ends it. */
 typedef struct jam_decompress_options {
   uint32_t struct_size;   /* sizeof(jam_decompress_options) */
-  int32_t minimiser;      /* jam_minimiser, default NEWTON */
-  int32_t scale;          /* jam_soft_scale, default RELATIVE */
-  int32_t precision;      /* jam_soft_precision, default REFERENCE */
+  int32_t minimiser;      /* @enum jam_minimiser, default NEWTON */
+  int32_t scale;          /* @enum jam_soft_scale, default RELATIVE */
+  int32_t precision;      /* @enum jam_soft_precision, default REFERENCE */
   double alpha;           /* exponent of the energy, > 1, default 2 */
   double force_tolerance; /* as in jam_relax_options, default 1e-12 */
   double energy_factor; /* U falls by this factor a step, in (0, 1), default 0.01; nearer 1 after a step that failed */
   double pressure;      /* target, as jam_relax_report.pressure, >= 0, default 0: none */
   double distance;      /* target, as jam_relax_report.distance, >= 0, default 0: none */
-  int32_t isostatic;    /* 1 (default): end where contacts are those of one state of self-stress and the Hessian has
-                         * d zero modes */
-  int32_t crunch;       /* 1 (default): then crunch from just below contact, and go on until both have one network;
-                         * the system ends as that jammed packing. 0: it ends as the soft packing */
-  int32_t max_steps;    /* >= 1, default 1000 */
-  int32_t reserved;     /* 0 */
+  int32_t isostatic; /* 1 (default): end where contacts are those of one state of self-stress and the Hessian has d zero
+                        modes */
+  int32_t crunch; /* 1 (default): then crunch from just below contact, and go on until both have one network; the system
+                     ends as that jammed packing. 0: it ends as the soft packing */
+  int32_t max_steps;       /* >= 1, default 1000 */
+  int32_t reserved;        /* 0 */
   int64_t max_evaluations; /* of the forces, in one step, >= 1, default 1e6. A later step may take 4 times what
                             * all steps before it took: at least a 20th of this limit, and never more than it */
   double wall_time;        /* limit in seconds, > 0, default infinity */
 } jam_decompress_options;
 
-/* What jam_decompress found. @since 0.1 */
+/* What jam_decompress found. */
 typedef struct jam_decompress_report {
   uint32_t struct_size;    /* set by the caller: sizeof(jam_decompress_report) */
-  int32_t stop_reason;     /* jam_stop_reason */
-  int32_t isostatic;       /* 1: contacts of one state of self-stress and d zero modes of the Hessian */
+  int32_t stop_reason;     /* @enum jam_stop_reason */
+  int32_t isostatic;       /* @bool contacts of one state of self-stress and d zero modes of the Hessian */
   int32_t same_network;    /* 1: crunch ended with the same contacts; -1: crunch was not run */
   double force_residual;   /* these as in jam_relax_report, of the last soft packing */
   double energy;           /* U */
@@ -1139,7 +1103,7 @@ typedef struct jam_decompress_report {
   double seconds_crunch;   /* of it in crunch */
 } jam_decompress_report;
 
-/* Columns of the history of a decompression, a row a minimum. @since 0.1 */
+/* Columns of the history of a decompression, a row a minimum. */
 typedef enum jam_soft_column {
   JAM_SOFT_PHI = 0,            /* packing fraction */
   JAM_SOFT_PRESSURE = 1,       /* epsilon / length^d */
@@ -1154,52 +1118,44 @@ typedef enum jam_soft_column {
   JAM_SOFT_SECONDS = 10        /* wall time of the step */
 } jam_soft_column;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t size);
 /* From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
  * energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
- * taken back and its square root is tried. report may be NULL.
- * Status: JAM_OK a target was reached; with isostatic and crunch, both ways lead to one network.
- * JAM_NOT_JAMMED the start has no overlaps at its minimum.
- * JAM_PRECISION overlaps came down to the rounding of positions before a target.
- * JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
- * Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1 */
+ * taken back and its square root is tried. Status: JAM_OK a target was reached; with isostatic and crunch, both ways
+ * lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
+ * rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept. @errors STATE, TOO_FEW, SOLVER */
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
-/* One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
- * JAM_E_BUFFER, JAM_E_STATE. @since 0.1 */
+/* One column of the last decompression. @shape out (steps) @enum column jam_soft_column @errors STATE */
 JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len,
                                           size_t *needed);
 
 /* ------------------------------------------------------------------ contact network */
 
-/* Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
- * with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
- * Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1 */
+/* Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
+ * cell. Each stands for both opposite images, so it adds 2 to the coordination. @shape iout (contacts, 2) @errors STATE
+ * (no crunch yet) */
 JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
-/* Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
- * 0.1 */
+/* Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair. @shape out (contacts, d) @errors STATE */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
- * a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
- * f. Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* Gaps h of the contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the
+ * weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f. @shape out
+ * (contacts) @errors STATE */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
- * self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
- * least norm if none is negative, else the LP's.
- * Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
+ * (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
+ * none is negative, else the LP's. @shape out (contacts) @errors STATE */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* Number of contacts of each sphere; 0 for rattlers. @shape iout (n) @errors STATE */
 JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
 
 /* ------------------------------------------------------------------ analysis of the contact network */
-/* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the
- * order of jam_hessian_map. Calls on a const handle are quick. The others take long, report JAM_PHASE_ANALYSE and can
- * be cancelled: JAM_CANCELLED, no output written. None changes the packing. All need a contact network unless said
- * otherwise: JAM_E_STATE before jam_crunch or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty.
- */
+/* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the order
+ * of jam_hessian_map. Calls on a const handle are quick. The others take long, report JAM_PHASE_ANALYSE and can be
+ * cancelled. None changes the packing. Calls with `@errors STATE` need a contact network: JAM_E_STATE before jam_crunch
+ * or jam_contacts_from_geometry, JAM_NOT_JAMMED when it is empty. */
 
 /* ------------- Hessian, modes */
-/* Stiffness k of a contact, 1 at the mean force. @since 0.1 */
+/* Stiffness k of a contact, 1 at the mean force. */
 typedef enum jam_stiffness {
   JAM_STIFFNESS_HARMONIC = 0, /* k = 1 */
   JAM_STIFFNESS_POWER = 1,    /* energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1)) */
@@ -1208,16 +1164,16 @@ typedef enum jam_stiffness {
                                * prestress is then the share of the pre-stress f / r that is kept, 0..1 */
 } jam_stiffness;
 
-/* Options of all calls that use a Hessian. @since 0.1 */
+/* Options of all calls that use a Hessian. */
 typedef struct jam_hessian_options {
   uint32_t struct_size; /* sizeof(jam_hessian_options) */
-  int32_t stiffness;    /* jam_stiffness, default HARMONIC */
+  int32_t stiffness;    /* @enum jam_stiffness, default HARMONIC */
   double alpha;         /* POWER: > 1, default 2 */
   double prestress;     /* overlap (HARD: gap) of a contact of mean force over mean diameter, in [0, 1): the block of a
                          * contact is k n n^T - prestress f <sigma> / ((alpha-1) r) (1 - n n^T); default 0 */
 } jam_hessian_options;
 
-/* Which modes. @since 0.1 */
+/* Which modes. */
 typedef enum jam_modes_which {
   JAM_MODES_LOWEST = 0,  /* smallest eigenvalues, the d translations left out */
   JAM_MODES_HIGHEST = 1, /* largest eigenvalues */
@@ -1225,39 +1181,35 @@ typedef enum jam_modes_which {
   JAM_MODES_ALL = 3      /* all d N', translations among them; dense, 24 (d N')^2 bytes */
 } jam_modes_which;
 
-/* Options of jam_modes. @since 0.1 */
+/* Options of jam_modes. */
 typedef struct jam_modes_options {
   uint32_t struct_size; /* sizeof(jam_modes_options) */
-  int32_t which;        /* jam_modes_which, default LOWEST */
+  int32_t which;        /* @enum jam_modes_which, default LOWEST */
   int64_t count;        /* how many, >= 1, default 10; not used by ALL */
   double frequency;     /* NEAR: omega >= 0 */
   double tolerance;     /* relative, of Lanczos, in (0, 1), default 1e-10 */
   double memory_limit;  /* bytes, default 2e9: past it JAM_E_MEMORY with the estimate */
 } jam_modes_options;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
-/* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
- * Errors: as jam_contacts. @since 0.1 */
+/* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. @shape iout (N')
+ * @errors STATE */
 JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
-/* Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
- * Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
- * 0.1 */
+/* Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force. @shape row_start (d
+ * N' + 1), column (entries), value (entries) @errors STATE */
 JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
                                size_t row_start_len, int32_t *column, size_t column_len, double *value,
                                size_t value_len, size_t *rows);
-/* Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
- * participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
- * is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
- * JAM_E_BUSY. Threads: alone. @since 0.1 */
+/* Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
+ * |v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED. @shape lambda (m), vector
+ * (m, N', d), participation (m) @errors STATE, SOLVER */
 JAM_API jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_modes_options *o, double *lambda,
                              size_t lambda_len, double *vector, size_t vector_len, double *participation,
                              size_t participation_len, size_t *rows);
 
 /* ------------- network from geometry, states of self-stress */
-/* Options of jam_contacts_from_geometry. @since 0.1 */
+/* Options of jam_contacts_from_geometry. */
 typedef struct jam_geometry_options {
   uint32_t struct_size; /* sizeof(jam_geometry_options) */
   int32_t reserved;     /* 0 */
@@ -1265,18 +1217,18 @@ typedef struct jam_geometry_options {
   double window;        /* jumps are searched in |h| < window, in (0, 1], default 0.1 */
 } jam_geometry_options;
 
-/* What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1 */
+/* What jam_contacts_from_geometry found; gaps relative to sigma_ij. */
 typedef struct jam_geometry_report {
-  uint32_t struct_size;    /* set by the caller: sizeof(jam_geometry_report) */
-  int32_t self_contacts;   /* contacts of spheres with their own images, which constrain nothing in a fixed
-                            * cell: left out of the network */
-  double tolerance;        /* used */
-  double gap_below;        /* largest |h| within it, rattlers included */
-  double gap_above;        /* smallest |h| beyond it (window when there is none) */
-  double jump;             /* gap_above / gap_below, the latter no smaller than resolution */
-  double resolution;       /* of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with
-                            * few of them */
-  double second_jump;      /* of the next candidate that could be rigid, 1 when there is none */
+  uint32_t struct_size;  /* set by the caller: sizeof(jam_geometry_report) */
+  int32_t self_contacts; /* contacts of spheres with their own images, which constrain nothing in a fixed cell: left out
+                            of the network */
+  double tolerance;      /* used */
+  double gap_below;      /* largest |h| within it, rattlers included */
+  double gap_above;      /* smallest |h| beyond it (window when there is none) */
+  double jump;           /* gap_above / gap_below, the latter no smaller than resolution */
+  double resolution;     /* of gaps, from the digits that the coordinates have: 1e-15, or far more after a file with
+                          * few of them */
+  double second_jump;    /* of the next candidate that could be rigid, 1 when there is none */
   double second_tolerance; /* its tolerance */
   int64_t second_contacts; /* its contacts, -1 when there is none */
   int64_t pairs_within;    /* pairs with |h| <= tolerance, rattlers included */
@@ -1289,47 +1241,44 @@ typedef struct jam_geometry_report {
   int64_t clusters;        /* connected sets of stable spheres; with more than one, each has its own states */
 } jam_geometry_report;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 /* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
  * moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
  * are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
- * stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
- * network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
- * JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
- * above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
- * collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
- * JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
+ * time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+ * candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
+ * verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
+ * these contacts closed. @errors SOLVER */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
-/* Columns of jam_contact_candidates. @since 0.1 */
+/* Columns of jam_contact_candidates. */
 typedef enum jam_candidate_column {
   JAM_CANDIDATE_LIMIT = 0,    /* tolerance on |h| */
   JAM_CANDIDATE_JUMP = 1,     /* ratio of the gaps above and below it */
   JAM_CANDIDATE_CONTACTS = 2, /* contacts within it on spheres that can balance */
   JAM_CANDIDATE_EXCESS = 3    /* contacts - (d (N' - 1) + 1) */
 } jam_candidate_column;
-/* Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
- * jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
- * as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
- * network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+/* Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
+ * the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
+ * largest jump comes first. @shape table (m, jam_candidate_column) */
 JAM_API jam_status jam_contact_candidates(const jam_system *sys, double window, double *table, size_t table_len,
                                           size_t *needed);
-/* States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
- * space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
- * NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
- * JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1 */
+/* States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
+ * duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
+ * of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign). @shape force (n_c), basis (m, n_c) @errors
+ * STATE, SOLVER */
 JAM_API jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                                      double *residual, size_t *rows);
 
 /* ------------- jammed or not */
-/* Which motions must not open contacts. @since 0.1 */
+/* Which motions must not open contacts. */
 typedef enum jam_rigidity_kind {
   JAM_RIGIDITY_COLLECTIVE = 0, /* all motions of the spheres in a fixed cell */
   JAM_RIGIDITY_STRICT = 1      /* and all symmetric strains of the cell that do not enlarge its volume */
 } jam_rigidity_kind;
 
-/* Answer of a test. @since 0.1 */
+/* Answer of a test. */
 typedef enum jam_verdict {
   JAM_VERDICT_UNTESTED = -1, /* the test has not run */
   JAM_VERDICT_NO = 0,        /* not jammed, with a proof: no balanced forces, or a flex */
@@ -1338,12 +1287,12 @@ typedef enum jam_verdict {
 } jam_verdict;
 
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
- * that they touch, N' their number. @since 0.1 */
+ * that they touch, N' their number. */
 typedef struct jam_rigidity_report {
   uint32_t struct_size;       /* set by the caller: sizeof(jam_rigidity_report) */
-  int32_t kind;               /* jam_rigidity_kind that was tested */
-  int32_t jammed;             /* jam_verdict */
-  int32_t stationary;         /* jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
+  int32_t kind;               /* @enum jam_rigidity_kind that was tested */
+  int32_t jammed;             /* @enum jam_verdict */
+  int32_t stationary;         /* @enum jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
   int64_t stable;             /* N' */
   int64_t contacts;           /* |K+| */
   int64_t contacts_needed;    /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
@@ -1362,24 +1311,21 @@ typedef struct jam_rigidity_report {
  * pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
  * Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
  * spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
- * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
- * Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
- * for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+ * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
+ * opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
+ * translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
  * Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
- * arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
- * be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
- * Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
- * 0.1 */
+ * arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
+ * JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. @enum kind jam_rigidity_kind @errors SOLVER */
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
-/* A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
- * collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
- * contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
- * Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
- * 0.1 */
+/* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
+ * The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+ * @shape out (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, STATE (jammed, or undecided without a
+ * motion) */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
                             size_t strain_len, size_t *needed);
 
-/* Why jam_check_packing answers as it does. @since 0.1 */
+/* Why jam_check_packing answers as it does. */
 typedef enum jam_check_reason {
   JAM_CHECK_PROOF = 0,    /* jammed: positive forces balance, and the rank is full */
   JAM_CHECK_APART = 1,    /* not: no two spheres touch */
@@ -1391,24 +1337,24 @@ typedef enum jam_check_reason {
   JAM_CHECK_MARGIN = 7    /* undecided: doubles do not tell a flex from a soft mode, or a weak force from none */
 } jam_check_reason;
 
-/* Options of jam_check_packing. @since 0.1 */
+/* Options of jam_check_packing. */
 typedef struct jam_check_options {
   uint32_t struct_size; /* sizeof(jam_check_options) */
-  int32_t crunch;   /* 1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0 */
-  double wall_time; /* limit for this crunch in seconds, > 0, default infinity */
+  int32_t crunch;       /* @bool an undecided packing is crunched, as a copy, to say what that changes; default 1 */
+  double wall_time;     /* limit for this crunch in seconds, > 0, default infinity */
 } jam_check_options;
 
 /* Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
- * NaN: not known. @since 0.1 */
+ * NaN: not known. */
 typedef struct jam_check_report {
   uint32_t struct_size;           /* set by the caller: sizeof(jam_check_report) */
-  int32_t jammed;                 /* jam_verdict: collectively jammed */
-  int32_t strictly_jammed;        /* jam_verdict; NO where jammed is NO */
-  int32_t stationary;             /* jam_verdict: non-negative forces balance */
-  int32_t reason;                 /* jam_check_reason of jammed */
+  int32_t jammed;                 /* @enum jam_verdict: collectively jammed */
+  int32_t strictly_jammed;        /* @enum jam_verdict; NO where jammed is NO */
+  int32_t stationary;             /* @enum jam_verdict: non-negative forces balance */
+  int32_t reason;                 /* @enum jam_check_reason of jammed */
   int32_t dim;                    /* d */
   int32_t digits;                 /* decimal digits that the coordinates seem to have; 0: all of a double */
-  int32_t crunch_jammed;          /* jam_verdict of the crunched copy; UNTESTED without one */
+  int32_t crunch_jammed;          /* @enum jam_verdict of the crunched copy; UNTESTED without one */
   int64_t n;                      /* number of spheres */
   int64_t contacts;               /* closed pairs (gaps below 1e-10) that carry force */
   int64_t excess_contacts;        /* contacts - (d (N' - 1) + 1), 0 without contacts */
@@ -1434,20 +1380,18 @@ typedef struct jam_check_report {
   double crunch_displacement_rms; /* root of the mean square of the same */
 } jam_check_report;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
 /* Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
  * handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
  * few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
- * o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
- * jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
- * JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1 */
+ * Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
+ * status above 0. @errors OVERLAP (above one half), SOLVER */
 JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report);
 /* The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
- * wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1 */
+ * wrong struct_size. Valid until this thread's next call of it. */
 JAM_API const char *jam_check_text(const jam_check_report *report);
 /* ------------- proof */
-/* What was proved. @since 0.1 */
+/* What was proved. */
 typedef enum jam_theorem {
   JAM_THEOREM_NONE = 0,    /* nothing: see cause */
   JAM_THEOREM_TRAPPED = 1, /* no motion without overlap takes a stable sphere farther than inner, but translations of
@@ -1455,7 +1399,7 @@ typedef enum jam_theorem {
   JAM_THEOREM_EXACT = 2    /* a packing that touches exactly in all contacts lies within radius: jammed, forces > 0 */
 } jam_theorem;
 
-/* Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1 */
+/* Why a packing was not proved exact, with cause_value and cause_bound. */
 typedef enum jam_proof_cause {
   JAM_CAUSE_NONE = 0,
   JAM_CAUSE_EXCESS = 1,   /* contacts, and those of one state of self-stress: more of them need a reason in algebra */
@@ -1466,11 +1410,11 @@ typedef enum jam_proof_cause {
   JAM_CAUSE_IMAGES = 6    /* a contact of a sphere with its own image */
 } jam_proof_cause;
 
-/* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1 */
+/* What jam_prove found. Bounds are rounded outward; NaN where they do not apply. */
 typedef struct jam_proof_report {
   uint32_t struct_size; /* set by the caller: sizeof(jam_proof_report) */
-  int32_t theorem;      /* jam_theorem */
-  int32_t cause;        /* jam_proof_cause: why theorem is not JAM_THEOREM_EXACT */
+  int32_t theorem;      /* @enum jam_theorem */
+  int32_t cause;        /* @enum jam_proof_cause: why theorem is not JAM_THEOREM_EXACT */
   int32_t reserved;     /* 0 */
   int64_t stable;       /* spheres with contacts, N' */
   int64_t contacts;     /* equations; d (N' - 1) + 1 unknowns */
@@ -1493,48 +1437,44 @@ typedef struct jam_proof_report {
 
 /* Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
  * steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
- * smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio
- * (n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
- * be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
- * JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
- * (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1 */
+ * smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
+ * ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
+ * exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). @shape ratio (n) @errors STATE (no
+ * network), UNSUPPORTED (Mari-Kurchan model) */
 JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_len, jam_proof_report *report);
 /* Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
  * file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
- * JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
- * @since 0.1 */
+ * JAM_AMBIGUOUS (dependent contacts: centres are not refined). @shape ratio (n) @errors STATE, UNSUPPORTED, IO */
 JAM_API jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len);
-/* Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
- * Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
- * JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
- * 0.1 */
+/* Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
+ * where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written). @shape ratio
+ * (n), high (n, d), low (n, d) @errors STATE, UNSUPPORTED */
 JAM_API jam_status jam_refined_positions(const jam_system *sys, const double *ratio, size_t ratio_len, double *high,
                                          size_t high_len, double *low, size_t low_len, size_t *needed);
 
 /* ------------- gaps, classes and angles of contacts */
-/* Flags of a contact. @since 0.1 */
+/* Flags of a contact. */
 typedef enum jam_contact_class {
   JAM_CONTACT_LOCALISED = 1, /* touches a buckler (a stable sphere with d + 1 contacts); without it: extended */
   JAM_CONTACT_SMALLEST = 2,  /* has the smallest force of one of its spheres */
   JAM_CONTACT_MEDIAN = 4     /* has the (lower) median force of one of its spheres */
 } jam_contact_class;
 
-/* Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
- * stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
- * JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1 */
+/* Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+ * rattlers count too and no network is needed. @shape gap (gaps), pair (gaps, 2) @errors STATE */
 JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                             int32_t *pair, size_t pair_len, size_t *rows);
-/* Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* Flags (jam_contact_class) of every contact. @shape iout (n_c) @errors STATE */
 JAM_API jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
-/* c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
- * *rows = n. Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n. @shape
+ * c (n, d), s (n) @errors STATE */
 JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
                                         size_t s_len, size_t *rows);
-/* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
- * pairs. Threads: const. Errors: as jam_contacts. @since 0.1 */
+/* n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
+ * @shape dot (pairs), sphere (pairs) @errors STATE */
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
                                     int32_t *sphere, size_t sphere_len, size_t *rows);
-/* What jam_class_values and jam_histogram look at. @since 0.1 */
+/* What jam_class_values and jam_histogram look at. */
 typedef enum jam_quantity {
   JAM_QUANTITY_FORCE = 0,        /* contacts: f over its mean in the class */
   JAM_QUANTITY_VECTOR_SUM = 1,   /* stable spheres: |C_i| */
@@ -1545,7 +1485,7 @@ typedef enum jam_quantity {
   JAM_QUANTITY_FORCE_DOT = 6,    /* pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik */
   JAM_QUANTITY_COORDINATION = 7  /* stable spheres: z_i */
 } jam_quantity;
-/* Which of them. @since 0.1 */
+/* Which of them. */
 typedef enum jam_class {
   JAM_CLASS_ALL = 0,
   JAM_CLASS_LOCALISED = 1, /* contacts that touch a buckler; spheres and their pairs: the bucklers */
@@ -1553,45 +1493,41 @@ typedef enum jam_class {
   JAM_CLASS_SMALLEST = 3,  /* forces only: the smallest of one of its spheres */
   JAM_CLASS_MEDIAN = 4     /* forces only: the (lower) median of one of its spheres */
 } jam_class;
-/* Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
- * Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1 */
+/* Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. @shape out (values)
+ * @enum quantity jam_quantity, which jam_class @errors STATE */
 JAM_API jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
                                     size_t *needed);
 /* Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
- * values there. Threads: const. Errors: as jam_class_values. @since 0.1 */
+ * values there. @shape out (bins) @enum quantity jam_quantity, which jam_class @errors STATE */
 JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high,
                                  int64_t bins, double *out, size_t out_len, size_t *needed);
 /* ------------- structure of the packing */
-/* g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
- * mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
- * @since 0.1 */
+/* g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
+ * diameters. @shape kind (n), out (bins) */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size_t kind_len, int32_t a,
                                         int32_t b, double r_max, int64_t bins, double *out, size_t out_len,
                                         size_t *needed);
 /* S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
- * ascending. Lengths that differ by less than 5e-13 of |q| are one.
- * No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
- * Threads: alone. @since 0.1 */
+ * ascending. Lengths that differ by less than 5e-13 of |q| are one. @shape q (m), s (m) */
 JAM_API jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
                                         size_t *rows);
 /* Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
- * 3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1 */
+ * 3] (1.2 is usual). @shape out (n) */
 JAM_API jam_status jam_bond_order(const jam_system *sys, int32_t l, double cutoff, double *out, size_t out_len,
                                   size_t *needed);
 /* Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
- * about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1 */
+ * about 10 in a perfect FCC crystal. */
 JAM_API jam_status jam_crystal_score(const jam_system *sys, double *score);
-/* Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
- * JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1 */
+/* Packing fraction of each sphere in its radical Voronoi cell, d = 3. @shape out (n) @errors UNSUPPORTED (d, or built
+ * without voro++) */
 JAM_API jam_status jam_local_fraction(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 
 /* ------------- floppy modes */
-/* Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
- * all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
- * a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
- */
+/* Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
+ * diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
+ * single state of self-stress (JAM_E_STATE says how many there are). @shape out (N', d) @errors STATE, SOLVER */
 JAM_API jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed);
-/* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1 */
+/* Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. */
 typedef enum jam_floppy_column {
   JAM_FLOPPY_MEDIAN = 0,    /* b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised */
   JAM_FLOPPY_WEIGHT = 1,    /* W = f / median |dr_i|: f equals W times the displacement far away */
@@ -1603,12 +1539,11 @@ typedef enum jam_floppy_column {
   JAM_FLOPPY_S_RETURN = 5   /* opening 2 s_star at which, to second order, the diameters are back at their start: s* of
                              * R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability */
 } jam_floppy_column;
-/* The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
- * JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1 */
+/* The floppy mode of every contact, measured. @shape table (n_c, jam_floppy_column) @errors STATE, SOLVER */
 JAM_API jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed);
 
 /* ------------- spectrum, moduli, comparison */
-/* Options of jam_density_of_states. @since 0.1 */
+/* Options of jam_density_of_states. */
 typedef struct jam_dos_options {
   uint32_t struct_size; /* sizeof(jam_dos_options) */
   int32_t moments;      /* Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments */
@@ -1617,7 +1552,7 @@ typedef struct jam_dos_options {
   int64_t seed;         /* of the random vectors, default 1 */
 } jam_dos_options;
 
-/* Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1 */
+/* Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. */
 typedef struct jam_moduli {
   uint32_t struct_size; /* set by the caller: sizeof(jam_moduli) */
   int32_t reserved;     /* 0 */
@@ -1629,7 +1564,7 @@ typedef struct jam_moduli {
   double shear_max;     /* largest of them */
 } jam_moduli;
 
-/* What jam_compare found; contacts only when both have a network. @since 0.1 */
+/* What jam_compare found; contacts only when both have a network. */
 typedef struct jam_comparison {
   uint32_t struct_size;           /* set by the caller: sizeof(jam_comparison) */
   int32_t reserved;               /* 0 */
@@ -1643,9 +1578,8 @@ typedef struct jam_comparison {
   double displacement_max;        /* likewise */
 } jam_comparison;
 
-/* Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1 */
 JAM_API jam_status jam_dos_options_init(jam_dos_options *o, size_t size);
-/* Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1 */
+/* Columns of jam_density_of_states, a row a bin of the frequency omega. */
 typedef enum jam_dos_column {
   JAM_DOS_OMEGA = 0,           /* middle of the bin */
   JAM_DOS_DENSITY = 1,         /* density of states D there, integral 1 */
@@ -1655,31 +1589,27 @@ typedef enum jam_dos_column {
   JAM_DOS_CUMULATIVE_ERROR = 5 /* its standard error */
 } jam_dos_column;
 /* Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
- * left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
- * -sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
- * JAM_E_TOO_FEW. Threads: alone. @since 0.1 */
+ * left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
+ * 0. @shape table (points, jam_dos_column) @errors STATE, SOLVER, TOO_FEW */
 JAM_API jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o,
                                          double *table, size_t table_len, size_t *needed);
-/* Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
- * squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1 */
+/* Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
+ * |u|^2. @shape vector (m, N', d), u (N', d), out (m) @errors STATE */
 JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size_t vector_len, const double *u,
                                size_t u_len, double *out, size_t out_len, size_t *needed);
-/* *value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
- */
+/* *value = u . H . u for a displacement u. @shape u (N', d) @errors STATE */
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
-/* Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
- * the network unstable. Threads: alone. @since 0.1 */
+/* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. @errors STATE, SOLVER */
 JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli);
-/* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
- * (d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
- * With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
- * Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1 */
+/* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
+ * jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
+ * c_bacd differ: a rotation of stressed contacts counts. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors
+ * STATE, SOLVER */
 JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                                       double *relaxed, size_t relaxed_len, size_t *needed);
-/* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
- * other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
- * Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1 */
+/* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
+ * nearest images, without its mean over spheres stable in both. @shape out (n, d) */
 JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
                                size_t out_len, size_t *needed);
 

@@ -100,20 +100,17 @@ def doc_comments():
     documented = set()
     for line, comment, code in declarations(text):
         documented.add(line)
-        if "@since" not in comment:
-            problem(path, line, "the comment has no @since")
-        if not code.startswith("JAM_API"):
-            continue
-        if "Threads:" not in comment:
-            problem(path, line, "the comment says nothing about Threads:")
-        # Functions that cannot fail return no status; the others say how they fail, or that they do as a named neighbour.
-        if re.match(r"JAM_API jam_status\b", code) and "Errors" not in comment:
-            problem(path, line, "the comment names no Errors")
+        said = re.search(r"@since 0\.1|Threads:|Errors:|may be NULL with length 0|report may be NULL", comment)
+        if said:
+            problem(path, line, f"`{said.group()}` is a rule at the top of the header, or a tag")
+        common = re.search(r"@errors [^@]*\b(NULL|STRUCT_SIZE|ARGUMENT|NONFINITE|BUFFER|MEMORY|BUSY)\b(?![^(]*\))", comment)
+        if common:
+            problem(path, line, f"any call may return JAM_E_{common.group(1)}: say in prose what is particular")
         for example in re.findall(r"Example: (\S+)", comment):
             if not (root / example).is_file():
                 problem(path, line, f"there is no {example}")
     for number, line in enumerate(text.splitlines(), 1):
-        if re.match(r"JAM_API|typedef", line) and number not in documented:
+        if re.match(r"JAM_API|typedef", line) and number not in documented and "_options_init(" not in line:
             problem(path, number, "no comment right above")
     if len(documented) < 20:
         problem(path, 0, f"only {len(documented)} declarations recognised: this rule is broken")
@@ -158,8 +155,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1800:
-        problem(root / "include/jam/jam.h", header, "more than 1800 lines")
+    if header > 1620:
+        problem(root / "include/jam/jam.h", header, "more than 1620 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):
@@ -277,13 +274,13 @@ def markdown_blocks(text):
 
 
 def comment_blocks(text):
-    """(line, text) of every part of the comments of a C header; lists of errors are left out."""
+    """(line, text) of every part of the comments of a C header; its tags are left out."""
     for found in re.finditer(r"/\*(.*?)\*/", text, flags=re.S):
         line = text.count("\n", 0, found.start()) + 1
         body = re.sub(r"\n\s*\* ?", "\n", found.group(1))
-        for part in re.split(r"\n\s*\n|\n- |(?=Status:|Errors:|Threads:|@since|Example:)", body):
-            if not part.startswith("Errors:"):
-                yield line, part
+        for part in re.split(r"\n\s*\n|\n- |(?=Status:|Example:|@enum|@shape|@errors)", body):
+            if not part.startswith(("@shape", "@errors")):
+                yield line, part.removeprefix("@enum")
 
 
 def sentences(text):

@@ -10,7 +10,7 @@ _ptr(x) = x
 const JAM_ABI = Int32(0)
 const JAM_MAX_DIM = Int32(8)
 
-# jam_status_code: All status codes; values are ABI and never reused. @since 0.1
+# jam_status_code: All status codes; values are ABI and never reused.
 const JAM_OK = Int32(0)  # done: the target was reached
 const JAM_CANCELLED = Int32(1)  # jam_cancel or a callback asked to stop
 const JAM_LIMIT = Int32(2)  # a limit on work or time came before the target
@@ -36,7 +36,7 @@ const JAM_E_BUSY = Int32(-15)  # another call is running on this handle
 const JAM_E_UNSUPPORTED = Int32(-16)  # not available in this build or for this model
 const JAM_E_INTERNAL = Int32(-17)  # a bug in libjam; please report the text
 
-# jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1
+# jam_stop_reason: Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason).
 const JAM_STOP_NONE = Int32(0)  # has not run
 const JAM_STOP_PRESSURE = Int32(1)  # MD reached its pressure
 const JAM_STOP_PACKING_FRACTION = Int32(2)  # MD reached its packing fraction
@@ -55,20 +55,20 @@ const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
 const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, but a flex opens contacts, and kicks lead nowhere
 const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of its options
 
-# jam_overlap_policy: What to do with overlaps in given positions. @since 0.1
+# jam_overlap_policy: What to do with overlaps in given positions.
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
 const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
 const JAM_OVERLAP_ALLOW = Int32(2)  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
-# jam_model: Pair distance. @since 0.1
+# jam_model: Pair distance.
 const JAM_MODEL_EUCLID = Int32(0)  # |r_i - r_j|, nearest images
 const JAM_MODEL_MK = Int32(1)  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts
 
-# jam_masses: Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1
+# jam_masses: Masses of the spheres in molecular dynamics; the mean is 1.
 const JAM_MASSES_EQUAL = Int32(0)  # all 1
 const JAM_MASSES_VOLUME = Int32(1)  # as the volumes, sigma_i^d
 
-# jam_phase: Which part reports progress. @since 0.1
+# jam_phase: Which part reports progress.
 const JAM_PHASE_RUN = Int32(1)  # NVE molecular dynamics
 const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
 const JAM_PHASE_CRUNCH = Int32(3)  # one LP or re-linearised Newton step done
@@ -80,30 +80,30 @@ const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
 const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
 const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres placed
 
-# jam_log_level: Log levels. @since 0.1
+# jam_log_level: Log levels.
 const JAM_LOG_NONE = Int32(0)  # silent, the default
 const JAM_LOG_WARNING = Int32(1)  # what a user should know, e.g. a fallback solver was used
 const JAM_LOG_INFO = Int32(2)  # a line a stage or LP
 const JAM_LOG_DEBUG = Int32(3)  # solver detail
 
-# jam_format: File formats. @since 0.1
+# jam_format: File formats.
 const JAM_FORMAT_AUTO = Int32(0)  # by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN; others are refused. With .gz behind it the file is compressed
 const JAM_FORMAT_PLAIN = Int32(1)  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
 const JAM_FORMAT_XYZ = Int32(2)  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
 const JAM_FORMAT_LAMMPS = Int32(3)  # LAMMPS data of atom_style sphere, density 1, d = 2 and 3, any cell. In d = 2 all z are 0
 const JAM_FORMAT_VTP = Int32(4)  # VTK PolyData in binary, d = 2 and 3: points with diameter, and after a crunch contacts and kind (0 rattler, 1 buckler, 2 other). Written only
 
-# jam_contact_format: Formats of contact networks. @since 0.1
+# jam_contact_format: Formats of contact networks.
 const JAM_CONTACTS_AUTO = Int32(0)  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
 const JAM_CONTACTS_CSV = Int32(1)  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
 const JAM_CONTACTS_DUMP = Int32(2)  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
 const JAM_CONTACTS_VTP = Int32(3)  # VTK PolyData in binary, d = 2 and 3: each contact as two half lines, so that none crosses the cell, with force, gap and number of the contact
 
-# jam_growth_law: How the spheres grow. @since 0.1
+# jam_growth_law: How the spheres grow.
 const JAM_GROWTH_DIAMETER = Int32(0)  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
 const JAM_GROWTH_DENSITY = Int32(1)  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
 
-# jam_series_column: Columns of jam_observed_series. @since 0.1
+# jam_series_column: Columns of jam_observed_series.
 const JAM_SERIES_TIME = Int32(0)  # simulated time, unit box / sqrt(kT/m)
 const JAM_SERIES_COLLISIONS = Int32(1)  # collisions per particle
 const JAM_SERIES_FRACTION = Int32(2)  # packing fraction
@@ -111,7 +111,7 @@ const JAM_SERIES_PRESSURE = Int32(3)  # reduced pressure since the sample before
 const JAM_SERIES_ERROR = Int32(4)  # its standard error, from eight parts
 const JAM_SERIES_MSD = Int32(5)  # mean-square displacement since jam_observe, unit box^2
 
-# jam_eos_form: Equations of state p(phi) in closed form. @since 0.1
+# jam_eos_form: Equations of state p(phi) in closed form.
 const JAM_EOS_CARNAHAN_STARLING = Int32(0)  # d = 3, as the next three
 const JAM_EOS_PY_VIRIAL = Int32(1)  # Percus-Yevick, virial route
 const JAM_EOS_PY_COMPRESSIBILITY = Int32(2)  # Percus-Yevick, compressibility route
@@ -119,15 +119,15 @@ const JAM_EOS_VIRIAL = Int32(3)  # series to the seventh coefficient
 const JAM_EOS_MK = Int32(4)  # 1 + 2^d phi / 2, exact for zeta infinite
 const JAM_EOS_FREE_VOLUME = Int32(5)  # glass: d / (1 - phi / jammed_fraction)
 
-# jam_energy_unit: Unit of the overlap x of a soft pair. @since 0.1
+# jam_energy_unit: Unit of the overlap x of a soft pair.
 const JAM_ENERGY_LENGTH = Int32(0)  # x = sigma_ij - r, unit of the box
 const JAM_ENERGY_RELATIVE = Int32(1)  # x = 1 - r / sigma_ij
 
-# jam_clock: What instants are counted in. Monte Carlo always counts sweeps. @since 0.1
+# jam_clock: What instants are counted in. Monte Carlo always counts sweeps.
 const JAM_CLOCK_COLLISIONS = Int32(0)  # collisions per particle; each collision counts for both of its spheres
 const JAM_CLOCK_TIME = Int32(1)  # simulated time, box / sqrt(kT/m) at T = 1
 
-# jam_isoconf_column: Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1
+# jam_isoconf_column: Columns of jam_isoconf_series: one number a run and instant, summed over runs.
 const JAM_ISOCONF_TIME = Int32(0)  # simulated time, or sweeps
 const JAM_ISOCONF_TIME2 = Int32(1)  # its square
 const JAM_ISOCONF_MSD = Int32(2)  # mean of |dr|^2 over spheres, box^2
@@ -142,15 +142,15 @@ const JAM_ISOCONF_VELOCITY = Int32(10)  # sum m v(t).v(0) over sum m v(0).v(0)
 const JAM_ISOCONF_COLLISIONS = Int32(11)  # collisions per particle
 const JAM_ISOCONF_PRESSURE = Int32(12)  # reduced pressure: since the start of the run; soft spheres: at the instant
 
-# jam_lp_solver: How the LPs are solved. @since 0.1
+# jam_lp_solver: How the LPs are solved.
 const JAM_LP_IPM = Int32(0)  # libjam's interior point on the particle graph; Clp if it fails
 const JAM_LP_CLP = Int32(1)  # Clp's simplex: slow, independent
 
-# jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1
+# jam_crunch_method: Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more.
 const JAM_CRUNCH_BARRIER_PATH = Int32(0)  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
 const JAM_CRUNCH_SEQUENTIAL_LP = Int32(1)  # LPs alone, as published
 
-# jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1
+# jam_free_strain: What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it.
 const JAM_STRAIN_NONE = Int32(0)  # a fixed cell
 const JAM_STRAIN_EDGES = Int32(1)  # the diagonal of the cell: lengths of a brick
 const JAM_STRAIN_TILTS = Int32(2)  # what is off the diagonal
@@ -160,12 +160,12 @@ const JAM_STRAIN_EDGES_VOLUME = Int32(5)  # each edge by itself
 const JAM_STRAIN_TILTS_VOLUME = Int32(6)  # tilts and the volume
 const JAM_STRAIN_ALL = Int32(7)  # edges, tilts and the volume
 
-# jam_step_phase: What kind of step a row of the history is. @since 0.1
+# jam_step_phase: What kind of step a row of the history is.
 const JAM_STEP_PATH = Int32(1)  # a Newton step of the barrier path (the first row: all steps that open it)
 const JAM_STEP_LP = Int32(2)  # an LP and the move to its solution
 const JAM_STEP_POLISH = Int32(3)  # contacts closed and forces balanced to rounding
 
-# jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step. NaN where a column has no meaning. @since 0.1
+# jam_history_column: Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in mean diameters after the step. NaN where a column has no meaning.
 const JAM_HISTORY_PHASE = Int32(0)  # a jam_step_phase
 const JAM_HISTORY_GAIN = Int32(1)  # sqrt(Gamma) - 1: relative growth of the diameters in this step
 const JAM_HISTORY_PHI = Int32(2)  # packing fraction after the step
@@ -187,21 +187,21 @@ const JAM_HISTORY_BOUND = Int32(17)  # LP: step bound
 const JAM_HISTORY_STEP_MSD_STABLE = Int32(18)  # LP, polish: STEP_MSD over stable spheres alone, their mean taken out
 const JAM_HISTORY_TOTAL_MSD_STABLE = Int32(19)  # LP, polish: TOTAL_MSD over the spheres that are stable now
 
-# jam_soft_scale: Factor c and length l of the energy. @since 0.1
+# jam_soft_scale: Factor c and length l of the energy.
 const JAM_SOFT_RELATIVE = Int32(0)  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
 const JAM_SOFT_ABSOLUTE = Int32(1)  # c = 1 / alpha, l = 1 in the unit of the box
 const JAM_SOFT_BARE = Int32(2)  # c = 1, l = 1
 
-# jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1
+# jam_minimiser: How the energy is minimised. Methods end in different minima of the same start: each is a protocol.
 const JAM_MINIMISER_NEWTON = Int32(0)  # FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
 const JAM_MINIMISER_FIRE = Int32(1)  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
 const JAM_MINIMISER_LBFGS = Int32(2)  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 
-# jam_soft_precision: How the overlap of a pair is computed. @since 0.1
+# jam_soft_precision: How the overlap of a pair is computed.
 const JAM_SOFT_REFERENCE = Int32(0)  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
 const JAM_SOFT_DOUBLE = Int32(1)  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
-# jam_soft_column: Columns of the history of a decompression, a row a minimum. @since 0.1
+# jam_soft_column: Columns of the history of a decompression, a row a minimum.
 const JAM_SOFT_PHI = Int32(0)  # packing fraction
 const JAM_SOFT_PRESSURE = Int32(1)  # epsilon / length^d
 const JAM_SOFT_ENERGY = Int32(2)  # U / n
@@ -214,35 +214,35 @@ const JAM_SOFT_EVALUATIONS = Int32(8)  # of the forces, in this step
 const JAM_SOFT_FACTORISATIONS = Int32(9)  # in this step
 const JAM_SOFT_SECONDS = Int32(10)  # wall time of the step
 
-# jam_stiffness: Stiffness k of a contact, 1 at the mean force. @since 0.1
+# jam_stiffness: Stiffness k of a contact, 1 at the mean force.
 const JAM_STIFFNESS_HARMONIC = Int32(0)  # k = 1
 const JAM_STIFFNESS_POWER = Int32(1)  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
 const JAM_STIFFNESS_HARD = Int32(2)  # entropic force of hard spheres near jamming: k = f^2
 const JAM_STIFFNESS_SOFT = Int32(3)  # after jam_relax or jam_decompress: that of the energy that was minimised, in its units; prestress is then the share of the pre-stress f / r that is kept, 0..1
 
-# jam_modes_which: Which modes. @since 0.1
+# jam_modes_which: Which modes.
 const JAM_MODES_LOWEST = Int32(0)  # smallest eigenvalues, the d translations left out
 const JAM_MODES_HIGHEST = Int32(1)  # largest eigenvalues
 const JAM_MODES_NEAR = Int32(2)  # nearest to frequency^2, translations left out
 const JAM_MODES_ALL = Int32(3)  # all d N', translations among them; dense, 24 (d N')^2 bytes
 
-# jam_candidate_column: Columns of jam_contact_candidates. @since 0.1
+# jam_candidate_column: Columns of jam_contact_candidates.
 const JAM_CANDIDATE_LIMIT = Int32(0)  # tolerance on |h|
 const JAM_CANDIDATE_JUMP = Int32(1)  # ratio of the gaps above and below it
 const JAM_CANDIDATE_CONTACTS = Int32(2)  # contacts within it on spheres that can balance
 const JAM_CANDIDATE_EXCESS = Int32(3)  # contacts - (d (N' - 1) + 1)
 
-# jam_rigidity_kind: Which motions must not open contacts. @since 0.1
+# jam_rigidity_kind: Which motions must not open contacts.
 const JAM_RIGIDITY_COLLECTIVE = Int32(0)  # all motions of the spheres in a fixed cell
 const JAM_RIGIDITY_STRICT = Int32(1)  # and all symmetric strains of the cell that do not enlarge its volume
 
-# jam_verdict: Answer of a test. @since 0.1
+# jam_verdict: Answer of a test.
 const JAM_VERDICT_UNTESTED = Int32(-1)  # the test has not run
 const JAM_VERDICT_NO = Int32(0)  # not jammed, with a proof: no balanced forces, or a flex
 const JAM_VERDICT_YES = Int32(1)  # jammed, with a proof: positive forces that balance, and full rank
 const JAM_VERDICT_UNDECIDED = Int32(2)  # double precision cannot decide
 
-# jam_check_reason: Why jam_check_packing answers as it does. @since 0.1
+# jam_check_reason: Why jam_check_packing answers as it does.
 const JAM_CHECK_PROOF = Int32(0)  # jammed: positive forces balance, and the rank is full
 const JAM_CHECK_APART = Int32(1)  # not: no two spheres touch
 const JAM_CHECK_NO_FORCE = Int32(2)  # not: no non-negative forces on the contacts balance
@@ -252,12 +252,12 @@ const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are kn
 const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
 const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
 
-# jam_theorem: What was proved. @since 0.1
+# jam_theorem: What was proved.
 const JAM_THEOREM_NONE = Int32(0)  # nothing: see cause
 const JAM_THEOREM_TRAPPED = Int32(1)  # no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer
 const JAM_THEOREM_EXACT = Int32(2)  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
 
-# jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1
+# jam_proof_cause: Why a packing was not proved exact, with cause_value and cause_bound.
 const JAM_CAUSE_NONE = Int32(0)
 const JAM_CAUSE_EXCESS = Int32(1)  # contacts, and those of one state of self-stress: more of them need a reason in algebra
 const JAM_CAUSE_FORCE = Int32(2)  # least force and its error, over the mean force
@@ -266,12 +266,12 @@ const JAM_CAUSE_SINGULAR = Int32(4)  # smallest eigenvalue of the rows, and what
 const JAM_CAUSE_RATTLER = Int32(5)  # as gap, where the pair has a rattler
 const JAM_CAUSE_IMAGES = Int32(6)  # a contact of a sphere with its own image
 
-# jam_contact_class: Flags of a contact. @since 0.1
+# jam_contact_class: Flags of a contact.
 const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
 const JAM_CONTACT_MEDIAN = Int32(4)  # has the (lower) median force of one of its spheres
 
-# jam_quantity: What jam_class_values and jam_histogram look at. @since 0.1
+# jam_quantity: What jam_class_values and jam_histogram look at.
 const JAM_QUANTITY_FORCE = Int32(0)  # contacts: f over its mean in the class
 const JAM_QUANTITY_VECTOR_SUM = Int32(1)  # stable spheres: |C_i|
 const JAM_QUANTITY_VECTOR_PAIRS = Int32(2)  # stable spheres: S_i
@@ -281,14 +281,14 @@ const JAM_QUANTITY_FORCE_PAIRS = Int32(5)  # stable spheres: S_i with f n for n
 const JAM_QUANTITY_FORCE_DOT = Int32(6)  # pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik
 const JAM_QUANTITY_COORDINATION = Int32(7)  # stable spheres: z_i
 
-# jam_class: Which of them. @since 0.1
+# jam_class: Which of them.
 const JAM_CLASS_ALL = Int32(0)
 const JAM_CLASS_LOCALISED = Int32(1)  # contacts that touch a buckler; spheres and their pairs: the bucklers
 const JAM_CLASS_EXTENDED = Int32(2)  # contacts that do not; spheres and their pairs: all other stable ones
 const JAM_CLASS_SMALLEST = Int32(3)  # forces only: the smallest of one of its spheres
 const JAM_CLASS_MEDIAN = Int32(4)  # forces only: the (lower) median of one of its spheres
 
-# jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1
+# jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode.
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
 const JAM_FLOPPY_WEIGHT = Int32(1)  # W = f / median |dr_i|: f equals W times the displacement far away
 const JAM_FLOPPY_S_PLUS = Int32(2)  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
@@ -296,7 +296,7 @@ const JAM_FLOPPY_S_STAR = Int32(3)  # opening f / B at which, to second order, t
 const JAM_FLOPPY_STABILITY = Int32(4)  # s_star / s_plus = sigma f / (N c F s_plus), F the mean force, c = sigma B / (N F)
 const JAM_FLOPPY_S_RETURN = Int32(5)  # opening 2 s_star at which, to second order, the diameters are back at their start: s* of R. Diaz Hernandez Rojas, PhD thesis, Sapienza 2021; his index is twice stability
 
-# jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1
+# jam_dos_column: Columns of jam_density_of_states, a row a bin of the frequency omega.
 const JAM_DOS_OMEGA = Int32(0)  # middle of the bin
 const JAM_DOS_DENSITY = Int32(1)  # density of states D there, integral 1
 const JAM_DOS_ERROR = Int32(2)  # its standard error over the random vectors; smoothing is not in it
@@ -305,7 +305,7 @@ const JAM_DOS_CUMULATIVE = Int32(4)  # share of modes below the edge
 const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
 
 """
-Options of jam_create and jam_read. @since 0.1
+Options of jam_create and jam_read.
 """
 mutable struct jam_create_options
     struct_size::UInt32  # sizeof(jam_create_options)
@@ -328,7 +328,7 @@ mutable struct jam_create_options
 end
 
 """
-What the system is now. @since 0.1
+What the system is now.
 """
 mutable struct jam_info
     struct_size::UInt32  # set by the caller: sizeof(jam_info)
@@ -348,7 +348,7 @@ mutable struct jam_info
 end
 
 """
-Given to the progress callback; valid during the call only. @since 0.1
+Given to the progress callback; valid during the call only.
 """
 mutable struct jam_progress
     struct_size::UInt32  # sizeof(jam_progress) as the library knows it
@@ -369,7 +369,7 @@ mutable struct jam_progress
 end
 
 """
-Limits of jam_run (NVE). Whichever comes first ends the run. @since 0.1
+Limits of jam_run (NVE). Whichever comes first ends the run.
 """
 mutable struct jam_run_options
     struct_size::UInt32  # sizeof(jam_run_options)
@@ -383,7 +383,7 @@ end
 """
 Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
 is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
-two stages. @since 0.1
+two stages.
 """
 mutable struct jam_compress_options
     struct_size::UInt32  # sizeof(jam_compress_options)
@@ -401,7 +401,7 @@ mutable struct jam_compress_options
 end
 
 """
-What MD did. @since 0.1
+What MD did.
 """
 mutable struct jam_md_report
     struct_size::UInt32  # set by the caller: sizeof(jam_md_report)
@@ -421,7 +421,7 @@ mutable struct jam_md_report
 end
 
 """
-What jam_observe records. @since 0.1
+What jam_observe records.
 """
 mutable struct jam_observe_options
     struct_size::UInt32  # sizeof(jam_observe_options)
@@ -438,7 +438,7 @@ mutable struct jam_observe_options
 end
 
 """
-A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
+A fit of the glass branch p = d' / (1 - phi/phi_J).
 """
 mutable struct jam_glass
     struct_size::UInt32  # set by the caller: sizeof(jam_glass)
@@ -452,7 +452,7 @@ mutable struct jam_glass
 end
 
 """
-Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere. @since 0.1
+Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
 """
 mutable struct jam_monte_carlo_options
     struct_size::UInt32  # sizeof(jam_monte_carlo_options)
@@ -473,7 +473,7 @@ mutable struct jam_monte_carlo_options
 end
 
 """
-What Monte Carlo did. @since 0.1
+What Monte Carlo did.
 """
 mutable struct jam_monte_carlo_report
     struct_size::UInt32  # set by the caller: sizeof(jam_monte_carlo_report)
@@ -494,7 +494,7 @@ mutable struct jam_monte_carlo_report
 end
 
 """
-Options of jam_isoconfigurational. @since 0.1
+Options of jam_isoconfigurational.
 """
 mutable struct jam_isoconf_options
     struct_size::UInt32  # sizeof(jam_isoconf_options)
@@ -514,7 +514,7 @@ mutable struct jam_isoconf_options
 end
 
 """
-What the runs gave so far. @since 0.1
+What the runs gave so far.
 """
 mutable struct jam_isoconf_report
     struct_size::UInt32  # set by the caller: sizeof(jam_isoconf_report)
@@ -537,13 +537,13 @@ CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units
 sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
 Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
 after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
-jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break. @since 0.1
+jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break.
 """
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
     lp_solver::Int32  # jam_lp_solver, default IPM (optimizer)
     method::Int32  # jam_crunch_method, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
-    polish::Int32  # 1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
+    polish::Int32  # 1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)
     max_lps::Int32  # >= 1, default 1000 (max_iters)
     threads::Int32  # 1 or 2, default 1; bits are reproducible on 1 (threads)
     gain_tolerance::Cdouble  # on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)
@@ -561,7 +561,7 @@ mutable struct jam_crunch_options
 end
 
 """
-Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
+Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
 """
 mutable struct jam_crunch_report
     struct_size::UInt32  # set by the caller: sizeof(jam_crunch_report)
@@ -615,7 +615,7 @@ mutable struct jam_crunch_report
 end
 
 """
-Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
+Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
 """
 mutable struct jam_estimate
     struct_size::UInt32  # set by the caller: sizeof(jam_estimate)
@@ -631,7 +631,7 @@ mutable struct jam_estimate
 end
 
 """
-Options of jam_relax. @since 0.1
+Options of jam_relax.
 """
 mutable struct jam_relax_options
     struct_size::UInt32  # sizeof(jam_relax_options)
@@ -651,7 +651,7 @@ end
 
 """
 What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-again and again; stable spheres are the others. @since 0.1
+again and again; stable spheres are the others.
 """
 mutable struct jam_relax_report
     struct_size::UInt32  # set by the caller: sizeof(jam_relax_report)
@@ -679,7 +679,7 @@ mutable struct jam_relax_report
 end
 
 """
-Options of jam_decompress. Targets: the first that is reached ends it. @since 0.1
+Options of jam_decompress. Targets: the first that is reached ends it.
 """
 mutable struct jam_decompress_options
     struct_size::UInt32  # sizeof(jam_decompress_options)
@@ -701,7 +701,7 @@ mutable struct jam_decompress_options
 end
 
 """
-What jam_decompress found. @since 0.1
+What jam_decompress found.
 """
 mutable struct jam_decompress_report
     struct_size::UInt32  # set by the caller: sizeof(jam_decompress_report)
@@ -731,7 +731,7 @@ mutable struct jam_decompress_report
 end
 
 """
-Options of all calls that use a Hessian. @since 0.1
+Options of all calls that use a Hessian.
 """
 mutable struct jam_hessian_options
     struct_size::UInt32  # sizeof(jam_hessian_options)
@@ -742,7 +742,7 @@ mutable struct jam_hessian_options
 end
 
 """
-Options of jam_modes. @since 0.1
+Options of jam_modes.
 """
 mutable struct jam_modes_options
     struct_size::UInt32  # sizeof(jam_modes_options)
@@ -755,7 +755,7 @@ mutable struct jam_modes_options
 end
 
 """
-Options of jam_contacts_from_geometry. @since 0.1
+Options of jam_contacts_from_geometry.
 """
 mutable struct jam_geometry_options
     struct_size::UInt32  # sizeof(jam_geometry_options)
@@ -766,7 +766,7 @@ mutable struct jam_geometry_options
 end
 
 """
-What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
+What jam_contacts_from_geometry found; gaps relative to sigma_ij.
 """
 mutable struct jam_geometry_report
     struct_size::UInt32  # set by the caller: sizeof(jam_geometry_report)
@@ -792,7 +792,7 @@ end
 
 """
 What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-that they touch, N' their number. @since 0.1
+that they touch, N' their number.
 """
 mutable struct jam_rigidity_report
     struct_size::UInt32  # set by the caller: sizeof(jam_rigidity_report)
@@ -813,18 +813,18 @@ mutable struct jam_rigidity_report
 end
 
 """
-Options of jam_check_packing. @since 0.1
+Options of jam_check_packing.
 """
 mutable struct jam_check_options
     struct_size::UInt32  # sizeof(jam_check_options)
-    crunch::Int32  # 1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0
+    crunch::Int32  # 1: an undecided packing is crunched, as a copy, to say what that changes; default 1
     wall_time::Cdouble  # limit for this crunch in seconds, > 0, default infinity
     jam_check_options() = new(16, 0, 0)
 end
 
 """
 Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-NaN: not known. @since 0.1
+NaN: not known.
 """
 mutable struct jam_check_report
     struct_size::UInt32  # set by the caller: sizeof(jam_check_report)
@@ -862,7 +862,7 @@ mutable struct jam_check_report
 end
 
 """
-What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1
+What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
 """
 mutable struct jam_proof_report
     struct_size::UInt32  # set by the caller: sizeof(jam_proof_report)
@@ -890,7 +890,7 @@ mutable struct jam_proof_report
 end
 
 """
-Options of jam_density_of_states. @since 0.1
+Options of jam_density_of_states.
 """
 mutable struct jam_dos_options
     struct_size::UInt32  # sizeof(jam_dos_options)
@@ -902,7 +902,7 @@ mutable struct jam_dos_options
 end
 
 """
-Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
+Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
 """
 mutable struct jam_moduli
     struct_size::UInt32  # set by the caller: sizeof(jam_moduli)
@@ -917,7 +917,7 @@ mutable struct jam_moduli
 end
 
 """
-What jam_compare found; contacts only when both have a network. @since 0.1
+What jam_compare found; contacts only when both have a network.
 """
 mutable struct jam_comparison
     struct_size::UInt32  # set by the caller: sizeof(jam_comparison)
@@ -935,22 +935,22 @@ mutable struct jam_comparison
 end
 
 """
-Version of the library, e.g. "0.1.0". Static storage. Threads: any. @since 0.1
+Version of the library, e.g. "0.1.0". Static storage.
 """
 function jam_version()
     return ccall((:jam_version, libjam), Cstring, ())
 end
 
 """
-Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did
-not find a commit. It does not show uncommitted changes. Static storage. Threads: any. @since 0.1
+Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
+find a commit. It does not show uncommitted changes. Static storage.
 """
 function jam_commit()
     return ccall((:jam_commit, libjam), Cstring, ())
 end
 
 """
-JAM_ABI of the library that is loaded. Threads: any. @since 0.1
+JAM_ABI of the library that is loaded.
 """
 function jam_abi_version()
     return ccall((:jam_abi_version, libjam), Int32, ())
@@ -958,21 +958,21 @@ end
 
 """
 Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
-computes in place of OpenBLAS: the path of that library. Static storage. Threads: any. @since 0.1
+computes in place of OpenBLAS: the path of that library. Static storage.
 """
 function jam_blas_kernel()
     return ccall((:jam_blas_kernel, libjam), Cstring, ())
 end
 
 """
-One-line text of a status code ("unknown status" for others). Static storage. Threads: any. @since 0.1
+One-line text of a status code ("unknown status" for others). Static storage.
 """
 function jam_status_string(code)
     return ccall((:jam_status_string, libjam), Cstring, (Int32,), code)
 end
 
 """
-One-word name of a jam_stop_reason, e.g. "converged". Static storage. Threads: any. @since 0.1
+One-word name of a jam_stop_reason, e.g. "converged". Static storage.
 """
 function jam_stop_string(reason)
     return ccall((:jam_stop_string, libjam), Cstring, (Int32,), reason)
@@ -981,7 +981,6 @@ end
 """
 Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
 none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
-Threads: per thread. @since 0.1
 """
 function jam_last_error()
     return ccall((:jam_last_error, libjam), Cstring, ())
@@ -989,30 +988,26 @@ end
 
 """
 Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
-themselves. Long texts are truncated. Threads: per thread. @since 0.1
+themselves. Long texts are truncated.
 """
 function jam_set_error(text)
     return ccall((:jam_set_error, libjam), Cvoid, (Cstring,), text)
 end
 
 """
-Fills *o with the defaults. size = sizeof *o as the caller compiled it. Threads: any.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+Fills *o with the defaults. size = sizeof *o as the caller compiled it.
 """
 function jam_create_options_init(o, size)
     return ccall((:jam_create_options_init, libjam), Int32, (Ref{jam_create_options}, Csize_t), _ref(jam_create_options, o), size)
 end
 
 """
-Makes a system. Example: examples/c/first.c
-o: options or NULL. positions: (n, d), unit of `box`, any finite value (wrapped into
-[0, box)), or NULL with length 0 for a random sequential start at o->packing_fraction.
-diameters: n values, or 1 for all, or NULL with length 0 (all equal). With positions they must be given and are
-taken as they are. For a random start only their ratios count.
-out: the new handle, owned by the caller, freed by jam_destroy.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_NONFINITE,
-JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach), JAM_E_MEMORY.
-Status: JAM_OK, or JAM_LIMIT (wall_time) with *out NULL. Threads: any. @since 0.1
+Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
+start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
+given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
+After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c
+Shapes: positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
 """
 function jam_create(o, positions, positions_len, diameters, diameters_len, out)
     return ccall((:jam_create, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)
@@ -1021,120 +1016,118 @@ end
 """
 Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
 the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-give the copy its own velocities by jam_set_velocities. Threads: const on src. Errors: JAM_E_NULL, JAM_E_MEMORY.
-@since 0.1
+give the copy its own velocities by jam_set_velocities.
 """
 function jam_copy(src, out)
     return ccall((:jam_copy, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
 end
 
 """
-Frees a system; NULL is fine. Threads: alone on this handle. @since 0.1
+Frees a system; NULL is fine.
 """
 function jam_destroy(sys)
     return ccall((:jam_destroy, libjam), Cvoid, (Ptr{Cvoid},), sys)
 end
 
 """
-Fills *info. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
+Fills *info.
 """
 function jam_info_get(sys, info)
     return ccall((:jam_info_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_info}), sys, _ref(jam_info, info))
 end
 
 """
-View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays
-valid as long as the handle. Its content changes only at the end of calls that move spheres. Threads: const. Errors:
-JAM_E_NULL. @since 0.1
+View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
+content changes only at the end of calls that move spheres.
 """
 function jam_positions_view(sys, view, view_len)
     return ccall((:jam_positions_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
-View of the n diameters; lifetime as jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1
+View of the n diameters; lifetime as jam_positions_view.
 """
 function jam_diameters_view(sys, view, view_len)
     return ccall((:jam_diameters_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
-View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as
-jam_positions_view. Threads: const. Errors: JAM_E_NULL. @since 0.1
+View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view.
 """
 function jam_velocities_view(sys, view, view_len)
     return ccall((:jam_velocities_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
-Replaces positions (n, d); wrapped into the box; results of crunch are dropped. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (length), JAM_E_NONFINITE, JAM_E_OVERLAP, JAM_E_BUSY. @since 0.1
+Replaces the positions, wrapped into the box; results of crunch are dropped.
+Shapes: positions (n, d).
+Errors: JAM_E_OVERLAP.
 """
 function jam_set_positions(sys, positions, positions_len)
     return ccall((:jam_set_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(positions), positions_len)
 end
 
 """
-Replaces velocities (n, d). Results of a crunch are kept: they do not depend on velocities. jam_run uses the
-velocities as they are. jam_compress rescales them to kT/m = 1. Threads: alone. Errors: JAM_E_NULL, JAM_E_ARGUMENT
-(length), JAM_E_NONFINITE, JAM_E_BUSY. @since 0.1
+Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. jam_run uses the velocities
+as they are. jam_compress rescales them to kT/m = 1.
+Shapes: velocities (n, d).
 """
 function jam_set_velocities(sys, velocities, velocities_len)
     return ccall((:jam_set_velocities, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(velocities), velocities_len)
 end
 
 """
-Multiplies all diameters by factor > 0; results of crunch are dropped. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_OVERLAP (when growing), JAM_E_BUSY. @since 0.1
+Multiplies all diameters by factor > 0; results of crunch are dropped.
+Errors: JAM_E_OVERLAP (when growing).
 """
 function jam_scale_diameters(sys, factor)
     return ccall((:jam_scale_diameters, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, factor)
 end
 
 """
-jam_create in a cell (d, d) of any positive determinant, d = o->dim; o->box must be 1, the default. positions:
-Cartesian, in the frame of `cell`.
-Errors: as jam_create; JAM_E_ARGUMENT also for a left-handed, singular or flat cell, and for another o->box.
-Threads: any. @since 0.1
+jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
+or flat cell is refused. positions: Cartesian, in the frame of `cell`.
+Shapes: cell (d, d), positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
 """
 function jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out)
     return ccall((:jam_create_in_cell, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)
 end
 
 """
-Cell vectors (d, d) in normal form. Threads: const. Errors: JAM_E_NULL, JAM_E_BUFFER. @since 0.1
+Cell vectors in normal form.
+Shapes: out (d, d).
 """
 function jam_cell_get(sys, out, out_len, needed)
     return ccall((:jam_cell_get, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Replaces the cell (d, d). Positions keep their Cartesian values in the frame of `cell`, diameters stay, results of
-crunch are dropped. transform (d, d), integers T: the reduced vectors are T times `cell`. rotation (d, d), Q: a point
-x has gone to Q x. *rows = d. Each may be NULL, the arrays with length 0. Mari-Kurchan shifts are fractions of the
-cell vectors, so with other vectors the system is another one.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (length; a left-handed, singular or flat cell), JAM_E_NONFINITE, JAM_E_OVERLAP,
-JAM_E_BUSY. Threads: alone. @since 0.1
+Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
+frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
+times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
+vectors, so with other vectors the system is another one.
+Shapes: cell (d, d), transform (d, d), rotation (d, d).
+Errors: JAM_E_OVERLAP.
 """
 function jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
     return ccall((:jam_cell_set, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
 end
 
 """
-Deforms cell and positions by r -> (1 + strain) r, strain (d, d); diameters stay, results of crunch are dropped. The
-new cell is reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
-Errors: as jam_cell_set; JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
-Threads: alone. @since 0.1
+Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
+reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
+Shapes: strain (d, d).
+Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
 """
 function jam_strain(sys, strain, strain_len)
     return ccall((:jam_strain, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(strain), strain_len)
 end
 
 """
-Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and
-setters call it too. Const calls that run together on one handle each call it on their own thread. A call that a
-callback makes on its handle does not call it again. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
+too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
+its handle does not call it again.
 """
 function jam_set_progress(sys, callback, user)
     return ccall((:jam_set_progress, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid}), sys, _ptr(callback), _ptr(user))
@@ -1143,7 +1136,8 @@ end
 """
 jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
 A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
-Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT. Errors: as jam_create. Threads: any. @since 0.1
+Shapes: positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
 """
 function jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out)
     return ccall((:jam_create_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
@@ -1153,29 +1147,32 @@ end
 jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
 call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
 take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
-jam_checkpoint_read_watched has no time limit. Errors: as jam_create_in_cell. Threads: any. @since 0.1
+jam_checkpoint_read_watched has no time limit.
+Shapes: cell (d, d), positions (n, d), diameters (n).
+Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
 """
 function jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, callback, user, out)
     return ccall((:jam_create_in_cell_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
 end
 
 """
-See jam_create_in_cell_watched. Errors: as jam_read. Threads: any. @since 0.1
+See jam_create_in_cell_watched.
+Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
 """
 function jam_read_watched(path, o, callback, user, out)
     return ccall((:jam_read_watched, libjam), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
 end
 
 """
-See jam_create_in_cell_watched. Errors: as jam_checkpoint_read. Threads: any. @since 0.1
+See jam_create_in_cell_watched.
+Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
 """
 function jam_checkpoint_read_watched(path, callback, user, out)
     return ccall((:jam_checkpoint_read_watched, libjam), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
 end
 
 """
-Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT (level), JAM_E_BUSY. @since 0.1
+Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes.
 """
 function jam_set_log(sys, callback, level, user)
     return ccall((:jam_set_log, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid}), sys, _ptr(callback), level, _ptr(user))
@@ -1183,8 +1180,7 @@ end
 
 """
 Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
-on sys stops, unless it is a setter. jam_cancel only increments an atomic counter. Threads: any, signal handlers too.
-Errors: JAM_E_NULL. @since 0.1
+on sys stops, unless it is a setter. jam_cancel only increments an atomic counter.
 """
 function jam_cancel(sys)
     return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
@@ -1194,8 +1190,7 @@ end
 Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
 infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
 memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
-default is half the machine's memory. An option memory_limit can lower the limit for its own call. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUSY. @since 0.1
+default is half the machine's memory. An option memory_limit can lower the limit for its own call.
 """
 function jam_set_memory_limit(sys, bytes)
     return ccall((:jam_set_memory_limit, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
@@ -1203,13 +1198,12 @@ end
 
 """
 Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
-by the content. For a file of another format the error names that format and what to do. o:
-overlap policy, seed, model, frame; box and dim where the file gives none. NULL: defaults. A line that does not fit
-the format is an error; jam_notes lists what was not kept. An option whose value the file gives must be the default
-or agree with the file. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line without newline
-is refused if its last number may have lost digits. Errors: JAM_E_NULL, JAM_E_IO,
-JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), and those of jam_create. Threads: any.
-@since 0.1
+by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
+model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
+what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
+order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
+lost digits.
+Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
 """
 function jam_read(path, o, out)
     return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), out)
@@ -1219,27 +1213,26 @@ end
 What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
 jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
-Threads: const. @since 0.1
 """
 function jam_notes(sys)
     return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)
 end
 
 """
-Writes the packing with 17 digits, so that reading gives the same bits. format: a jam_format. The file is written
-under another name and then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N)
-are written in place; a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved:
-read the file with the same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ
-can hold non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give
-JAM_E_UNSUPPORTED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
+then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
+a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
+same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
+Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
 """
 function jam_write(sys, path, format)
     return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
 end
 
 """
-Writes the contact network of the last crunch. format: a jam_contact_format. The file appears as of jam_write.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO. Threads: const. @since 0.1
+Writes the contact network of the last crunch. The file appears as of jam_write.
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
 """
 function jam_write_contacts(sys, path, format)
     return ccall((:jam_write_contacts, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
@@ -1248,40 +1241,33 @@ end
 """
 Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
 numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
-title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, (k, n),
-or NULL; names: k names, one a line, or "". Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_IO,
-JAM_E_MEMORY. Threads: const. @since 0.1
+title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
+names: k names, one a line, or "".
+Shapes: values (k, n).
+Errors: JAM_E_IO.
 """
 function jam_write_page(sys, path, title, small, names, values, values_len)
     return ccall((:jam_write_page, libjam), Int32, (Ptr{Cvoid}, Cstring, Cstring, Int32, Cstring, Ptr{Cdouble}, Csize_t), sys, path, title, small, names, _ptr(values), values_len)
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_run_options_init(o, size)
     return ccall((:jam_run_options_init, libjam), Int32, (Ref{jam_run_options}, Csize_t), _ref(jam_run_options, o), size)
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_compress_options_init(o, size)
     return ccall((:jam_compress_options_init, libjam), Int32, (Ref{jam_compress_options}, Csize_t), _ref(jam_compress_options, o), size)
 end
 
 """
-Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are
-drawn at first use: Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone.
-report may be NULL. A run or stage that ends with
-JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes spheres.
-So does one that was stopped while its lists were made, when nothing has moved.
-With resume = 1 it goes on to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a
-run by wall_time therefore does not change its result. A failure while it goes on loses the stage, not the packing.
-Status: JAM_OK when the collisions were made, JAM_CANCELLED, JAM_LIMIT (wall time), JAM_PRECISION,
-JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or paths that never meet). jam_last_error
-says why for each status above 0, the log too for the last two. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT, JAM_E_OVERLAP, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
+Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
+with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
+spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
+to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
+does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
+collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
+paths that never meet). The log gives the reason of the last two.
+Errors: JAM_E_OVERLAP.
 """
 function jam_run(sys, o, report)
     return ccall((:jam_run, libjam), Int32, (Ptr{Cvoid}, Ref{jam_run_options}, Ref{jam_md_report}), sys, _ref(jam_run_options, o), _ref(jam_md_report, report))
@@ -1290,13 +1276,13 @@ end
 """
 Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. report
-may be NULL. Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at
-the end the velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
-report->stop_reason), JAM_CANCELLED, JAM_LIMIT, JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own
-image, or no time passes between collisions). The state reached is kept. Errors as jam_run. A resumed call finishes
-the stage and goes on with the next. Small systems (below about 200 equal spheres in d = 3) order under this
-protocol. Threads: alone. @since 0.1
+default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
+Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
+velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
+report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
+between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
+equal spheres in d = 3) order under this protocol.
+Errors: JAM_E_OVERLAP.
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
@@ -1308,24 +1294,21 @@ and a stage that was stopped early or runs now. The results are in it too: conta
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
 under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
-crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. Threads:
-const. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_MEMORY. @since 0.1
+crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
+Errors: JAM_E_IO.
 """
 function jam_checkpoint_write(sys, path)
     return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """
-Makes a system from such a file. Threads: any. Errors: JAM_E_NULL, JAM_E_IO, JAM_E_FORMAT (no checkpoint, or
-damaged, or from a machine with another byte order), JAM_E_OVERLAP, JAM_E_MEMORY. @since 0.1
+Makes a system from such a file.
+Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
 """
 function jam_checkpoint_read(path, out)
     return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_observe_options_init(o, size)
     return ccall((:jam_observe_options_init, libjam), Int32, (Ref{jam_observe_options}, Csize_t), _ref(jam_observe_options, o), size)
 end
@@ -1333,172 +1316,166 @@ end
 """
 From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
 dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
-callback is called with jam_progress.snapshot > 0: every const call works on that state there. Threads: alone.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_MEMORY, JAM_E_BUSY. @since 0.1
+callback is called with jam_progress.snapshot > 0: every const call works on that state there.
 """
 function jam_observe(sys, o)
     return ccall((:jam_observe, libjam), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
 end
 
 """
-Stops recording; what was recorded can still be read. Threads: alone. Errors: JAM_E_NULL, JAM_E_BUSY. @since 0.1
+Stops recording; what was recorded can still be read.
 """
 function jam_observe_stop(sys)
     return ccall((:jam_observe_stop, libjam), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
-Series of samples: table (samples, 6), columns as jam_series_column. Threads: const.
-Errors: JAM_E_NULL, JAM_E_STATE (nothing observed), JAM_E_BUFFER. @since 0.1
+Series of samples.
+Shapes: table (samples, jam_series_column).
+Errors: JAM_E_STATE (nothing observed).
 """
 function jam_observed_series(sys, table, table_len, needed)
     return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-Of each sphere, *rows = n: collisions (n), displacement (n, d) since jam_observe, unwrapped. Each may be NULL with
-length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n.
+Shapes: collisions (n), displacement (n, d).
+Errors: JAM_E_STATE.
 """
 function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, rows)
     return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, rows))
 end
 
 """
-Pairs that have collided, *rows = their number m: pair (m, 2), collisions (m), and momentum (m), exchanged in
-units of sqrt(m kT), without the part of the growth. momentum over *time, the simulated time, is the mean force.
-Arrays may be NULL with length 0. Threads: const. Errors: as jam_observed_series. @since 0.1
+Pairs that have collided, their collisions, and the momentum exchanged in units of sqrt(m kT), without the part of
+the growth. momentum over *time, the simulated time, is the mean force.
+Shapes: pair (m, 2), collisions (m), momentum (m).
+Errors: JAM_E_STATE.
 """
 function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, rows)
     return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, rows))
 end
 
 """
-Histogram of gaps h, *rows = bins: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error
-(bins) over samples. Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to
-g(sigma), which is (p - 1) / (4 phi) for equal spheres in d = 3. Arrays may be NULL with length 0. Threads: const.
-Errors: as jam_observed_series. @since 0.1
+Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
+taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
+phi) for equal spheres in d = 3.
+Shapes: edge (bins + 1), density (bins), error (bins).
+Errors: JAM_E_STATE.
 """
 function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
     return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, rows))
 end
 
 """
-g(r), sampled likewise, *rows = bins: middle r of each, mean diameters, and g. Each may be NULL with length 0.
-Threads: const. Errors: as jam_observed_series. @since 0.1
+g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
+Shapes: r (bins), g (bins).
+Errors: JAM_E_STATE.
 """
 function jam_observed_correlation(sys, r, r_len, g, g_len, rows)
     return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, rows))
 end
 
 """
-pressure of a jam_eos_form at a packing fraction; jammed_fraction is used by FREE_VOLUME only. Threads: any.
-Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim). @since 0.1
+pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
+Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim).
 """
 function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
     return ccall((:jam_eos, libjam), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
 end
 
 """
-Least squares on 1/pressure against fraction, at least 3 points. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT (lengths, values, or no falling line), JAM_E_TOO_FEW. @since 0.1
+Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
+Shapes: fraction (m), pressure (m).
+Errors: JAM_E_TOO_FEW.
 """
 function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
     return ccall((:jam_glass_fit, libjam), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_monte_carlo_options_init(o, size)
     return ccall((:jam_monte_carlo_options_init, libjam), Int32, (Ref{jam_monte_carlo_options}, Csize_t), _ref(jam_monte_carlo_options, o), size)
 end
 
 """
 Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
-preliminary run and then frozen. After soft spheres the system allows overlaps, as by JAM_OVERLAP_ALLOW. Random
-numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. report may be NULL. jam_observed_spheres
-gives the displacements. An early stop can be resumed, also from jam_checkpoint_write. Status: JAM_OK, JAM_CANCELLED,
-JAM_LIMIT. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also when no step is accepted), JAM_E_STATE,
-JAM_E_UNSUPPORTED (Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
+overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
+dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model).
 """
 function jam_monte_carlo(sys, o, report)
     return ccall((:jam_monte_carlo, libjam), Int32, (Ptr{Cvoid}, Ref{jam_monte_carlo_options}, Ref{jam_monte_carlo_report}), sys, _ref(jam_monte_carlo_options, o), _ref(jam_monte_carlo_report, report))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_isoconf_options_init(o, size)
     return ccall((:jam_isoconf_options_init, libjam), Int32, (Ref{jam_isoconf_options}, Csize_t), _ref(jam_isoconf_options, o), size)
 end
 
 """
 Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
-is, with all diameters scaled to density_ratio. Run k draws its velocities from a stream of its own. m NULL:
-molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep, resume and wall_time are not used).
-instant: ascending, > 0. kept: indices of instants whose displacements are kept of every run, or NULL and 0. report
-may be NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the sums in the
-order of their numbers. An early stop keeps the runs that were made; resume continues, also after
-jam_checkpoint_read. Status: JAM_OK, JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED (a run cannot move). Errors:
-JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (also a density_ratio whose gaps are rounding), JAM_E_STATE (nothing to
-resume, or not the same), JAM_E_MEMORY, JAM_E_OVERLAP, JAM_E_UNSUPPORTED, JAM_E_BUSY. Threads: alone. @since 0.1
+is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
+from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
+resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
+sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
+jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move).
+Shapes: instant (instants), kept (k).
+Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
 """
 function jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
     return ccall((:jam_isoconfigurational, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
 end
 
 """
-The report of these runs as they are now. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE (no
-runs). @since 0.1
+The report of these runs as they are now.
+Errors: JAM_E_STATE (no runs).
 """
 function jam_isoconf_report_get(sys, report)
     return ccall((:jam_isoconf_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
 end
 
 """
-Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants, n, d)
-of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; *runs in them. *needed = instants n.
-Arrays may be NULL with length 0. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE.
-@since 0.1
+Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
+distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
+Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
+Errors: JAM_E_STATE.
 """
 function jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, distance2_len, distance4, distance4_len, runs, needed)
     return ccall((:jam_isoconf_sums, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Int64}, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Int64, runs), _ref(Csize_t, needed))
 end
 
 """
-One jam_isoconf_column of that block (or -1: all), a sum over runs at each instant. Threads: const. Errors: as
-jam_isoconf_sums. @since 0.1
+One column of that block (or -1: all), a sum over runs at each instant.
+Shapes: out (instants).
+Errors: JAM_E_STATE.
 """
 function jam_isoconf_series(sys, block, column, out, out_len, needed)
     return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Displacements (runs, n, d) at one kept instant, given by its index. Threads: const. Errors: as jam_isoconf_sums.
-@since 0.1
+Displacements at one kept instant, given by its index.
+Shapes: out (runs, n, d).
+Errors: JAM_E_STATE.
 """
 function jam_isoconf_kept(sys, instant, out, out_len, needed)
     return ccall((:jam_isoconf_kept, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, instant, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_crunch_options_init(o, size)
     return ccall((:jam_crunch_options_init, libjam), Int32, (Ref{jam_crunch_options}, Csize_t), _ref(jam_crunch_options, o), size)
 end
 
 """
-Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E
-106, 055310 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid
-packing: call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it
-then goes on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count
-from the last call. report may be NULL.
-Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on along the
-path); JAM_CANCELLED, JAM_LIMIT, JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last
-valid one and the report says why. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_OVERLAP,
-JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept), JAM_E_MEMORY (likewise),
-JAM_E_BUSY. Threads: alone. @since 0.1
+Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
+(2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
+call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
+last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
+along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
+Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).
 """
 function jam_crunch(sys, o, report)
     return ccall((:jam_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_options, o), _ref(jam_crunch_report, report))
@@ -1506,65 +1483,69 @@ end
 
 """
 Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
-same at JAM_LOG_INFO. Takes as long as a few steps. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-JAM_E_OVERLAP, JAM_E_TOO_FEW, JAM_E_MEMORY. Threads: const. @since 0.1
+same at JAM_LOG_INFO. Takes as long as a few steps.
+Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW.
 """
 function jam_crunch_estimate(sys, o, estimated)
     return ccall((:jam_crunch_estimate, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
 end
 
 """
-The report of the last crunch. Threads: const. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_STATE. @since 0.1
+The report of the last crunch.
+Errors: JAM_E_STATE.
 """
 function jam_crunch_report_get(sys, report)
     return ccall((:jam_crunch_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
 end
 
 """
-One column (jam_history_column) of the last crunch, a value a step. Threads: const. Errors: JAM_E_NULL,
-JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+One column of the last crunch, a value a step.
+Shapes: out (steps).
+Errors: JAM_E_STATE.
 """
 function jam_crunch_history(sys, column, out, out_len, needed)
     return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed. Their sum over the
-steps leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch
-with steps = 1, when a step has just ended. Threads: the callback's. Errors: JAM_E_NULL,
-JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
+leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
+steps = 1, when a step has just ended.
+Shapes: out (n, d).
+Errors: JAM_E_STATE.
 """
 function jam_crunch_step_displacements(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_displacements, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included. Other steps have
-none. Threads: the callback's. Errors: as jam_crunch_step_displacements. @since 0.1
+Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
+Shapes: iout (m, 2).
+Errors: JAM_E_STATE.
 """
 function jam_crunch_step_contacts(sys, iout, iout_len, needed)
     return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
 end
 
 """
-r_ij (m, d) of these pairs before the step, unit of box. Threads: the callback's. Errors: as before. @since 0.1
+r_ij of these pairs before the step, unit of box.
+Shapes: out (m, d).
+Errors: JAM_E_STATE.
 """
 function jam_crunch_step_vectors(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and
-sum lambda_ij sigma_ij^2 = 1 with the diameters before the step. Threads: the callback's. Errors: as before. @since
-0.1
+Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
+sigma_ij^2 = 1 with the diameters before the step.
+Shapes: out (m).
+Errors: JAM_E_STATE.
 """
 function jam_crunch_step_duals(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_duals, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_relax_options_init(o, size)
     return ccall((:jam_relax_options_init, libjam), Int32, (Ref{jam_relax_options}, Csize_t), _ref(jam_relax_options, o), size)
 end
@@ -1574,22 +1555,15 @@ Minimises the energy of overlapping spheres at fixed diameters, and at a fixed c
 the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
 contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
 the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-network holds the digits beyond. report may be NULL. Example: examples/c/soft.c
-
-Status: JAM_OK converged.
-JAM_NOT_JAMMED converged to energy 0: no overlaps.
-JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions.
-JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the state is the last one reached.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_STATE (made without JAM_OVERLAP_ALLOW), JAM_E_MEMORY,
-JAM_E_BUSY. Threads: alone. @since 0.1
+network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
+JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
+examples/c/soft.c
+Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
 """
 function jam_relax(sys, o, report)
     return ccall((:jam_relax, libjam), Int32, (Ptr{Cvoid}, Ref{jam_relax_options}, Ref{jam_relax_report}), sys, _ref(jam_relax_options, o), _ref(jam_relax_report, report))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_decompress_options_init(o, size)
     return ccall((:jam_decompress_options_init, libjam), Int32, (Ref{jam_decompress_options}, Csize_t), _ref(jam_decompress_options, o), size)
 end
@@ -1597,112 +1571,109 @@ end
 """
 From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
 energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
-taken back and its square root is tried. report may be NULL.
-Status: JAM_OK a target was reached; with isostatic and crunch, both ways lead to one network.
-JAM_NOT_JAMMED the start has no overlaps at its minimum.
-JAM_PRECISION overlaps came down to the rounding of positions before a target.
-JAM_NOT_CONVERGED, JAM_LIMIT, JAM_CANCELLED: the last minimum is kept.
-Errors: as jam_relax, JAM_E_TOO_FEW, JAM_E_SOLVER. Threads: alone. @since 0.1
+taken back and its square root is tried. Status: JAM_OK a target was reached; with isostatic and crunch, both ways
+lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
+rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept.
+Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER.
 """
 function jam_decompress(sys, o, report)
     return ccall((:jam_decompress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_decompress_options}, Ref{jam_decompress_report}), sys, _ref(jam_decompress_options, o), _ref(jam_decompress_report, report))
 end
 
 """
-One column (jam_soft_column) of the last decompression. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-JAM_E_BUFFER, JAM_E_STATE. @since 0.1
+One column of the last decompression.
+Shapes: out (steps).
+Errors: JAM_E_STATE.
 """
 function jam_decompress_history(sys, column, out, out_len, needed)
     return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Contact pairs (contacts, 2), i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch
-with a free cell. Each stands for both opposite images, so it adds 2 to the coordination. Threads: const.
-Errors: JAM_E_NULL, JAM_E_BUFFER, JAM_E_STATE (no crunch yet). @since 0.1
+Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
+cell. Each stands for both opposite images, so it adds 2 to the coordination.
+Shapes: iout (contacts, 2).
+Errors: JAM_E_STATE (no crunch yet).
 """
 function jam_contacts(sys, iout, iout_len, needed)
     return ccall((:jam_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
 end
 
 """
-Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair. Threads: const. Errors: as jam_contacts. @since
-0.1
+Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
+Shapes: out (contacts, d).
+Errors: JAM_E_STATE.
 """
 function jam_contact_vectors(sys, out, out_len, needed)
     return ccall((:jam_contact_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Gaps h of the contacts, length contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres
-a few of the weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum
-f. Threads: const. Errors: as jam_contacts. @since 0.1
+Gaps h of the contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the
+weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f.
+Shapes: out (contacts).
+Errors: JAM_E_STATE.
 """
 function jam_contact_gaps(sys, out, out_len, needed)
     return ccall((:jam_contact_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Contact forces, mean 1, length contacts; times report.force_scale they are lambda r. With more than one state of
-self-stress (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of
-least norm if none is negative, else the LP's.
-Threads: const. Errors: as jam_contacts. @since 0.1
+Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
+(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
+none is negative, else the LP's.
+Shapes: out (contacts).
+Errors: JAM_E_STATE.
 """
 function jam_forces(sys, out, out_len, needed)
     return ccall((:jam_forces, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Number of contacts of each sphere, length n; 0 for rattlers. Threads: const. Errors: as jam_contacts. @since 0.1
+Number of contacts of each sphere; 0 for rattlers.
+Shapes: iout (n).
+Errors: JAM_E_STATE.
 """
 function jam_coordination(sys, iout, iout_len, needed)
     return ccall((:jam_coordination, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_hessian_options_init(o, size)
     return ccall((:jam_hessian_options_init, libjam), Int32, (Ref{jam_hessian_options}, Csize_t), _ref(jam_hessian_options, o), size)
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_modes_options_init(o, size)
     return ccall((:jam_modes_options_init, libjam), Int32, (Ref{jam_modes_options}, Csize_t), _ref(jam_modes_options, o), size)
 end
 
 """
-The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. Threads: const.
-Errors: as jam_contacts. @since 0.1
+The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
+Shapes: iout (N').
+Errors: JAM_E_STATE.
 """
 function jam_hessian_map(sys, iout, iout_len, needed)
     return ccall((:jam_hessian_map, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
 end
 
 """
-Hessian in compressed rows, both triangles: row_start (d N' + 1), column and value (entries), *rows = entries.
-Unit: stiffness at the mean force. Threads: const. Errors: as jam_contacts, JAM_E_ARGUMENT, JAM_E_STRUCT_SIZE. @since
-0.1
+Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
+Shapes: row_start (d N' + 1), column (entries), value (entries).
+Errors: JAM_E_STATE.
 """
 function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, rows)
     return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, rows))
 end
 
 """
-Modes of the Hessian, *rows = their number m: lambda (m) = omega^2 ascending, vector (m, N', d) of unit length,
-participation (m) = sum |v_i|^4 / (sum |v_i|^2)^2. Each array may be NULL with length 0. When fewer converge the rest
-is NaN. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_CONVERGED. Errors: as jam_hessian, JAM_E_MEMORY, JAM_E_SOLVER,
-JAM_E_BUSY. Threads: alone. @since 0.1
+Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
+|v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
+Shapes: lambda (m), vector (m, N', d), participation (m).
+Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
 function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, rows)
     return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, rows))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_geometry_options_init(o, size)
     return ccall((:jam_geometry_options_init, libjam), Int32, (Ref{jam_geometry_options}, Csize_t), _ref(jam_geometry_options, o), size)
 end
@@ -1711,32 +1682,33 @@ end
 Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
 are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. report may be NULL. Status, with the
-network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
-collectively jammed even with these contacts closed. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT,
-JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
+time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
+candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
+verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
+these contacts closed.
+Errors: JAM_E_SOLVER.
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
 end
 
 """
-Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-jam_candidate_column, m at most 12. A candidate is a jump of the sorted gaps below window,
-as in jam_geometry_options, with enough contacts for a rigid network below it. The largest jump comes first. No
-network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
+the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
+largest jump comes first.
+Shapes: table (m, jam_candidate_column).
 """
 function jam_contact_candidates(sys, window, table, table_len, needed)
     return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-States of self-stress of the network: *rows = their number m; force (n_c), mean 1, from the null
-space of S^T, not from LP duals; basis (m, n_c) orthonormal; residual: one number, as force_residual. Arrays may be
-NULL with length 0. Status: JAM_OK, JAM_AMBIGUOUS (m > 1: force is the centre of the non-negative ones),
-JAM_NOT_JAMMED (m = 0 or no force of one sign). Errors: as jam_modes. Threads: alone. @since 0.1
+States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
+duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
+of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
+Shapes: force (n_c), basis (m, n_c).
+Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
 function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
     return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
@@ -1747,33 +1719,28 @@ Tests whether the packing is jammed. Nothing changes but strictly_jammed in the 
 pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
-where the network lists them. There a sphere that they alone hold needs forces on the cell to balance.
-Let S v be the opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only
-for translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
+where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
+opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
+translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
-arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. report may
-be NULL. kind: a jam_rigidity_kind. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since
-0.1
+arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
+JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
+Errors: JAM_E_SOLVER.
 """
 function jam_rigidity(sys, kind, report)
     return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
 end
 
 """
-A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for the
-collective kind. The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all
-contacts or opens them. Each may be NULL with length 0. kind: a jam_rigidity_kind. Status: JAM_OK, JAM_CANCELLED.
-Errors: as jam_rigidity, JAM_E_BUFFER, JAM_E_STATE (jammed, or undecided without a motion). Threads: alone. @since
-0.1
+A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
+The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+Shapes: out (n, d), strain (d, d).
+Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion).
 """
 function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
     return ccall((:jam_flex, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_check_options_init(o, size)
     return ccall((:jam_check_options_init, libjam), Int32, (Ref{jam_check_options}, Csize_t), _ref(jam_check_options, o), size)
 end
@@ -1782,9 +1749,9 @@ end
 Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
 handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
 few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-o and report may be NULL. Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided, JAM_CANCELLED.
-jam_last_error() holds jam_check_text for every status above 0. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE,
-JAM_E_ARGUMENT, JAM_E_OVERLAP (above one half), JAM_E_SOLVER, JAM_E_MEMORY, JAM_E_BUSY. Threads: alone. @since 0.1
+Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
+status above 0.
+Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER.
 """
 function jam_check_packing(sys, o, report)
     return ccall((:jam_check_packing, libjam), Int32, (Ptr{Cvoid}, Ref{jam_check_options}, Ref{jam_check_report}), sys, _ref(jam_check_options, o), _ref(jam_check_report, report))
@@ -1792,7 +1759,7 @@ end
 
 """
 The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
-wrong struct_size. Valid until this thread's next call of it. Threads: per thread. @since 0.1
+wrong struct_size. Valid until this thread's next call of it.
 """
 function jam_check_text(report)
     return ccall((:jam_check_text, libjam), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
@@ -1801,11 +1768,11 @@ end
 """
 Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
-smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio
-(n): the exact ratios of the diameters, in any unit; NULL with length 0 takes the diameters as they are. report may
-be NULL. Status: JAM_OK proved exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). Errors:
-JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_NONFINITE, JAM_E_STATE (no network), JAM_E_UNSUPPORTED
-(Mari-Kurchan model), JAM_E_MEMORY, JAM_E_BUSY. Threads: const. @since 0.1
+smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
+ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
+exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
+Shapes: ratio (n).
+Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model).
 """
 function jam_prove(sys, ratio, ratio_len, report)
     return ccall((:jam_prove, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
@@ -1814,58 +1781,65 @@ end
 """
 Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
 file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-JAM_OK, JAM_AMBIGUOUS (dependent contacts: centres are not refined). Errors: as jam_prove, JAM_E_IO. Threads: const.
-@since 0.1
+JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+Shapes: ratio (n).
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
 """
 function jam_write_proof(sys, path, ratio, ratio_len)
     return ccall((:jam_write_proof, libjam), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
 end
 
 """
-Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31 digits.
-Rattlers stay where they are. ratio: as for jam_prove. Each output may be NULL with length 0. Status: JAM_OK,
-JAM_AMBIGUOUS (dependent contacts, nothing is written). Errors: as jam_prove, JAM_E_BUFFER. Threads: const. @since
-0.1
+Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
+where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+Shapes: ratio (n), high (n, d), low (n, d).
+Errors: JAM_E_STATE, JAM_E_UNSUPPORTED.
 """
 function jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed)
     return ccall((:jam_refined_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(ratio), ratio_len, _ptr(high), high_len, _ptr(low), low_len, _ref(Csize_t, needed))
 end
 
 """
-Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2), *rows = gaps. With
-stable_only = 0 rattlers count too and no network is needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT,
-JAM_E_BUFFER, JAM_E_STATE, JAM_E_MEMORY (too many pairs). @since 0.1
+Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+rattlers count too and no network is needed.
+Shapes: gap (gaps), pair (gaps, 2).
+Errors: JAM_E_STATE.
 """
 function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
     return ccall((:jam_gaps, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, rows))
 end
 
 """
-Flags (jam_contact_class) of every contact, length n_c. Threads: const. Errors: as jam_contacts. @since 0.1
+Flags (jam_contact_class) of every contact.
+Shapes: iout (n_c).
+Errors: JAM_E_STATE.
 """
 function jam_contact_classes(sys, iout, iout_len, needed)
     return ccall((:jam_contact_classes, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
 end
 
 """
-c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers.
-*rows = n. Threads: const. Errors: as jam_contacts. @since 0.1
+c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n.
+Shapes: c (n, d), s (n).
+Errors: JAM_E_STATE.
 """
 function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, rows)
     return ccall((:jam_sphere_structure, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, rows))
 end
 
 """
-n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows =
-pairs. Threads: const. Errors: as jam_contacts. @since 0.1
+n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
+Shapes: dot (pairs), sphere (pairs).
+Errors: JAM_E_STATE.
 """
 function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
     return ccall((:jam_contact_dots, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, rows))
 end
 
 """
-Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. Threads: const.
-Errors: as jam_contacts, JAM_E_ARGUMENT. @since 0.1
+Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots.
+Shapes: out (values).
+Errors: JAM_E_STATE.
 """
 function jam_class_values(sys, quantity, which, out, out_len, needed)
     return ccall((:jam_class_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1873,16 +1847,18 @@ end
 
 """
 Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
-values there. Threads: const. Errors: as jam_class_values. @since 0.1
+values there.
+Shapes: out (bins).
+Errors: JAM_E_STATE.
 """
 function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed)
     return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-g_ab(r) of spheres with labels a and b (-1: any; kind: n labels, or NULL and 0), in `bins` equal bins up to r_max
-mean diameters. No network needed. Threads: const. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_MEMORY.
-@since 0.1
+g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
+diameters.
+Shapes: kind (n), out (bins).
 """
 function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed)
     return ccall((:jam_pair_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Int32, Int32, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(kind), kind_len, a, b, r_max, bins, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1891,8 +1867,7 @@ end
 """
 S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
 ascending. Lengths that differ by less than 5e-13 of |q| are one.
-No network needed. Status: JAM_OK, JAM_CANCELLED. Errors: JAM_E_NULL, JAM_E_ARGUMENT, JAM_E_BUFFER, JAM_E_BUSY.
-Threads: alone. @since 0.1
+Shapes: q (m), s (m).
 """
 function jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows)
     return ccall((:jam_structure_factor, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, q_max, _ptr(q), q_len, _ptr(s), s_len, _ref(Csize_t, rows))
@@ -1900,7 +1875,8 @@ end
 
 """
 Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
-3] (1.2 is usual). No network needed. Threads: const. Errors: as jam_pair_correlation. @since 0.1
+3] (1.2 is usual).
+Shapes: out (n).
 """
 function jam_bond_order(sys, l, cutoff, out, out_len, needed)
     return ccall((:jam_bond_order, libjam), Int32, (Ptr{Cvoid}, Int32, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, l, cutoff, _ptr(out), out_len, _ref(Csize_t, needed))
@@ -1908,91 +1884,98 @@ end
 
 """
 Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
-about 10 in a perfect FCC crystal. No network needed. Threads: const. Errors: JAM_E_NULL. @since 0.1
+about 10 in a perfect FCC crystal.
 """
 function jam_crystal_score(sys, score)
     return ccall((:jam_crystal_score, libjam), Int32, (Ptr{Cvoid}, Ref{Cdouble}), sys, _ref(Cdouble, score))
 end
 
 """
-Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed. Threads: const. Errors:
-JAM_E_NULL, JAM_E_BUFFER, JAM_E_UNSUPPORTED (d, or built without voro++). @since 0.1
+Packing fraction of each sphere in its radical Voronoi cell, d = 3.
+Shapes: out (n).
+Errors: JAM_E_UNSUPPORTED (d, or built without voro++).
 """
 function jam_local_fraction(sys, out, out_len, needed)
     return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Floppy mode: displacement (N', d) over s when a contact opens by s. To first order all other contacts stay closed,
-all diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs
-a single state of self-stress (JAM_E_STATE says how many there are). Errors: as jam_modes. Threads: alone. @since 0.1
+Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
+diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
+single state of self-stress (JAM_E_STATE says how many there are).
+Shapes: out (N', d).
+Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
 function jam_floppy_mode(sys, contact, out, out_len, needed)
     return ccall((:jam_floppy_mode, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-The floppy mode of every contact, measured: table (n_c, 6), columns as jam_floppy_column. Status: JAM_OK,
-JAM_CANCELLED. Errors: as jam_floppy_mode. Threads: alone. @since 0.1
+The floppy mode of every contact, measured.
+Shapes: table (n_c, jam_floppy_column).
+Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
 function jam_floppy_modes(sys, table, table_len, needed)
     return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
-"""
-Defaults. Threads: any. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE. @since 0.1
-"""
 function jam_dos_options_init(o, size)
     return ccall((:jam_dos_options_init, libjam), Int32, (Ref{jam_dos_options}, Csize_t), _ref(jam_dos_options, o), size)
 end
 
 """
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
-left out. table (points, 6), columns as jam_dos_column. With prestress omega starts below 0: unstable modes stand at
--sqrt(-lambda), and resolution is lower near 0. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes,
-JAM_E_TOO_FEW. Threads: alone. @since 0.1
+left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
+0.
+Shapes: table (points, jam_dos_column).
+Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW.
 """
 function jam_density_of_states(sys, h, o, table, table_len, needed)
     return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-Projections u . v of a displacement u (N', d) on the modes vector (m, N', d) of jam_modes. Over all d N' modes their
-squares add up to |u|^2. Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
+|u|^2.
+Shapes: vector (m, N', d), u (N', d), out (m).
+Errors: JAM_E_STATE.
 """
 function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
     return ccall((:jam_project, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-value = u . H . u for a displacement u (N', d). Threads: const. Errors: as jam_hessian, JAM_E_NONFINITE. @since 0.1
+value = u . H . u for a displacement u.
+Shapes: u (N', d).
+Errors: JAM_E_STATE.
 """
 function jam_curvature(sys, h, u, u_len, value)
     return ccall((:jam_curvature, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), sys, _ref(jam_hessian_options, h), _ptr(u), u_len, _ref(Cdouble, value))
 end
 
 """
-Elastic moduli. Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_modes; JAM_E_STATE when prestress makes
-the network unstable. Threads: alone. @since 0.1
+Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
+Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
 function jam_moduli_get(sys, h, moduli)
     return ccall((:jam_moduli_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli, moduli))
 end
 
 """
-Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Tables
-(d, d, d, d), unit as jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance.
-With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Arrays may be NULL with length 0.
-Status: JAM_OK, JAM_CANCELLED, JAM_NOT_JAMMED. Errors: as jam_moduli_get, JAM_E_BUFFER. Threads: alone. @since 0.1
+Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
+jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
+c_bacd differ: a rotation of stressed contacts counts.
+Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
+Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
 function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
     return ccall((:jam_elastic_tensor, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))
 end
 
 """
-Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from sys to
-other, nearest images, without its mean over spheres stable in both. Each output may be NULL. No network needed.
-Threads: const on both. Errors: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT, JAM_E_BUFFER. @since 0.1
+Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
+nearest images, without its mean over spheres stable in both.
+Shapes: out (n, d).
 """
 function jam_compare(sys, other, comparison, out, out_len, needed)
     return ccall((:jam_compare, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ref{jam_comparison}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, other, _ref(jam_comparison, comparison), _ptr(out), out_len, _ref(Csize_t, needed))

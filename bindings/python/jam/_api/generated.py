@@ -9,7 +9,7 @@ JAM_MAX_DIM = 8
 
 
 class StatusCode(IntEnum):
-    """All status codes; values are ABI and never reused. @since 0.1"""
+    """All status codes; values are ABI and never reused."""
     OK = 0  # done: the target was reached
     CANCELLED = 1  # jam_cancel or a callback asked to stop
     LIMIT = 2  # a limit on work or time came before the target
@@ -37,7 +37,7 @@ class StatusCode(IntEnum):
 
 
 class StopReason(IntEnum):
-    """Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason). @since 0.1"""
+    """Why a run ended (jam_md_report.stop_reason, jam_crunch_report.stop_reason)."""
     NONE = 0  # has not run
     PRESSURE = 1  # MD reached its pressure
     PACKING_FRACTION = 2  # MD reached its packing fraction
@@ -58,26 +58,26 @@ class StopReason(IntEnum):
 
 
 class OverlapPolicy(IntEnum):
-    """What to do with overlaps in given positions. @since 0.1"""
+    """What to do with overlaps in given positions."""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
     SHRINK = 1  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
     ALLOW = 2  # soft spheres: keep them, also in later calls; starts without positions are uniform points. Calls for hard spheres refuse a system that overlaps
 
 
 class Model(IntEnum):
-    """Pair distance. @since 0.1"""
+    """Pair distance."""
     EUCLID = 0  # |r_i - r_j|, nearest images
     MK = 1  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched random shifts
 
 
 class Masses(IntEnum):
-    """Masses of the spheres in molecular dynamics; the mean is 1. @since 0.1"""
+    """Masses of the spheres in molecular dynamics; the mean is 1."""
     EQUAL = 0  # all 1
     VOLUME = 1  # as the volumes, sigma_i^d
 
 
 class Phase(IntEnum):
-    """Which part reports progress. @since 0.1"""
+    """Which part reports progress."""
     RUN = 1  # NVE molecular dynamics
     COMPRESS = 2  # molecular dynamics with growth
     CRUNCH = 3  # one LP or re-linearised Newton step done
@@ -91,7 +91,7 @@ class Phase(IntEnum):
 
 
 class LogLevel(IntEnum):
-    """Log levels. @since 0.1"""
+    """Log levels."""
     NONE = 0  # silent, the default
     WARNING = 1  # what a user should know, e.g. a fallback solver was used
     INFO = 2  # a line a stage or LP
@@ -99,7 +99,7 @@ class LogLevel(IntEnum):
 
 
 class Format(IntEnum):
-    """File formats. @since 0.1"""
+    """File formats."""
     AUTO = 0  # by name: .xyz, .extxyz are XYZ; .data, .lmp LAMMPS; .vtp VTP; .dat, .txt, no ending PLAIN; others are refused. With .gz behind it the file is compressed
     PLAIN = 1  # line 1: d. Line 2: N. Line 3: the diameter, or the word `diameters`; then, when it is not 1, the box as `box <L>`. Then a line a sphere: its position, and its diameter after `diameters`, with 17 digits.
     XYZ = 2  # extended XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch, contacts:I:1; d = 2 gets a third coordinate 0
@@ -108,7 +108,7 @@ class Format(IntEnum):
 
 
 class ContactFormat(IntEnum):
-    """Formats of contact networks. @since 0.1"""
+    """Formats of contact networks."""
     AUTO = 0  # by name: .csv, .dump, .vtp; with .gz behind it compressed; others are refused
     CSV = 1  # a line a contact: i, j, unit vector from j to i, gap, force (mean 1), 17 digits
     DUMP = 2  # the same as a LAMMPS dump local, whose spheres count from 1; d = 2 and 3
@@ -116,13 +116,13 @@ class ContactFormat(IntEnum):
 
 
 class GrowthLaw(IntEnum):
-    """How the spheres grow. @since 0.1"""
+    """How the spheres grow."""
     DIAMETER = 0  # growth_rate is d<sigma>/dt over sqrt(kT/m), constant
     DENSITY = 1  # growth_rate is d ln<sigma>/dt over n^(1/d) sqrt(kT/m) / box. It is constant, in steps of half a per cent of sigma; d times it is the relative rate of density. The same number means the same protocol at every n.
 
 
 class SeriesColumn(IntEnum):
-    """Columns of jam_observed_series. @since 0.1"""
+    """Columns of jam_observed_series."""
     TIME = 0  # simulated time, unit box / sqrt(kT/m)
     COLLISIONS = 1  # collisions per particle
     FRACTION = 2  # packing fraction
@@ -132,7 +132,7 @@ class SeriesColumn(IntEnum):
 
 
 class EosForm(IntEnum):
-    """Equations of state p(phi) in closed form. @since 0.1"""
+    """Equations of state p(phi) in closed form."""
     CARNAHAN_STARLING = 0  # d = 3, as the next three
     PY_VIRIAL = 1  # Percus-Yevick, virial route
     PY_COMPRESSIBILITY = 2  # Percus-Yevick, compressibility route
@@ -142,19 +142,19 @@ class EosForm(IntEnum):
 
 
 class EnergyUnit(IntEnum):
-    """Unit of the overlap x of a soft pair. @since 0.1"""
+    """Unit of the overlap x of a soft pair."""
     LENGTH = 0  # x = sigma_ij - r, unit of the box
     RELATIVE = 1  # x = 1 - r / sigma_ij
 
 
 class Clock(IntEnum):
-    """What instants are counted in. Monte Carlo always counts sweeps. @since 0.1"""
+    """What instants are counted in. Monte Carlo always counts sweeps."""
     COLLISIONS = 0  # collisions per particle; each collision counts for both of its spheres
     TIME = 1  # simulated time, box / sqrt(kT/m) at T = 1
 
 
 class IsoconfColumn(IntEnum):
-    """Columns of jam_isoconf_series: one number a run and instant, summed over runs. @since 0.1"""
+    """Columns of jam_isoconf_series: one number a run and instant, summed over runs."""
     TIME = 0  # simulated time, or sweeps
     TIME2 = 1  # its square
     MSD = 2  # mean of |dr|^2 over spheres, box^2
@@ -171,19 +171,19 @@ class IsoconfColumn(IntEnum):
 
 
 class LpSolver(IntEnum):
-    """How the LPs are solved. @since 0.1"""
+    """How the LPs are solved."""
     IPM = 0  # libjam's interior point on the particle graph; Clp if it fails
     CLP = 1  # Clp's simplex: slow, independent
 
 
 class CrunchMethod(IntEnum):
-    """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more. @since 0.1"""
+    """Which quench leads to the jamming point. Both end with fully solved LPs in which no sphere moves any more."""
     BARRIER_PATH = 0  # LPs far from jamming, then one barrier path whose constraints are linearised again after each Newton step, then LPs: fewest factorisations; its packings are mostly denser
     SEQUENTIAL_LP = 1  # LPs alone, as published
 
 
 class FreeStrain(IntEnum):
-    """What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it. @since 0.1"""
+    """What of the cell jam_crunch or jam_relax may change, at fixed volume unless VOLUME is among it."""
     NONE = 0  # a fixed cell
     EDGES = 1  # the diagonal of the cell: lengths of a brick
     TILTS = 2  # what is off the diagonal
@@ -195,7 +195,7 @@ class FreeStrain(IntEnum):
 
 
 class StepPhase(IntEnum):
-    """What kind of step a row of the history is. @since 0.1"""
+    """What kind of step a row of the history is."""
     PATH = 1  # a Newton step of the barrier path (the first row: all steps that open it)
     LP = 2  # an LP and the move to its solution
     POLISH = 3  # contacts closed and forces balanced to rounding
@@ -203,7 +203,7 @@ class StepPhase(IntEnum):
 
 class HistoryColumn(IntEnum):
     """Columns of the history of a crunch, a row a step. Displacements are those of all spheres, their mean taken out, in
-    mean diameters after the step. NaN where a column has no meaning. @since 0.1"""
+    mean diameters after the step. NaN where a column has no meaning."""
     PHASE = 0  # a jam_step_phase
     GAIN = 1  # sqrt(Gamma) - 1: relative growth of the diameters in this step
     PHI = 2  # packing fraction after the step
@@ -227,27 +227,27 @@ class HistoryColumn(IntEnum):
 
 
 class SoftScale(IntEnum):
-    """Factor c and length l of the energy. @since 0.1"""
+    """Factor c and length l of the energy."""
     RELATIVE = 0  # c = 1 / alpha, l = sigma_ij: overlaps relative to the contact distance
     ABSOLUTE = 1  # c = 1 / alpha, l = 1 in the unit of the box
     BARE = 2  # c = 1, l = 1
 
 
 class Minimiser(IntEnum):
-    """How the energy is minimised. Methods end in different minima of the same start: each is a protocol. @since 0.1"""
+    """How the energy is minimised. Methods end in different minima of the same start: each is a protocol."""
     NEWTON = 0  # FIRE (alpha < 2: L-BFGS) until contacts settle, then Newton's method with pre-stress; rattlers are put in the middle of their cages
     FIRE = 1  # FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020))
     LBFGS = 2  # limited-memory BFGS alone (Nocedal, Math. Comput. 35, 773 (1980))
 
 
 class SoftPrecision(IntEnum):
-    """How the overlap of a pair is computed. @since 0.1"""
+    """How the overlap of a pair is computed."""
     REFERENCE = 0  # from a reference in twice the digits and small displacements: forces balance to 1e-14 at any overlap
     DOUBLE = 1  # from coordinates in doubles: balance ends near 1e-15 / overlap; for comparison
 
 
 class SoftColumn(IntEnum):
-    """Columns of the history of a decompression, a row a minimum. @since 0.1"""
+    """Columns of the history of a decompression, a row a minimum."""
     PHI = 0  # packing fraction
     PRESSURE = 1  # epsilon / length^d
     ENERGY = 2  # U / n
@@ -262,7 +262,7 @@ class SoftColumn(IntEnum):
 
 
 class Stiffness(IntEnum):
-    """Stiffness k of a contact, 1 at the mean force. @since 0.1"""
+    """Stiffness k of a contact, 1 at the mean force."""
     HARMONIC = 0  # k = 1
     POWER = 1  # energy |overlap|^alpha: k = f^((alpha-2)/(alpha-1))
     HARD = 2  # entropic force of hard spheres near jamming: k = f^2
@@ -270,7 +270,7 @@ class Stiffness(IntEnum):
 
 
 class ModesWhich(IntEnum):
-    """Which modes. @since 0.1"""
+    """Which modes."""
     LOWEST = 0  # smallest eigenvalues, the d translations left out
     HIGHEST = 1  # largest eigenvalues
     NEAR = 2  # nearest to frequency^2, translations left out
@@ -278,7 +278,7 @@ class ModesWhich(IntEnum):
 
 
 class CandidateColumn(IntEnum):
-    """Columns of jam_contact_candidates. @since 0.1"""
+    """Columns of jam_contact_candidates."""
     LIMIT = 0  # tolerance on |h|
     JUMP = 1  # ratio of the gaps above and below it
     CONTACTS = 2  # contacts within it on spheres that can balance
@@ -286,13 +286,13 @@ class CandidateColumn(IntEnum):
 
 
 class RigidityKind(IntEnum):
-    """Which motions must not open contacts. @since 0.1"""
+    """Which motions must not open contacts."""
     COLLECTIVE = 0  # all motions of the spheres in a fixed cell
     STRICT = 1  # and all symmetric strains of the cell that do not enlarge its volume
 
 
 class Verdict(IntEnum):
-    """Answer of a test. @since 0.1"""
+    """Answer of a test."""
     UNTESTED = -1  # the test has not run
     NO = 0  # not jammed, with a proof: no balanced forces, or a flex
     YES = 1  # jammed, with a proof: positive forces that balance, and full rank
@@ -300,7 +300,7 @@ class Verdict(IntEnum):
 
 
 class CheckReason(IntEnum):
-    """Why jam_check_packing answers as it does. @since 0.1"""
+    """Why jam_check_packing answers as it does."""
     PROOF = 0  # jammed: positive forces balance, and the rank is full
     APART = 1  # not: no two spheres touch
     NO_FORCE = 2  # not: no non-negative forces on the contacts balance
@@ -312,14 +312,14 @@ class CheckReason(IntEnum):
 
 
 class Theorem(IntEnum):
-    """What was proved. @since 0.1"""
+    """What was proved."""
     NONE = 0  # nothing: see cause
     TRAPPED = 1  # no motion without overlap takes a stable sphere farther than inner, but translations of all. No packing as dense lies between inner and outer
     EXACT = 2  # a packing that touches exactly in all contacts lies within radius: jammed, forces > 0
 
 
 class ProofCause(IntEnum):
-    """Why a packing was not proved exact, with cause_value and cause_bound. @since 0.1"""
+    """Why a packing was not proved exact, with cause_value and cause_bound."""
     NONE = 0
     EXCESS = 1  # contacts, and those of one state of self-stress: more of them need a reason in algebra
     FORCE = 2  # least force and its error, over the mean force
@@ -330,14 +330,14 @@ class ProofCause(IntEnum):
 
 
 class ContactClass(IntEnum):
-    """Flags of a contact. @since 0.1"""
+    """Flags of a contact."""
     LOCALISED = 1  # touches a buckler (a stable sphere with d + 1 contacts); without it: extended
     SMALLEST = 2  # has the smallest force of one of its spheres
     MEDIAN = 4  # has the (lower) median force of one of its spheres
 
 
 class Quantity(IntEnum):
-    """What jam_class_values and jam_histogram look at. @since 0.1"""
+    """What jam_class_values and jam_histogram look at."""
     FORCE = 0  # contacts: f over its mean in the class
     VECTOR_SUM = 1  # stable spheres: |C_i|
     VECTOR_PAIRS = 2  # stable spheres: S_i
@@ -349,7 +349,7 @@ class Quantity(IntEnum):
 
 
 class Class(IntEnum):
-    """Which of them. @since 0.1"""
+    """Which of them."""
     ALL = 0
     LOCALISED = 1  # contacts that touch a buckler; spheres and their pairs: the bucklers
     EXTENDED = 2  # contacts that do not; spheres and their pairs: all other stable ones
@@ -358,7 +358,7 @@ class Class(IntEnum):
 
 
 class FloppyColumn(IntEnum):
-    """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode. @since 0.1"""
+    """Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode."""
     MEDIAN = 0  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
     WEIGHT = 1  # W = f / median |dr_i|: f equals W times the displacement far away
     S_PLUS = 2  # opening at which, to first order, the next contact forms. Openings have the unit of positions: divide by the diameter to compare packings of different N
@@ -368,7 +368,7 @@ class FloppyColumn(IntEnum):
 
 
 class DosColumn(IntEnum):
-    """Columns of jam_density_of_states, a row a bin of the frequency omega. @since 0.1"""
+    """Columns of jam_density_of_states, a row a bin of the frequency omega."""
     OMEGA = 0  # middle of the bin
     DENSITY = 1  # density of states D there, integral 1
     ERROR = 2  # its standard error over the random vectors; smoothing is not in it
@@ -386,7 +386,7 @@ class Report:
 
 @dataclass(frozen=True, repr=False)
 class Info(Report):
-    """What the system is now. @since 0.1
+    """What the system is now.
 
     dim: d
     n: number of spheres
@@ -416,7 +416,7 @@ class Info(Report):
 
 @dataclass(frozen=True, repr=False)
 class Progress(Report):
-    """Given to the progress callback; valid during the call only. @since 0.1
+    """Given to the progress callback; valid during the call only.
 
     phase: jam_phase
     packing_fraction: now
@@ -448,7 +448,7 @@ class Progress(Report):
 
 @dataclass(frozen=True, repr=False)
 class MdReport(Report):
-    """What MD did. @since 0.1
+    """What MD did.
 
     stop_reason: jam_stop_reason
     collisions: in this call
@@ -478,7 +478,7 @@ class MdReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class Glass(Report):
-    """A fit of the glass branch p = d' / (1 - phi/phi_J). @since 0.1
+    """A fit of the glass branch p = d' / (1 - phi/phi_J).
 
     jammed_fraction: phi_J
     jammed_error: its standard error
@@ -494,7 +494,7 @@ class Glass(Report):
 
 @dataclass(frozen=True, repr=False)
 class MonteCarloReport(Report):
-    """What Monte Carlo did. @since 0.1
+    """What Monte Carlo did.
 
     stop_reason: jam_stop_reason; COLLISIONS: all sweeps were made
     sweeps: since the run began
@@ -526,7 +526,7 @@ class MonteCarloReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class IsoconfReport(Report):
-    """What the runs gave so far. @since 0.1
+    """What the runs gave so far.
 
     stop_reason: jam_stop_reason; COLLISIONS: all runs were made; STALLED: run first_run + runs cannot move
     first_run: number of the first run
@@ -552,7 +552,7 @@ class IsoconfReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class CrunchReport(Report):
-    """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. @since 0.1
+    """Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
 
     jammed: 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     stop_reason: jam_stop_reason
@@ -648,7 +648,7 @@ class CrunchReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class Estimate(Report):
-    """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. @since 0.1
+    """Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
 
     pairs: of the longest neighbour list
     bytes: peak memory beside what is in use now; for spheres above 20 MB mostly good to 30 %
@@ -669,7 +669,7 @@ class Estimate(Report):
 @dataclass(frozen=True, repr=False)
 class RelaxReport(Report):
     """What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
-    again and again; stable spheres are the others. @since 0.1
+    again and again; stable spheres are the others.
 
     converged: 1: both residuals are below force_tolerance, or no spheres overlap
     stop_reason: jam_stop_reason
@@ -715,7 +715,7 @@ class RelaxReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class DecompressReport(Report):
-    """What jam_decompress found. @since 0.1
+    """What jam_decompress found.
 
     stop_reason: jam_stop_reason
     isostatic: 1: contacts of one state of self-stress and d zero modes of the Hessian
@@ -765,7 +765,7 @@ class DecompressReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class GeometryReport(Report):
-    """What jam_contacts_from_geometry found; gaps relative to sigma_ij. @since 0.1
+    """What jam_contacts_from_geometry found; gaps relative to sigma_ij.
 
     self_contacts: contacts of spheres with their own images, which constrain nothing in a fixed cell: left out of the network
     tolerance: used
@@ -806,7 +806,7 @@ class GeometryReport(Report):
 @dataclass(frozen=True, repr=False)
 class RigidityReport(Report):
     """What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
-    that they touch, N' their number. @since 0.1
+    that they touch, N' their number.
 
     kind: jam_rigidity_kind that was tested
     jammed: jam_verdict
@@ -839,7 +839,7 @@ class RigidityReport(Report):
 @dataclass(frozen=True, repr=False)
 class CheckReport(Report):
     """Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
-    NaN: not known. @since 0.1
+    NaN: not known.
 
     jammed: jam_verdict: collectively jammed
     strictly_jammed: jam_verdict; NO where jammed is NO
@@ -905,7 +905,7 @@ class CheckReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class ProofReport(Report):
-    """What jam_prove found. Bounds are rounded outward; NaN where they do not apply. @since 0.1
+    """What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
 
     theorem: jam_theorem
     cause: jam_proof_cause: why theorem is not JAM_THEOREM_EXACT
@@ -949,7 +949,7 @@ class ProofReport(Report):
 
 @dataclass(frozen=True, repr=False)
 class Moduli(Report):
-    """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. @since 0.1
+    """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
 
     bulk: K
     bulk_affine: K without the non-affine part
@@ -967,7 +967,7 @@ class Moduli(Report):
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Report):
-    """What jam_compare found; contacts only when both have a network. @since 0.1
+    """What jam_compare found; contacts only when both have a network.
 
     contacts_a:
     contacts_b: of sys and of other
@@ -1066,7 +1066,7 @@ OPTIONS = {
     "jam_crunch_options": {
         "lp_solver": ("LpSolver", 'LpSolver, default IPM (optimizer)'),
         "method": ("CrunchMethod", 'CrunchMethod, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does'),
-        "polish": ("bool", "1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
+        "polish": ("bool", "1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium: the extra LP past it)"),
         "max_lps": ("int", '>= 1, default 1000 (max_iters)'),
         "threads": ("int", '1 or 2, default 1; bits are reproducible on 1 (threads)'),
         "gain_tolerance": ("float", 'on sqrt(Gamma) - 1, > 0, default 1e-12 (tol_Gamma_convergence)'),
@@ -1125,7 +1125,7 @@ OPTIONS = {
         "window": ("float", 'jumps are searched in |h| < window, in (0, 1], default 0.1'),
     },
     "jam_check_options": {
-        "crunch": ("bool", '1, the default: an undecided packing is crunched, as a copy, to say what that changes; or 0'),
+        "crunch": ("bool", '1: an undecided packing is crunched, as a copy, to say what that changes; default 1'),
         "wall_time": ("float", 'limit for this crunch in seconds, > 0, default infinity'),
     },
     "jam_dos_options": {
@@ -1182,7 +1182,7 @@ CALLS = {
     "jam_cell_set": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
-    "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "int32_t"), ("user", "user", "void"))),
+    "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "LogLevel"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),
     "jam_set_memory_limit": (True, (("bytes", "scalar", "double"),)),
     "jam_write": (True, (("path", "string", "char"), ("format", "scalar", "Format"))),

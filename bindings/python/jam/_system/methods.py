@@ -31,7 +31,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, BusyError
+        ArgumentError, MemoryError, BusyError
         """
         self.call('set_memory_limit', bytes, progress=progress)
 
@@ -51,7 +51,7 @@ class Methods:
 
         Raises
         ------
-        IoError, MemoryError
+        IoError
         """
         self.call('checkpoint_write', path)
 
@@ -101,12 +101,12 @@ class Methods:
 
         Raises
         ------
-        BusyError
+        MemoryError, BusyError
         """
         self.call('observe_stop', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
-        """Series of samples: table (samples, 6), columns as SeriesColumn.
+        """Series of samples.
 
         Returns
         -------
@@ -131,7 +131,7 @@ class Methods:
         return answer
 
     def observed_spheres(self) -> ObservedSpheresResult:
-        """Of each sphere: collisions (n), displacement (n, d) since observe(), unwrapped.
+        """Collisions of each sphere, and its displacement since observe(), unwrapped.
 
         Returns
         -------
@@ -146,8 +146,8 @@ class Methods:
         return answer
 
     def observed_pairs(self) -> ObservedPairsResult:
-        """Pairs that have collided: pair (m, 2), collisions (m), and momentum (m), exchanged in units of sqrt(m kT),
-        without the part of the growth.
+        """Pairs that have collided, their collisions, and the momentum exchanged in units of sqrt(m kT), without the
+        part of the growth.
 
         momentum over time, the simulated time, is the mean force.
 
@@ -166,8 +166,7 @@ class Methods:
         return answer
 
     def observed_gaps(self) -> ObservedGapsResult:
-        """Histogram of gaps h: edge (bins + 1), density (bins), pairs over those of an ideal gas, and error (bins) over
-        samples.
+        """Histogram of gaps h: density is pairs over those of an ideal gas, error is over samples.
 
         Samples are taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma),
         which is (p - 1) / (4 phi) for equal spheres in d = 3.
@@ -186,12 +185,12 @@ class Methods:
         return answer
 
     def observed_correlation(self) -> ObservedCorrelationResult:
-        """g(r), sampled likewise: middle r of each, mean diameters, and g.
+        """g(r), sampled likewise: r is the middle of each, mean diameters.
 
         Returns
         -------
-        r : array
-        g : array
+        r : array, shape (bins,)
+        g : array, shape (bins,)
 
         Raises
         ------
@@ -203,10 +202,10 @@ class Methods:
     def monte_carlo(self, *, resume: bool | None = None, energy_unit: int | str | None = None, alpha: float | None = None, energy_scale: float | None = None, temperature: float | None = None, step: float | None = None, acceptance: float | None = None, swap_share: float | None = None, sweeps: int | None = None, run: int | None = None, first_sweep: int | None = None, wall_time: float | None = None, progress: Progressing = None) -> MonteCarloReport:
         """Metropolis Monte Carlo (J. Chem.
 
-        Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a preliminary run and then frozen.
-        After soft spheres the system allows overlaps, as by 'allow'. Random numbers depend on seed, run, sweep and
-        sphere alone. Velocities are dropped. observed_spheres() gives the displacements. An early stop can be
-        resumed, also from checkpoint_write(). Status: 'ok', 'cancelled', 'limit'.
+        Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a preliminary run and then frozen;
+        ArgumentError when no step is accepted. After soft spheres the system allows overlaps, as by 'allow'. Random
+        numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. observed_spheres() gives the
+        displacements. An early stop can be resumed, also from checkpoint_write().
 
         Parameters
         ----------
@@ -263,8 +262,8 @@ class Methods:
         return answer
 
     def isoconf_sums(self, block: int) -> IsoconfSumsResult:
-        """Sums over the runs of one block, or of all for block = -1: displacement (instants, n, d) and square (instants,
-        n, d) of dr_c, unit of the box; distance2, distance4 (instants, n) of |dr|^2, |dr|^4; runs in them..
+        """Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
+        distance2 and distance4 of |dr|^2 and |dr|^4; runs in them.
 
         Parameters
         ----------
@@ -274,7 +273,7 @@ class Methods:
         -------
         displacement : array, shape (instants, n, d)
         square : array, shape (instants, n, d)
-        distance2 : array
+        distance2 : array, shape (instants, n)
         distance4 : array, shape (instants, n)
         runs : int
 
@@ -286,7 +285,7 @@ class Methods:
         return answer
 
     def isoconf_series(self, block: int, column: int | str) -> Array:
-        """One IsoconfColumn of that block (or -1: all), a sum over runs at each instant.
+        """One column of that block (or -1: all), a sum over runs at each instant.
 
         Parameters
         ----------
@@ -295,7 +294,7 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (instants,)
 
         Raises
         ------
@@ -305,7 +304,7 @@ class Methods:
         return answer
 
     def isoconf_kept(self, instant: int) -> Array:
-        """Displacements (runs, n, d) at one kept instant, given by its index.
+        """Displacements at one kept instant, given by its index.
 
         Parameters
         ----------
@@ -313,7 +312,7 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (runs, n, d)
 
         Raises
         ------
@@ -333,7 +332,7 @@ class Methods:
         method : {'barrier_path', 'sequential_lp'}, optional
             CrunchMethod, default BARRIER_PATH; SEQUENTIAL_LP is what CALiPPSO does
         polish : bool, optional
-            1, the default: at the end close the contacts and balance the forces to rounding. A crunch then also ends
+            1: close the contacts at the end and balance the forces to rounding, default 1. A crunch then also ends
             where LPs below gain_tolerance still move rattlers. 0: keep the LP's answer (tol_mechanical_equilibrium:
             the extra LP past it)
         max_lps : int, optional
@@ -376,13 +375,13 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, OverlapError, TooFewError, MemoryError
+        ArgumentError, OverlapError, TooFewError
         """
         answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap)
         return answer
 
     def crunch_history(self, column: int | str) -> Array:
-        """One column (HistoryColumn) of the last crunch, a value a step.
+        """One column of the last crunch, a value a step.
 
         Parameters
         ----------
@@ -390,7 +389,7 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (steps,)
 
         Raises
         ------
@@ -400,14 +399,14 @@ class Methods:
         return answer
 
     def crunch_step_displacements(self) -> Array:
-        """Displacements (n, d) of all spheres in the step that has just ended, unit of box, images followed.
+        """Displacements of all spheres in the step that has just ended, unit of box, images followed.
 
         Their sum over the steps leads from the start to the end. This call and the next three work only in the
         progress callback of crunch() with steps = 1, when a step has just ended.
 
         Returns
         -------
-        array
+        array, shape (n, d)
 
         Raises
         ------
@@ -417,13 +416,13 @@ class Methods:
         return answer
 
     def crunch_step_contacts(self) -> Array:
-        """Linear contact network of an LP step: pairs (m, 2) of rows with a positive dual, rattlers included.
+        """Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included.
 
         Other steps have none.
 
         Returns
         -------
-        array
+        array, shape (m, 2)
 
         Raises
         ------
@@ -433,28 +432,36 @@ class Methods:
         return answer
 
     def crunch_step_vectors(self) -> Array:
-        """r_ij (m, d) of these pairs before the step, unit of box.
+        """r_ij of these pairs before the step, unit of box.
 
         Returns
         -------
-        array
+        array, shape (m, d)
+
+        Raises
+        ------
+        StateError
         """
         answer: Array = self.call('crunch_step_vectors')
         return answer
 
     def crunch_step_duals(self) -> Array:
-        """Duals lambda (m) of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum
+        """Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum
         lambda_ij sigma_ij^2 = 1 with the diameters before the step.
 
         Returns
         -------
-        array
+        array, shape (m,)
+
+        Raises
+        ------
+        StateError
         """
         answer: Array = self.call('crunch_step_duals')
         return answer
 
     def decompress_history(self, column: int | str) -> Array:
-        """One column (SoftColumn) of the last decompression.
+        """One column of the last decompression.
 
         Parameters
         ----------
@@ -462,7 +469,7 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (steps,)
 
         Raises
         ------
@@ -472,11 +479,11 @@ class Methods:
         return answer
 
     def contact_vectors(self) -> Array:
-        """Unit vectors (contacts, d), n = (r_i - r_j)/|r_i - r_j| of each pair.
+        """Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
 
         Returns
         -------
-        array
+        array, shape (contacts, d)
 
         Raises
         ------
@@ -486,14 +493,14 @@ class Methods:
         return answer
 
     def contact_gaps(self) -> Array:
-        """Gaps h of the contacts, length contacts.
+        """Gaps h of the contacts.
 
         After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the weakest contacts may
         stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f.
 
         Returns
         -------
-        array
+        array, shape (contacts,)
 
         Raises
         ------
@@ -507,7 +514,7 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (N',)
 
         Raises
         ------
@@ -549,11 +556,11 @@ class Methods:
         return answer
 
     def contact_candidates(self, window: float) -> ContactCandidatesResult:
-        """Candidates for the contact tolerance, for packings where no jump is clear: table (m, 4), columns as
-        CandidateColumn, m at most 12. A candidate is a jump of the sorted gaps below window, as in geometry_options,
-        with enough contacts for a rigid network below it.
+        """Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a
+        jump of the sorted gaps below window, as in geometry_options, with enough contacts for a rigid network below
+        it.
 
-        The largest jump comes first. No network needed.
+        The largest jump comes first.
 
         Parameters
         ----------
@@ -578,11 +585,11 @@ class Methods:
         return answer
 
     def stress_states(self, *, progress: Progressing = None) -> StressStatesResult:
-        """States of self-stress of the network:; force (n_c), mean 1, from the null space of S^T, not from LP duals;
-        basis (m, n_c) orthonormal; residual: one number, as force_residual.
+        """States of self-stress of the network:; force, mean 1, from the null space of S^T, not from LP duals; basis
+        orthonormal; residual: one number, as force_residual.
 
-        Status: 'ok', 'ambiguous' (m > 1: force is the centre of the non-negative ones), 'not_jammed' (m = 0 or no
-        force of one sign).
+        Status: 'ambiguous' (m > 1: force is the centre of the non-negative ones), 'not_jammed' (m = 0 or no force of
+        one sign).
 
         Parameters
         ----------
@@ -597,7 +604,7 @@ class Methods:
 
         Raises
         ------
-        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        StateError, SolverError, MemoryError, BusyError
         """
         answer: StressStatesResult = self.call('stress_states', progress=progress)
         return answer
@@ -613,8 +620,8 @@ class Methods:
         contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations of
         B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev, Torquato,
         Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith, arXiv:1301.0664;
-        Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. kind: a
-        RigidityKind. Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided, 'cancelled'.
+        Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status: 'ok' jammed,
+        'not_jammed', 'ambiguous' undecided.
 
         Parameters
         ----------
@@ -634,11 +641,11 @@ class Methods:
         return answer
 
     def flex(self, kind: int | str, *, progress: Progressing = None) -> FlexResult:
-        """A motion that a packing which is not jammed can follow: out (n, d), unit of the box, and strain (d, d), 0 for
-        the collective kind.
+        """A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective
+        kind.
 
         The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or
-        opens them. kind: a RigidityKind. Status: 'ok', 'cancelled'.
+        opens them.
 
         Parameters
         ----------
@@ -653,7 +660,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, SolverError, MemoryError, BusyError, StateError
+        ArgumentError, SolverError, StateError, MemoryError, BusyError
         """
         answer: FlexResult = self.call('flex', kind, progress=progress)
         return answer
@@ -663,9 +670,9 @@ class Methods:
 
         Contacts and forces are those of the network. Newton's steps take the centres to two doubles
         (refined_positions()). A factorisation with a bound of its rounding gives the smallest singular value, and
-        Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio (n): the exact ratios
-        of the diameters, in any unit; None with length 0 takes the diameters as they are. Status: 'ok' proved exact
-        or trapped, 'ambiguous' not proved (last_error() names the cause).
+        Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits. ratio: the exact ratios of
+        the diameters, in any unit; None takes the diameters as they are. Status: 'ok' proved exact or trapped,
+        'ambiguous' not proved (last_error() names the cause).
 
         Parameters
         ----------
@@ -677,7 +684,7 @@ class Methods:
 
         Raises
         ------
-        ArgumentError, NonfiniteError, StateError, UnsupportedError, MemoryError, BusyError
+        ArgumentError, NonfiniteError, StateError, UnsupportedError
         """
         answer: ProofReport = self.call('prove', ratio)
         return answer
@@ -686,44 +693,43 @@ class Methods:
         """Writes the exact numbers of the proof: refined centres, contacts, forces.
 
         bindings/proof/jamproof.py checks such a file with integers alone, without libjam. ratio: as for prove(). The
-        file appears whole or not at all. Status: 'ok', 'ambiguous' (dependent contacts: centres are not refined).
+        file appears whole or not at all. Status: 'ambiguous' (dependent contacts: centres are not refined).
 
         Parameters
         ----------
         path : str
-        ratio : array_like
+        ratio : array_like, shape (n,)
 
         Raises
         ------
-        ArgumentError, NonfiniteError, StateError, UnsupportedError, MemoryError, BusyError, IoError
+        ArgumentError, NonfiniteError, StateError, UnsupportedError, IoError
         """
         self.call('write_proof', path, ratio)
 
     def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
-        """Centres of the jammed packing as sums of two doubles, high + low, each (n, d), unit of the box: about 31
-        digits.
+        """Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits.
 
-        Rattlers stay where they are. ratio: as for prove(). Status: 'ok', 'ambiguous' (dependent contacts, nothing is
+        Rattlers stay where they are. ratio: as for prove(). Status: 'ambiguous' (dependent contacts, nothing is
         written).
 
         Parameters
         ----------
-        ratio : array_like
+        ratio : array_like, shape (n,)
 
         Returns
         -------
-        high : array
-        low : array
+        high : array, shape (n, d)
+        low : array, shape (n, d)
 
         Raises
         ------
-        ArgumentError, NonfiniteError, StateError, UnsupportedError, MemoryError, BusyError
+        ArgumentError, NonfiniteError, StateError, UnsupportedError
         """
         answer: RefinedPositionsResult = self.call('refined_positions', ratio)
         return answer
 
     def gaps(self, h_max: float, stable_only: int) -> GapsResult:
-        """Gaps h of all pairs below h_max (every image), contacts left out: gap ascending, pair (gaps, 2).
+        """Gaps h of all pairs below h_max (every image), contacts left out, ascending.
 
         With stable_only = 0 rattlers count too and no network is needed.
 
@@ -734,22 +740,22 @@ class Methods:
 
         Returns
         -------
-        gap : array
+        gap : array, shape (gaps,)
         pair : array, shape (gaps, 2)
 
         Raises
         ------
-        ArgumentError, StateError, MemoryError
+        ArgumentError, StateError
         """
         answer: GapsResult = self.call('gaps', h_max, stable_only)
         return answer
 
     def contact_classes(self) -> Array:
-        """Flags (ContactClass) of every contact, length n_c.
+        """Flags (ContactClass) of every contact.
 
         Returns
         -------
-        array
+        array, shape (n_c,)
 
         Raises
         ------
@@ -759,9 +765,9 @@ class Methods:
         return answer
 
     def sphere_structure(self, weighted: int) -> SphereStructureResult:
-        """c (n, d): C_i = sum_j n_ij, s (n): S_i = sum_{j<k} n_ij.
+        """c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij.
 
-        n_ik, with f n for n when weighted; 0 for rattlers..
+        n_ik, with f n for n when weighted; 0 for rattlers.
 
         Parameters
         ----------
@@ -774,7 +780,7 @@ class Methods:
 
         Raises
         ------
-        StateError
+        ArgumentError, StateError
         """
         answer: SphereStructureResult = self.call('sphere_structure', weighted)
         return answer
@@ -782,7 +788,7 @@ class Methods:
     def contact_dots(self, weighted: int) -> ContactDotsResult:
         """n_ij.
 
-        n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere;.
+        n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere.
 
         Parameters
         ----------
@@ -790,12 +796,12 @@ class Methods:
 
         Returns
         -------
-        dot : array
-        sphere : array
+        dot : array, shape (pairs,)
+        sphere : array, shape (pairs,)
 
         Raises
         ------
-        StateError
+        ArgumentError, StateError
         """
         answer: ContactDotsResult = self.call('contact_dots', weighted)
         return answer
@@ -810,11 +816,11 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (values,)
 
         Raises
         ------
-        StateError, ArgumentError
+        ArgumentError, StateError
         """
         answer: Array = self.call('class_values', quantity, which)
         return answer
@@ -833,11 +839,11 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (bins,)
 
         Raises
         ------
-        StateError, ArgumentError
+        ArgumentError, StateError
         """
         answer: Array = self.call('histogram', quantity, which, low, high, bins)
         return answer
@@ -846,7 +852,7 @@ class Methods:
         """S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean
         diameter, ascending.
 
-        Lengths that differ by less than 5e-13 of |q| are one. No network needed. Status: 'ok', 'cancelled'.
+        Lengths that differ by less than 5e-13 of |q| are one.
 
         Parameters
         ----------
@@ -856,12 +862,12 @@ class Methods:
 
         Returns
         -------
-        q : array
-        s : array
+        q : array, shape (m,)
+        s : array, shape (m,)
 
         Raises
         ------
-        ArgumentError, BusyError
+        ArgumentError, MemoryError, BusyError
         """
         answer: StructureFactorResult = self.call('structure_factor', q_max, progress=progress)
         return answer
@@ -870,8 +876,6 @@ class Methods:
         """Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff
         in (0, 3] (1.2 is usual).
 
-        No network needed.
-
         Parameters
         ----------
         l : int
@@ -879,11 +883,11 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (n,)
 
         Raises
         ------
-        ArgumentError, MemoryError
+        ArgumentError
         """
         answer: Array = self.call('bond_order', l, cutoff)
         return answer
@@ -891,8 +895,6 @@ class Methods:
     def crystal_score(self) -> float:
         """Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal
         spheres, about 10 in a perfect FCC crystal.
-
-        No network needed.
 
         Returns
         -------
@@ -902,11 +904,11 @@ class Methods:
         return answer
 
     def local_fraction(self) -> Array:
-        """Packing fraction of each sphere in its radical Voronoi cell, d = 3. No network needed.
+        """Packing fraction of each sphere in its radical Voronoi cell, d = 3.
 
         Returns
         -------
-        array
+        array, shape (n,)
 
         Raises
         ------
@@ -916,7 +918,7 @@ class Methods:
         return answer
 
     def floppy_mode(self, contact: int, *, progress: Progressing = None) -> Array:
-        """Floppy mode: displacement (N', d) over s when a contact opens by s.
+        """Floppy mode: displacement over s when a contact opens by s.
 
         To first order all other contacts stay closed, all diameters change by the factor 1 - s f / sum f sigma, and
         there is no net translation. contact in 0..n_c-1. Needs a single state of self-stress (StateError says how
@@ -930,19 +932,17 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (N', d)
 
         Raises
         ------
-        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        ArgumentError, StateError, SolverError, MemoryError, BusyError
         """
         answer: Array = self.call('floppy_mode', contact, progress=progress)
         return answer
 
     def floppy_modes(self, *, progress: Progressing = None) -> FloppyModesResult:
-        """The floppy mode of every contact, measured: table (n_c, 6), columns as FloppyColumn.
-
-        Status: 'ok', 'cancelled'.
+        """The floppy mode of every contact, measured.
 
         Parameters
         ----------
@@ -968,7 +968,7 @@ class Methods:
 
         Raises
         ------
-        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        StateError, SolverError, MemoryError, BusyError
         """
         answer: FloppyModesResult = self.call('floppy_modes', progress=progress)
         return answer
@@ -977,8 +977,7 @@ class Methods:
         """Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed,
         translations are left out.
 
-        table (points, 6), columns as DosColumn. With prestress omega starts below 0: unstable modes stand at
-        -sqrt(-lambda), and resolution is lower near 0. Status: 'ok', 'cancelled', 'not_jammed'.
+        With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near 0.
 
         Parameters
         ----------
@@ -1017,7 +1016,7 @@ class Methods:
 
         Raises
         ------
-        StateError, ArgumentError, MemoryError, SolverError, BusyError, TooFewError
+        ArgumentError, StateError, SolverError, TooFewError, MemoryError, BusyError
         """
         answer: DensityOfStatesResult = self.call('density_of_states', stiffness=stiffness, alpha=alpha, prestress=prestress, moments=moments, vectors=vectors, points=points, seed=seed, progress=progress)
         return answer
@@ -1025,8 +1024,7 @@ class Methods:
     def project(self, vector: Any = None, u: Any = None) -> Array:
         """Projections u.
 
-        v of a displacement u (N', d) on the modes vector (m, N', d) of modes(). Over all d N' modes their squares add
-        up to |u|^2.
+        v of a displacement u on the modes `vector` of modes(). Over all d N' modes their squares add up to |u|^2.
 
         Parameters
         ----------
@@ -1035,11 +1033,11 @@ class Methods:
 
         Returns
         -------
-        array
+        array, shape (m,)
 
         Raises
         ------
-        StateError, ArgumentError, NonfiniteError
+        ArgumentError, NonfiniteError, StateError
         """
         answer: Array = self.call('project', vector, u)
         return answer
@@ -1047,7 +1045,7 @@ class Methods:
     def curvature(self, u: Any = None, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None) -> float:
         """value = u.
 
-        H. u for a displacement u (N', d).
+        H. u for a displacement u.
 
         Parameters
         ----------
@@ -1066,15 +1064,13 @@ class Methods:
 
         Raises
         ------
-        StateError, ArgumentError, NonfiniteError
+        ArgumentError, NonfiniteError, StateError
         """
         answer: float = self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
         return answer
 
     def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
-        """Elastic moduli.
-
-        Status: 'ok', 'cancelled', 'not_jammed'.
+        """Elastic moduli; StateError also when prestress makes the network unstable.
 
         Parameters
         ----------
@@ -1094,7 +1090,7 @@ class Methods:
 
         Raises
         ------
-        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        ArgumentError, StateError, SolverError, MemoryError, BusyError
         """
         answer: Moduli = self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
         return answer
@@ -1102,9 +1098,8 @@ class Methods:
     def elastic_tensor(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ElasticTensorResult:
         """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x.
 
-        Tables (d, d, d, d), unit as moduli, needed = d^4. affine: spheres move by E alone; relaxed: then forces
-        balance. With prestress c_abcd and c_bacd differ: a rotation of stressed contacts counts. Status: 'ok',
-        'cancelled', 'not_jammed'.
+        Unit as moduli. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
+        c_bacd differ: a rotation of stressed contacts counts.
 
         Parameters
         ----------
@@ -1120,21 +1115,19 @@ class Methods:
 
         Returns
         -------
-        affine : array
-        relaxed : array
+        affine : array, shape (d, d, d, d)
+        relaxed : array, shape (d, d, d, d)
 
         Raises
         ------
-        StateError, ArgumentError, MemoryError, SolverError, BusyError
+        ArgumentError, StateError, SolverError, MemoryError, BusyError
         """
         answer: ElasticTensorResult = self.call('elastic_tensor', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
         return answer
 
     def compare(self, other: Any) -> CompareResult:
-        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out (n, d) from
-        sys to other, nearest images, without its mean over spheres stable in both.
-
-        No network needed.
+        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to
+        other, nearest images, without its mean over spheres stable in both.
 
         Parameters
         ----------
@@ -1144,10 +1137,6 @@ class Methods:
         -------
         comparison : Comparison
         out : array, shape (n, d)
-
-        Raises
-        ------
-        ArgumentError
         """
         answer: CompareResult = self.call('compare', other)
         return answer
@@ -1306,7 +1295,7 @@ def _call(name: str, *args: Any, **named: Any) -> Any:
 
 
 def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:
-    """pressure of a EosForm at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
+    """pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
 
     Parameters
     ----------
@@ -1328,12 +1317,12 @@ def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: flo
 
 
 def glass_fit(fraction: Any, pressure: Any) -> Glass:
-    """Least squares on 1/pressure against fraction, at least 3 points.
+    """Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
 
     Parameters
     ----------
-    fraction : array_like
-    pressure : array_like
+    fraction : array_like, shape (m,)
+    pressure : array_like, shape (m,)
 
     Returns
     -------
@@ -1341,7 +1330,7 @@ def glass_fit(fraction: Any, pressure: Any) -> Glass:
 
     Raises
     ------
-    ArgumentError, TooFewError
+    ArgumentError, NonfiniteError, TooFewError
     """
     answer: Glass = _call('glass_fit', fraction, pressure)
     return answer

@@ -1,0 +1,105 @@
+"""The tags in the comments of the header. They and the declarations are all that code is generated from; prose goes into
+documentation alone. The top of the header says how they are written.
+
+    @shape out (n, d), table (m, jam_x_column)    of a function: shape of every array
+    @enum kind jam_x, form jam_y                  of a function: whose values an argument takes
+    @errors STATE (why), IO                       of a function: beside the common errors
+    @enum jam_x, @bool                            of a member, anywhere in its comment
+"""
+import re
+
+FUNCTION_TAGS = ("shape", "enum", "errors", "since")
+
+
+class HeaderError(Exception):
+    """The header has something that the rules of the project do not foresee."""
+
+
+def _pairs(text, pattern, what):
+    found = re.findall(pattern, text)
+    if re.sub(pattern, "", text).replace(",", "").strip():
+        raise HeaderError(f"{what} is not understood: {text}")
+    return found
+
+
+def of_function(name, comment):
+    """(prose, {array: (extents)}, {argument: enum}, [(error, why)])."""
+    parts = re.split(r"\s*@(\w+)\s+", " ".join(comment.split()))
+    tags = dict(zip(parts[1::2], parts[2::2]))
+    unknown = [t for t in parts[1::2] if t not in FUNCTION_TAGS or parts[1::2].count(t) > 1]
+    if unknown:
+        raise HeaderError(f"{name}: @{unknown[0]} is unknown or stands twice")
+    shapes = _pairs(tags.get("shape", ""), r"(\w+) \(([^()]*)\)", f"{name}: @shape")
+    enums = _pairs(tags.get("enum", ""), r"(\w+) (jam_\w+)", f"{name}: @enum")
+    errors = _pairs(tags.get("errors", ""), r"\b([A-Z_]+)(?: \(([^()]*)\))?", f"{name}: @errors")
+    prose = re.split(r"\s*@(?:shape|enum|errors|since)\b", comment)[0]
+    return prose, {a: tuple(e.strip() for e in s.split(",")) for a, s in shapes}, dict(enums), errors
+
+
+def of_member(name, comment):
+    """(readable comment, its enum or None, whether it is 0 or 1)."""
+    tags = re.findall(r"@(\w+)", comment)
+    if [t for t in tags if t not in ("enum", "bool")] or len(tags) > 1:
+        raise HeaderError(f"{name}: a member has one tag, @enum jam_x or @bool, not {comment}")
+    enum = re.search(r"@enum (jam_\w+)", comment)
+    return re.sub(r"@bool\b", "1:", comment.replace("@enum ", "")), enum and enum.group(1), "@bool" in comment
+
+
+def readable(f):
+    """The comment of a function for people who read it in another language: tags in words."""
+    shapes = ", ".join(f"{a} ({', '.join(e)})" for a, e in f.shapes.items())
+    errors = ", ".join(f"JAM_E_{e}" + (f" ({why})" if why else "") for e, why in f.errors)
+    tail = [f"Shapes: {shapes}."] * bool(shapes) + [f"Errors: {errors}."] * bool(errors)
+    return "\n".join([f.prose] * bool(f.prose) + tail)
+
+
+def check(api):
+    """Refuses tags that do not fit the declarations, and declarations that lack a tag."""
+    enums = {e.name for e in api.enums}
+    for s in api.structs:
+        for m in s.members:
+            if m.enum and m.enum not in enums:
+                raise HeaderError(f"{s.name}.{m.name}: there is no enum {m.enum}")
+            named = [w for w in re.findall(r"jam_\w+", m.doc) if w in enums]
+            if m.type == "int32_t" and named and not m.enum:
+                raise HeaderError(f"{s.name}.{m.name} names {named[0]}: write @enum {named[0]}")
+            if m.type != "int32_t" and (m.enum or m.bool):
+                raise HeaderError(f"{s.name}.{m.name}: only an int32_t holds an enum or a bool")
+    for f in api.functions:
+        arrays = [a.name for a in f.args if a.role in ("array_in", "array_out")]
+        if sorted(arrays) != sorted(f.shapes):
+            raise HeaderError(f"{f.name}: @shape has {sorted(f.shapes)}, and its arrays are {sorted(arrays)}")
+        for a, e in f.enums.items():
+            if e not in enums or not any(b.name == a and b.role == "scalar" for b in f.args):
+                raise HeaderError(f"{f.name}: @enum {a} {e} names no argument or no enum")
+        for a, extents in f.shapes.items():
+            if (a == "table") != (extents[-1] in enums):
+                raise HeaderError(f"{f.name}: the last extent of a table, and of no other array, is the enum of its columns")
+
+
+def columns_of(f, api):
+    """Of a function that fills a `table`: the enum of its columns."""
+    return next(e for e in api.enums if e.name == f.shapes["table"][-1]) if "table" in f.shapes else None
+
+
+def last_extent(f, a, api):
+    """Last extent of an array of rank 2 and more where it is known before the call: "d", "n" or a number. It is the first
+    extent of the Fortran array."""
+    if a.name == "table":
+        return len(columns_of(f, api).items)
+    extents = f.shapes[a.name]
+    if len(extents) > 1 and (extents[-1] in ("d", "n") or extents[-1].isdigit()):
+        return int(extents[-1]) if extents[-1].isdigit() else extents[-1]
+    return None
+
+
+def stripped(text):
+    """The header with comments of which only the tags are left: it must generate the same code."""
+
+    def tags(found):
+        inner = " ".join(re.sub(r"\n\s*\* ?", " ", found.group(1)).split())
+        member = re.findall(r"@enum jam_\w+|@bool\b", inner)
+        start = re.search(r"@(?:shape|enum|errors) (?!jam_)", inner)
+        return f"/* {inner[start.start() :] if start else ' '.join(member)} */"
+
+    return re.sub(r"/\*((?:(?!\*/).)*)\*/", tags, text, flags=re.S)

@@ -1,0 +1,66 @@
+"""Prose of the header changes no generated code: a header with nothing but tags in its comments generates the same."""
+import argparse
+import ast
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bindings/gen"))
+
+import annotations  # noqa: E402
+import generate  # noqa: E402
+from model import read_header  # noqa: E402
+
+FROM_HEADER = [name for name in generate.FILES if "ptions" not in name and name.endswith((".jl", ".f90", ".i", ".py", ".c"))]
+HEADING = re.compile(r"^(\w+ : .*|Parameters|Returns|Raises|\w+Error(, \w+Error)*)$")
+
+
+def python_code(text):
+    """Names, types and values; of docstrings what stands in them as code: parameters, types, shapes, exceptions."""
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "OPTIONS":
+            for options in node.value.values:
+                options.values = [v.elts[0] for v in options.values]  # without the meaning
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.Module)) and ast.get_docstring(node) is not None:
+            lines = [line.strip() for line in ast.get_docstring(node).splitlines()]
+            node.body[0].value.value = [line for line in lines if HEADING.match(line)]
+    return ast.dump(tree, indent=1)
+
+
+def code(name, text):
+    """A generated file without what it says to people."""
+    if name.endswith(".py"):
+        return python_code(text)
+    if name.endswith(".jl"):
+        text = re.sub(r'""".*?"""\n', "", text, flags=re.S)
+    if name.endswith(".i"):
+        text = re.sub(r'%feature\("docstring"\) (\w+) ".*?(?<!\\)"\n', r"\1\n", text, flags=re.S)
+    comment = {".jl": "#", ".f90": "!"}.get(Path(name).suffix)
+    lines = [line.split(comment)[0].rstrip() if comment else line for line in text.splitlines()]
+    return "\n".join(line for line in lines if line)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--swig", default="swig")
+    swig = parser.parse_args().swig
+    header = ROOT / "include/jam/jam.h"
+    bare = annotations.stripped(header.read_text())
+    words = sum(len(c.split()) for c in re.findall(r"/\*(.*?)\*/", bare, re.S))
+    assert words < 0.2 * sum(len(c.split()) for c in re.findall(r"/\*(.*?)\*/", header.read_text(), re.S)), words
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / "jam.h"
+        copy.write_text(bare)
+        full, without = read_header(header, swig), read_header(copy, swig)
+    assert len(FROM_HEADER) == 6, FROM_HEADER
+    changed = [n for n in FROM_HEADER if code(n, generate.FILES[n](full)) != code(n, generate.FILES[n](without))]
+    if changed:
+        sys.exit(f"prose of {header} decides on code in {', '.join(changed)}")
+    print(f"{len(full.functions)} functions, {len(full.structs)} structs: the same code without prose")
+
+
+if __name__ == "__main__":
+    main()

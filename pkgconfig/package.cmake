@@ -82,10 +82,10 @@ file(GLOB pages ${PROJECT_SOURCE_DIR}/bindings/docs/*.md ${PROJECT_SOURCE_DIR}/R
 install(FILES ${pages} DESTINATION share/doc/jam-doc COMPONENT doc)
 foreach(language c cpp fortran julia python)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/${language} DESTINATION share/doc/jam-doc/examples COMPONENT doc
-          PATTERN jam-pack EXCLUDE PATTERN __pycache__ EXCLUDE)
+          PATTERN __pycache__ EXCLUDE)
 endforeach()
 
-if(JAM_BUILD_EXAMPLES)
+if(JAM_BUILD_CLI)
   list(APPEND CPACK_COMPONENTS_ALL tools)
   jam_package(tools jam-tools science "Jammed packings of hard spheres: program jam-pack")
   set(CPACK_COMPONENT_TOOLS_DEPENDS runtime)

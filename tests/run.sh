@@ -43,7 +43,7 @@ if wants clang; then
 echo "== clang"
 # -O1 and the tests of the interface alone: what clang adds are its warnings and another code generator.
 cmake -S . -B build-clang -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
-  -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+  -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 -DJAM_WERROR=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 cmake --build build-clang -j "$jobs"
 ctest --test-dir build-clang -j "$jobs" -L capi -LE long --output-on-failure --no-tests=error || status=1
 fi
@@ -54,7 +54,8 @@ echo "== address and undefined-behaviour sanitizers"
 # of events.
 # shellcheck disable=SC2086
 cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-  -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON -DJAM_BUILD_EXAMPLES=OFF $bindings >/dev/null
+  -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON \
+  -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF $bindings >/dev/null
 cmake --build build-asan -j "$jobs"
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 export ASAN_OPTIONS=detect_stack_use_after_return=1
@@ -70,7 +71,7 @@ fi
 if wants threads; then
 echo "== thread sanitizer"
 cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-  -DJAM_SANITIZE=thread -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+  -DJAM_SANITIZE=thread -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 # What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on two threads.
 threaded='capi_thread_gate capi_host_state capi_isoconfigurational'
 # shellcheck disable=SC2086

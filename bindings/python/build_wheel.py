@@ -52,6 +52,7 @@ def _installed(folder: str, build: str | None) -> Path:
         "-DJAM_BUILD_PYTHON=ON",
         "-DJAM_BUILD_TESTS=OFF",
         "-DJAM_BUILD_EXAMPLES=OFF",
+        "-DJAM_BUILD_CLI=OFF",
         f"-DJAM_PYTHON={sys.executable}",
         f"-DCMAKE_INSTALL_PREFIX={prefix}",
         "-DCMAKE_INSTALL_LIBDIR=jam",

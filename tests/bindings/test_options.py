@@ -27,16 +27,16 @@ class Options(unittest.TestCase):
     def test_every_text_has_every_option(self):
         mine = names(self.pack("--help").stdout)
         self.assertIn("--method", mine)
-        manual = gzip.decompress((Path(PACK).parent / "examples/jam-pack.1.gz").read_bytes()).decode()
+        manual = gzip.decompress((Path(PACK).parent / "bindings/cli/jam-pack.1.gz").read_bytes()).decode()
         self.assertEqual(names(manual.replace("\\-", "-")), mine)
-        self.assertEqual(names((ROOT / "pkgconfig/completion/_jam-pack").read_text()), mine)
-        self.assertEqual(names((ROOT / "pkgconfig/completion/jam-pack.bash").read_text()), mine)
+        self.assertEqual(names((ROOT / "bindings/cli/completion/_jam-pack").read_text()), mine)
+        self.assertEqual(names((ROOT / "bindings/cli/completion/jam-pack.bash").read_text()), mine)
         page = (ROOT / "bindings/docs/command_line.md").read_text()
         self.assertEqual({"--" + n for n in re.findall(r"^\| `--([\w-]+)", page, re.M)}, mine | {"--vtk", "--plot"})
 
     def complete(self, *words):
         script = (
-            f". {ROOT}/pkgconfig/completion/jam-pack.bash; COMP_WORDS=(jam-pack {' '.join(words)}); "
+            f". {ROOT}/bindings/cli/completion/jam-pack.bash; COMP_WORDS=(jam-pack {' '.join(words)}); "
             f'COMP_CWORD={len(words)}; _jam_pack; echo "${{COMPREPLY[@]}}"'
         )
         return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True).stdout.split()

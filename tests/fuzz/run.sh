@@ -10,7 +10,8 @@ found=${2:-$root/build-fuzz/found}
 cd "$root"
 cmake -S . -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
   -DCMAKE_C_FLAGS="-O1 -fsanitize=fuzzer-no-link" -DCMAKE_CXX_FLAGS="-O1 -fsanitize=fuzzer-no-link" -DJAM_FUZZ=ON \
-  -DJAM_SANITIZE=address,undefined -DJAM_DIMENSIONS="2;3" -DJAM_WERROR=ON -DJAM_BUILD_EXAMPLES=OFF >/dev/null
+  -DJAM_SANITIZE=address,undefined -DJAM_DIMENSIONS="2;3" -DJAM_WERROR=ON \
+  -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 cmake --build build-fuzz --target fuzz_read fuzz_checkpoint fuzz_calls
 status=0
 if [ -w /dev/shm ]; then export TMPDIR=/dev/shm; fi  # files that targets write

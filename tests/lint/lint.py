@@ -145,6 +145,7 @@ def file_sizes():
         "tests/**/*.py",
         "examples/**/*.[ch]",
         "examples/**/*.py",
+        "bindings/**/*.[ch]",
         "bindings/**/*.py",
     ):
         count = len(path.read_text().splitlines())
@@ -233,6 +234,7 @@ def plain_words():
         "examples/**/*.py",
         "examples/**/*.sh",
         "pkgconfig/*",
+        "bindings/**/*.[ch]",
         "bindings/**/*.py",
     ):
         text = path.read_bytes()

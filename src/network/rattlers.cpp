@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "jam/jam.h"
@@ -10,94 +10,115 @@
 namespace jam {
 namespace {
 
-// Distance of the origin from the convex hull of the contact vectors, above which no forces can balance. A smaller
-// distance is left to the test of the whole network, so that this rule never takes out a sphere that carries force.
+// Distance of the origin from the convex hull of the contact vectors, above which no forces can balance, while vectors
+// may still change: this rule never takes out a sphere that carries force at the end.
 constexpr double clear_distance = 1e-3;
 
-// Non-negative least squares of (N f, sum f) = (0, 1) by the active set of Lawson and Hanson (Solving Least Squares
-// Problems, 1974, ch. 23), N with the contact vectors as columns. With the residual (-p, s) every vector has n . p >=
-// s, and |p|^2 = s - s^2: the hull lies at the distance sqrt(s / (1 - s)) from the origin, in the direction p.
-class HullDistance {
+// The point of the hull of contact vectors nearest to the origin (P. Wolfe, Math. Programming 11, 128 (1976)). It is a
+// sum of unit vectors, so its error is a rounding of 1, however near it is.
+class NearestPoint {
  public:
-  explicit HullDistance(int dim) : d_(dim) {}
+  explicit NearestPoint(int dim) : d_(dim) {}
 
-  double operator()(const std::vector<double> &normal, std::vector<double> &direction) {
+  // The largest s found for which a unit vector `direction` has n . direction >= s for every contact vector n: the
+  // distance of the hull from the origin but for rounding. 0 where the origin is inside.
+  double distance(const std::vector<double> &normal, std::vector<double> &direction) {
     const int z = static_cast<int>(normal.size()) / d_;
-    force_.assign(z, 0.0), passive_.clear();
-    Column residual = target();
-    for (int pass = 0; pass < 3 * z + 10; ++pass) {
-      int best = -1;
-      double slope = 1e-12;
-      for (int k = 0; k < z; ++k) {
-        if (force_[k] > 0.0) continue;
-        const double now = column(normal, k).dot(residual);
-        if (now > slope) slope = now, best = k;
-      }
-      if (best < 0 || static_cast<int>(passive_.size()) > d_) break;
-      passive_.push_back(best);
-      if (!settle(normal)) break;
-      residual = target();
-      for (const int k : passive_) residual -= force_[k] * column(normal, k);
+    support_.assign(1, 0), weight_.assign(1, 1.0);
+    Column x = point(normal);
+    for (int pass = 0; pass < 3 * z + 10 && static_cast<int>(support_.size()) <= d_; ++pass) {
+      const int farthest = lowest(normal, x);
+      if (!(column(normal, farthest).dot(x) < x.dot(x) * (1.0 - 1e-12))) break;
+      if (std::find(support_.begin(), support_.end(), farthest) != support_.end()) break;
+      support_.push_back(farthest), weight_.push_back(0.0);
+      settle(normal);
+      x = point(normal);
     }
-    const double s = residual[d_];
+    const double length = x.norm();
     direction.assign(d_, 0.0);
-    double length = 0.0;
-    for (int c = 0; c < d_; ++c) length += residual[c] * residual[c];
-    if (!(length > 0.0) || !(s > 0.0)) return 0.0;
-    for (int c = 0; c < d_; ++c) direction[c] = -residual[c] / std::sqrt(length);
-    return s < 1.0 ? std::sqrt(s / (1.0 - s)) : 1.0;
+    if (!(length > 0.0)) return 0.0;
+    x = straight(normal, x / length);
+    for (int c = 0; c < d_; ++c) direction[c] = x[c];
+    return std::max(0.0, column(normal, lowest(normal, x)).dot(x));
   }
 
  private:
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, JAM_MAX_DIM + 1, 1>;
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, JAM_MAX_DIM + 1, JAM_MAX_DIM + 1>;
 
-  Column target() const {
-    Column t = Column::Zero(d_ + 1);
-    t[d_] = 1.0;
-    return t;
-  }
   Column column(const std::vector<double> &normal, int k) const {
-    Column a(d_ + 1);
-    for (int c = 0; c < d_; ++c) a[c] = normal[static_cast<size_t>(k) * d_ + c];
-    a[d_] = 1.0;
+    return Eigen::Map<const Eigen::VectorXd>(&normal[static_cast<size_t>(k) * d_], d_);
+  }
+  int lowest(const std::vector<double> &normal, const Column &x) const {
+    const int z = static_cast<int>(normal.size()) / d_;
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < z; ++k) {
+      const double now = column(normal, k).dot(x);
+      if (now < least) least = now, best = k;
+    }
+    return best;
+  }
+  Column point(const std::vector<double> &normal) const {
+    Column x = Column::Zero(d_);
+    for (size_t q = 0; q < support_.size(); ++q) x += weight_[q] * column(normal, support_[q]);
+    return x;
+  }
+  // Differences of the support, which span its plane.
+  Small plane(const std::vector<double> &normal) const {
+    Small a(d_, support_.size() - 1);
+    for (size_t q = 1; q < support_.size(); ++q)
+      a.col(q - 1) = column(normal, support_[q]) - column(normal, support_[0]);
     return a;
   }
-  // Least squares on the passive set; columns that turn negative leave it. False when the set no longer changes.
-  bool settle(const std::vector<double> &normal) {
-    const int added = passive_.back();
-    while (!passive_.empty()) {
-      Small a(d_ + 1, passive_.size());
-      for (size_t q = 0; q < passive_.size(); ++q) a.col(q) = column(normal, passive_[q]);
-      const Column x = a.colPivHouseholderQr().solve(target());
-      double step = 1.0;
-      for (size_t q = 0; q < passive_.size(); ++q)
-        if (!(x[q] > 0.0)) step = std::min(step, force_[passive_[q]] / (force_[passive_[q]] - x[q]));
-      bool cut = false;
-      std::vector<int> kept;
-      for (size_t q = 0; q < passive_.size(); ++q) {
-        double &f = force_[passive_[q]];
-        f = step < 1.0 || !(x[q] > 0.0) ? f + step * (x[q] - f) : x[q];
-        if (f > 1e-14)
-          kept.push_back(passive_[q]);
-        else
-          f = 0.0, cut = true;
-      }
-      passive_ = kept;
-      if (!cut) return true;
+  // Weights of the nearest point of that plane, signs free.
+  std::vector<double> of_plane(const std::vector<double> &normal) const {
+    std::vector<double> y(1, 1.0);
+    if (support_.size() == 1) return y;
+    const Column t = plane(normal).colPivHouseholderQr().solve(-column(normal, support_[0]));
+    for (const double w : t) y.push_back(w), y[0] -= w;
+    return y;
+  }
+  // A direction off the plane by the rounding of a near point is made normal to it.
+  Column straight(const std::vector<double> &normal, Column x) const {
+    if (support_.size() == 1) return x;
+    const Small a = plane(normal);
+    const Eigen::ColPivHouseholderQR<Small> qr(a);
+    for (int pass = 0; pass < 2 && x.norm() > 0.5; ++pass) {
+      x -= a * qr.solve(x);
+      x.normalize();
     }
-    return force_[added] > 0.0;
+    return x;
+  }
+  // Weights of the nearest point of the hull of the support; vectors without weight leave it.
+  void settle(const std::vector<double> &normal) {
+    for (;;) {
+      const std::vector<double> y = of_plane(normal);
+      double step = 1.0;
+      for (size_t q = 0; q < y.size(); ++q)
+        if (!(y[q] > 0.0)) step = std::min(step, weight_[q] / (weight_[q] - y[q]));
+      std::vector<int> kept;
+      std::vector<double> weight;
+      for (size_t q = 0; q < y.size(); ++q) {
+        const double w = weight_[q] + step * (y[q] - weight_[q]);
+        if (w > 1e-15) kept.push_back(support_[q]), weight.push_back(w);
+      }
+      const bool all = kept.size() == support_.size();
+      support_ = kept, weight_ = weight;
+      if (all || support_.size() < 2) return;
+    }
   }
 
   int d_;
-  std::vector<double> force_;
-  std::vector<int> passive_;
+  std::vector<int> support_;
+  std::vector<double> weight_;
 };
 
 }  // namespace
 
 std::vector<Release> release_unbalanced(int d, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
-                                        const std::vector<double> &normal, std::vector<char> &on) {
+                                        const std::vector<double> &normal, std::vector<char> &on,
+                                        const std::vector<double> &error) {
   std::vector<Release> out;
   std::vector<std::vector<size_t>> of(n);
   for (size_t k = 0; k < on.size(); ++k)
@@ -105,7 +126,7 @@ std::vector<Release> release_unbalanced(int d, size_t n, const std::vector<int32
   std::vector<char> queued(n, 1);
   std::vector<size_t> queue(n);
   std::iota(queue.begin(), queue.end(), size_t{0});
-  HullDistance distance(d);
+  NearestPoint hull(d);
   std::vector<double> vectors, direction;
   while (!queue.empty()) {
     const size_t s = queue.back();
@@ -113,13 +134,15 @@ std::vector<Release> release_unbalanced(int d, size_t n, const std::vector<int32
     queued[s] = 0;
     std::vector<size_t> live;
     vectors.clear();
+    double clear = error.empty() ? clear_distance : 0.0;
     for (const size_t k : of[s]) {
       if (!on[k]) continue;
       live.push_back(k);
+      if (!error.empty()) clear = std::max(clear, error[k]);
       const double sign = static_cast<size_t>(i[k]) == s ? 1.0 : -1.0;
       for (int c = 0; c < d; ++c) vectors.push_back(sign * normal[k * d + c]);
     }
-    if (live.empty() || !(distance(vectors, direction) > clear_distance)) continue;
+    if (live.empty() || !(hull.distance(vectors, direction) > clear)) continue;
     for (const size_t k : live) {
       on[k] = 0;
       const size_t other = static_cast<size_t>(i[k]) == s ? j[k] : i[k];

@@ -19,13 +19,15 @@ void drop_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std
 // again. The rule above would take out spheres that are on their way into balance.
 void drop_loose(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j, std::vector<char> &on);
 
-// As drop_unbalanced, and how each sphere can leave its contacts: in the order in which spheres were taken out.
+// As drop_unbalanced, and how each sphere can leave its contacts: in the order in which spheres were taken out. error:
+// largest error of each contact vector, below which a balance cannot be excluded; empty: vectors may be off by 1e-3.
 struct Release {
   int32_t sphere;
   std::vector<size_t> contacts;   // that were still on
   std::vector<double> direction;  // unit vector with a positive component along each of them
 };
 std::vector<Release> release_unbalanced(int dim, size_t n, const std::vector<int32_t> &i, const std::vector<int32_t> &j,
-                                        const std::vector<double> &normal, std::vector<char> &on);
+                                        const std::vector<double> &normal, std::vector<char> &on,
+                                        const std::vector<double> &error = {});
 
 }  // namespace jam

@@ -4,8 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jam {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network) {
   RigidityMatrix g;
@@ -17,6 +23,10 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
       g.node[i] = g.nodes++;
       g.sphere.push_back(static_cast<int32_t>(i));
     }
+  // Two coordinates are off by half a unit in their last place each.
+  double largest = 0.0;
+  for (const double x : p.position) largest = std::max(largest, std::fabs(x));
+  g.rounding = std::sqrt(static_cast<double>(d)) * (std::nextafter(largest, HUGE_VAL) - largest);
   std::vector<double> r(d);
   for (size_t k = 0; k < network.size(); ++k) {
     const int32_t i = network.pairs.i[k], j = network.pairs.j[k];
@@ -35,6 +45,7 @@ RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &netw
 RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
   RigidityMatrix out;
   const size_t d = static_cast<size_t>(out.dim = g.dim);
+  out.rounding = g.rounding;
   out.node.assign(static_cast<size_t>(g.nodes), -1);
   for (size_t k = 0; k < g.contacts(); ++k)
     if (on[k]) out.node[g.a[k]] = out.node[g.b[k]] = 0;
@@ -49,6 +60,12 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on) {
     if (!g.force.empty()) out.force.push_back(g.force[k]);
     if (!g.stiffness.empty()) out.stiffness.push_back(g.stiffness[k]), out.prestress.push_back(g.prestress[k]);
   }
+  return out;
+}
+
+std::vector<double> direction_errors(const RigidityMatrix &g) {
+  std::vector<double> out(g.contacts(), 4.0 * epsilon);
+  for (size_t k = 0; k < g.distance.size(); ++k) out[k] += g.rounding / g.distance[k];
   return out;
 }
 

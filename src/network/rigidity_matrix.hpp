@@ -19,6 +19,7 @@ struct RigidityMatrix {
   std::vector<double> normal;                // (contacts, dim) unit vector from b to a
   std::vector<double> distance;              // |r_ij| of each contact
   std::vector<double> sigma;                 // sigma_ij of each contact
+  double rounding = 0.0;                     // largest error of a vector r_ij, as coordinates are rounded
   std::vector<double> force;                 // mean 1; empty when it is not known
   std::vector<double> stiffness, prestress;  // of soft spheres, as in ContactNetwork; else empty
   size_t contacts() const { return a.size(); }
@@ -28,6 +29,9 @@ struct RigidityMatrix {
 RigidityMatrix make_rigidity_matrix(const Packing &p, const ContactNetwork &network);
 // The rows that are `on`, and the nodes that they touch; its `sphere` are nodes of g, its `node` those of g too.
 RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
+
+// Largest error of each unit vector.
+std::vector<double> direction_errors(const RigidityMatrix &g);
 
 // y (contacts) = S x: relative normal displacement of every contact, n . (x_a - x_b).
 void apply_compatibility(const RigidityMatrix &g, const double *x, double *y);

@@ -170,17 +170,16 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const 
   return out;
 }
 
-// Forces that do not balance may have come over spheres with d contacts or fewer, whose forces are nearly but not quite
-// along one line or plane: none of them carries force, and each can slip out. Without them the rest may be proved
-// jammed. False where it is not.
-static bool test_without_bridges(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point,
-                                 RigidityResult &out) {
-  std::vector<int32_t> degree(g.nodes, 0);
-  std::vector<char> on(out.carrying);
-  for (size_t k = 0; k < g.contacts(); ++k)
-    if (on[k]) ++degree[g.a[k]], ++degree[g.b[k]];
-  for (size_t k = 0; k < g.contacts(); ++k) on[k] = on[k] && degree[g.a[k]] > g.dim && degree[g.b[k]] > g.dim;
-  if (on == out.carrying || std::count(on.begin(), on.end(), 1) == 0) return false;
+// Spheres whose contact vectors nearly but not quite balance, as two that are opposite but for 1e-6, carry no force,
+// and each can slip out. Vectors are known to rounding, so that none is too near to a balance. Without them the rest
+// may be proved jammed. False where it is not.
+static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point,
+                                    RigidityResult &out) {
+  std::vector<char> clear(g.contacts(), 1), on(g.contacts(), 1);
+  const auto nodes = static_cast<size_t>(g.nodes);
+  release_unbalanced(g.dim, nodes, g.a, g.b, g.normal, on, direction_errors(g));
+  drop_unbalanced(g.dim, nodes, g.a, g.b, g.normal, clear);
+  if (on == clear || std::count(on.begin(), on.end(), 1) == 0) return false;
   RigidityResult part = find_verdict(subset(g, on), kind, cancel_point);
   if (part.jammed != Verdict::yes) return false;
   out = part;
@@ -194,8 +193,9 @@ static bool test_without_bridges(const RigidityMatrix &g, Jamming kind, const Ca
 RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
   const BlasSingleThread single;
   RigidityResult out = find_verdict(g, kind, cancel_point);
-  if (out.jammed != Verdict::no || g.contacts() == 0 || !out.flex.empty()) return out;
-  if (!(out.force_residual < most_residual) && test_without_bridges(g, kind, cancel_point, out)) return out;
+  if (out.jammed == Verdict::yes || g.contacts() == 0) return out;
+  if (test_without_unbalanced(g, kind, cancel_point, out)) return out;
+  if (out.jammed != Verdict::no || !out.flex.empty()) return out;
   const bool stressed = out.stressed == Verdict::yes, useless = !(out.force_residual < useless_residual);
   if (stressed && useless) {
     out = RigidityResult();

@@ -1,0 +1,124 @@
+// A sphere between two others of a jammed packing, whose directions are opposite but for a deviation: it carries no
+// force, so the packing stays jammed. At a deviation of 0 the three carry force, and the sphere can slip out sideways.
+// Clp and a dense rank judge the packing without that sphere.
+#include <algorithm>
+#include <cmath>
+
+#include "capi/system.hpp"
+#include "core/pair_rule.hpp"
+#include "network/rigidity_test.hpp"
+#include "rigidity_oracle.hpp"
+// Last: cmocka defines a macro `fail`.
+extern "C" {
+#include "test.h"
+}
+
+using namespace jam;
+using namespace jamtest;
+
+namespace {
+
+struct Sys {
+  jam_system *sys = nullptr;
+  ~Sys() { jam_destroy(sys); }
+};
+
+void make(Sys &s, int dim, int64_t n, int64_t seed) {
+  jam_create_options o;
+  jam_create_options_init(&o, sizeof o);
+  o.dim = dim, o.n = n, o.seed = seed;
+  std::vector<double> sigma(static_cast<size_t>(n), 1.0);
+  for (size_t k = 0; k < sigma.size() / 2 && dim == 2; ++k) sigma[k] = 1.4;
+  assert_int_equal(jam_create(&o, nullptr, 0, sigma.data(), sigma.size(), &s.sys), JAM_OK);
+  jam_compress_options c;
+  jam_compress_options_init(&c, sizeof c);
+  c.growth_rate = 1e-2, c.pressure = 500.0;
+  assert_int_equal(jam_compress(s.sys, &c, nullptr), JAM_OK);
+  assert_int_equal(jam_crunch(s.sys, nullptr, nullptr), JAM_OK);
+}
+
+double nearest_gap(const Packing &p, size_t i) {
+  double r[JAM_MAX_DIM], least = 1.0;
+  const PairList pairs = find_pairs(p, 0.0, 1.5);
+  for (size_t k = 0; k < pairs.size(); ++k)
+    if (static_cast<size_t>(pairs.i[k]) == i || static_cast<size_t>(pairs.j[k]) == i)
+      least =
+          std::min(least, std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, pairs.i[k], pairs.j[k]) - 1.0);
+  return least;
+}
+
+// The packing with one sphere more, that touches the two of pair k at an angle of pi - deviation.
+Packing bridged(const Packing &p, const PairList &pairs, size_t k, double deviation) {
+  Packing out = p;
+  double r[JAM_MAX_DIM];
+  const double distance = std::sqrt(pair_vector(p, pairs, k, r));  // from j to i
+  const double si = p.diameter[pairs.i[k]], sj = p.diameter[pairs.j[k]];
+  double a = distance - 0.5 * (si + sj), sine = std::sin(0.5 * deviation);
+  for (int pass = 0; pass < 200; ++pass)
+    a = std::sqrt(distance * distance + (si + a) * (sj + a) * sine * sine) - 0.5 * (si + sj);
+  const double to_i = 0.5 * (si + a), to_j = 0.5 * (sj + a);
+  const double along = (distance * distance + to_j * to_j - to_i * to_i) / (2.0 * distance);
+  const double aside = to_i * to_j * std::sin(deviation) / distance;
+  double side[JAM_MAX_DIM] = {-r[1] / distance, r[0] / distance, 0.0};
+  const double length = std::hypot(side[0], side[1]);
+  for (int c = 0; c < p.dim; ++c)
+    out.position.push_back(p.position[static_cast<size_t>(pairs.j[k]) * p.dim + c] + along * r[c] / distance +
+                           aside * side[c] / length);
+  out.diameter.push_back(a);
+  return out;
+}
+
+// Pairs of force-carrying spheres between which a sphere has room, and touches nothing else.
+std::vector<size_t> voids(const Packing &p, const ContactNetwork &net, const PairList &pairs) {
+  std::vector<size_t> out;
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < pairs.size() && out.size() < 3; ++k) {
+    const double gap = std::sqrt(pair_vector(p, pairs, k, r)) - contact_distance(p, pairs.i[k], pairs.j[k]);
+    if (gap < 0.05 * p.diameter[0] || !net.coordination[pairs.i[k]] || !net.coordination[pairs.j[k]]) continue;
+    const auto neighbours = [&](double deviation) {
+      const PairList list = find_pairs(bridged(p, pairs, k, deviation), 0.0, 1.01);
+      const auto last = static_cast<int32_t>(p.n());
+      return std::count(list.i.begin(), list.i.end(), last) + std::count(list.j.begin(), list.j.end(), last);
+    };
+    if (neighbours(0.0) == 2 && neighbours(0.1) == 2) out.push_back(k);
+  }
+  return out;
+}
+
+void deviations(void **) {
+  for (const int dim : {2, 3})
+    for (const int64_t seed : {1, 2}) {
+      Sys s;
+      make(s, dim, 24, seed);
+      const Packing &p = s.sys->packing;
+      const PackingVerdict base = test_packing(p, nullptr, Jamming::collective);
+      assert_true(ask_oracle(make_rigidity_matrix(p, base.contacts), false).jammed);
+      const PairList pairs = find_pairs(p, 0.0, 1.9);
+      const std::vector<size_t> free = voids(p, s.sys->contacts, pairs);
+      assert_true(!free.empty());
+      for (const size_t k : free)
+        for (const double deviation : {0.0, 1e-14, 3e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 3e-6,
+                                       1e-5, 3e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
+          const Packing q = bridged(p, pairs, k, deviation);
+          assert_true(std::fabs(nearest_gap(q, p.n())) < 1e-12);
+          const PackingVerdict v = test_packing(q, nullptr, Jamming::collective);
+          if (deviation > 0.0) {
+            assert_true(v.result.jammed == Verdict::yes);
+            assert_int_equal(v.result.contacts, base.result.contacts);
+            assert_int_equal(v.result.spheres, base.result.spheres);
+            continue;
+          }
+          assert_true(v.result.jammed == Verdict::no && v.result.stressed == Verdict::yes);
+          assert_int_equal(v.result.flexes, dim - 1);
+          assert_int_equal(v.result.bridges, 1);
+          assert_false(ask_oracle(make_rigidity_matrix(q, v.contacts), false).jammed);
+        }
+    }
+}
+
+}  // namespace
+
+int main() {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(deviations)};
+  return cmocka_run_group_tests_name("network_near_balance", tests, nullptr, nullptr);
+}

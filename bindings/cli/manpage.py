@@ -1,11 +1,11 @@
-"""manpage.py PROGRAM VERSION OUT.gz: the manual page of jam-pack, made from what it prints for --help."""
+"""manpage.py VERSION OUT.gz PROGRAM...: the manual page of jam-pack, made from what it prints for --help."""
 import gzip
 import re
 import subprocess
 import sys
 
-program, version, out = sys.argv[1:]
-lines = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout.splitlines()
+version, out, *program = sys.argv[1:]
+lines = subprocess.run([*program, "--help"], check=True, capture_output=True, text=True).stdout.splitlines()
 
 
 def quoted(text):

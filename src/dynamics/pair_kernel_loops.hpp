@@ -37,7 +37,7 @@ struct Squares {
   Long4 digit[4] = {};
   JAM_SIMD_INLINE void add(const Long4 &value) {
     constexpr uint64_t mask = 0xffffffff;
-    const Unsigned4 m = value < 0 ? -(Unsigned4)value : (Unsigned4)value, upper = m >> 32;
+    const Unsigned4 m = select(value < 0, -(Unsigned4)value, (Unsigned4)value), upper = m >> 32;
     const Unsigned4 low = multiply_low(m, m), middle = multiply_low(m, upper), high = multiply_low(upper, upper);
     digit[0] += (Long4)(low & mask);
     digit[1] += (Long4)((low >> 32) + ((middle & mask) << 1));
@@ -75,7 +75,7 @@ struct FourPairs {
     sum = other.radius() + q.self->radius;
     if (q.non_additivity != 0.0) {
       const Long4 more = to_integer(to_double(sum) * q.non_additivity);
-      sum += other.radius() != q.self->radius ? more : more ^ more;
+      sum += select(other.radius() != q.self->radius, more, more ^ more);
     }
   }
 
@@ -106,12 +106,12 @@ struct FourPairs {
     left_out = bits_of(never_mind);
     if (__builtin_expect(bits_of(near) != 0, 0)) {
       const Double4 exact = exact_gap(q.rate * q.now);
-      gap = near ? exact : gap;
+      gap = select(near, exact, gap);
     }
     const Double4 disc = b * b - a * gap, t = gap / (square_root(disc) - b);
     const Double4 none = Double4{} + __builtin_inf(), zero{};
-    const Double4 ahead = disc < 0.0 ? none : t;
-    return (approaches & ~never_mind) ? (gap <= 0.0 ? zero : ahead) : none;
+    const Double4 ahead = select(disc < 0.0, none, t);
+    return select(approaches & ~never_mind, select(gap <= 0.0, zero, ahead), none);
   }
 };
 
@@ -129,11 +129,11 @@ JAM_SIMD_TARGET uint64_t earliest_collision(const PairBatch<D> &q, Earliest &ear
     const int32_t left = q.count - e;
     if (left < 4) {
       skip &= (1u << left) - 1;
-      t = Long4{0, 1, 2, 3} < left ? t : none;
+      t = select(Long4{0, 1, 2, 3} < left, t, none);
     }
     left_out |= static_cast<uint64_t>(skip) << e;
     store(when + e, t);
-    least = least < t ? least : t;
+    least = select(least < t, least, t);
   }
   // The first entry with the smallest time, unless the other sphere has an earlier event: then the next one.
   for (;;) {
@@ -155,7 +155,7 @@ JAM_SIMD_TARGET uint64_t earliest_collision(const PairBatch<D> &q, Earliest &ear
     least = none;
     for (int32_t e = 0; e < q.count; e += 4) {
       const Double4 t4 = load<Double4>(when + e);
-      least = least < t4 ? least : t4;
+      least = select(least < t4, least, t4);
     }
   }
 }
@@ -178,7 +178,7 @@ JAM_SIMD_TARGET int32_t search(const Block<D> *block, const size_t *cells, size_
       Float8 r2{};
       for (int c = 0; c < D; ++c) {
         // Differences wrap to the nearest image.
-        const Float8 r = __builtin_convertvector((Int8)((UnsignedInt8)place[c] - load<UnsignedInt8>(at->x[c])), Float8);
+        const Float8 r = to_float((Int8)((UnsignedInt8)place[c] - load<UnsignedInt8>(at->x[c])));
         r2 += r * r;
       }
       unsigned hits = bits_of((Int8)(r2 < reach2) & ~load<Int8>(at->id));
@@ -220,7 +220,7 @@ JAM_SIMD_TARGET int32_t partners(const Partners<D> &q, int32_t self, int32_t *fo
     Unsigned4 pair[2];
     for (int h = 0; h < 2; ++h) {
       const Unsigned4 other = Unsigned4{0, 1, 2, 3} + static_cast<uint64_t>(b + 4 * h);
-      pair[h] = mixed(q.key ^ mixed(other < own ? other << 32 | own : own << 32 | other));
+      pair[h] = mixed(q.key ^ mixed(select(other < own, other << 32 | own, own << 32 | other)));
     }
     const Int8 number = Int8{0, 1, 2, 3, 4, 5, 6, 7} + b;
     const UnsignedInt8 below = (UnsignedInt8)(number < self);  // the shift of a pair changes sign with its order
@@ -230,9 +230,9 @@ JAM_SIMD_TARGET int32_t partners(const Partners<D> &q, int32_t self, int32_t *fo
       const UnsignedInt8 shift = shifts<Uniform>(mixed(pair[0] + k), mixed(pair[1] + k), q.zeta);
       const int32_t *x = q.x + static_cast<size_t>(c) * q.stride;
       const UnsignedInt8 way = static_cast<uint32_t>(x[self]) - load<UnsignedInt8>(x + b) + ((shift ^ below) - below);
-      Float8 r = __builtin_convertvector((Int8)way, Float8);
+      Float8 r = to_float((Int8)way);
       if (!Cube) r *= q.height[c];
-      r2 = Cube ? r2 + r * r : r2 > r * r ? r2 : r * r;
+      r2 = Cube ? r2 + r * r : select(r2 > r * r, r2, r * r);
     }
     const Float8 reach = load<Float8>(q.reach + b) + q.reach[self];
     unsigned hits = bits_of((Int8)(r2 < reach * reach) & (number != self) & (number < q.n));

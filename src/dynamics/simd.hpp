@@ -1,8 +1,9 @@
-// Vectors of four doubles or 64-bit integers and of eight floats or 32-bit integers, as GCC and Clang define them for
-// every processor. A file that includes this header first defines
+// Vectors of four doubles or 64-bit integers and of eight floats or 32-bit integers: as GCC and Clang define them where
+// registers have 32 bytes (JAM_SIMD_256), two halves elsewhere (simd_halves.hpp). A file that includes this header
+// first defines
 //   JAM_SIMD_NAMESPACE  a namespace of its own, so that no function of one instruction set is linked into another;
 //   JAM_SIMD_TARGET     the attribute that selects the instruction set of each function, or nothing.
-// Few functions below have a form for x86 beside the portable one. All forms round alike: the same bits everywhere.
+// All forms round alike: the same bits everywhere.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -15,15 +16,12 @@
 #define JAM_SIMD_INLINE JAM_SIMD_TARGET __attribute__((always_inline)) inline
 #pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses the border of a file
 
+#if !defined(JAM_SIMD_256)
+#include "dynamics/simd_halves.hpp"
+#endif
+
 namespace jam {
 namespace JAM_SIMD_NAMESPACE {
-
-typedef double Double4 __attribute__((vector_size(32)));
-typedef int64_t Long4 __attribute__((vector_size(32)));
-typedef uint64_t Unsigned4 __attribute__((vector_size(32)));
-typedef float Float8 __attribute__((vector_size(32)));
-typedef int32_t Int8 __attribute__((vector_size(32)));
-typedef uint32_t UnsignedInt8 __attribute__((vector_size(32)));
 
 template <class Vector>
 JAM_SIMD_INLINE Vector load(const void *at) {
@@ -36,62 +34,30 @@ JAM_SIMD_INLINE void store(void *at, const Vector &v) {
   std::memcpy(at, &v, sizeof v);
 }
 
-// Bit k is set where lane k of a comparison is true (or where it is negative).
-JAM_SIMD_INLINE unsigned bits_of(const Long4 &v) {
-#if defined(__SSE2__) && defined(JAM_SIMD_256)
-  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)v));
-#elif defined(__SSE2__)
-  __m128d half[2];
-  std::memcpy(half, &v, sizeof v);
-  return static_cast<unsigned>(_mm_movemask_pd(half[0]) | _mm_movemask_pd(half[1]) << 2);
-#else
-  unsigned bits = 0;
-  for (int k = 0; k < 4; ++k) bits |= (v[k] < 0 ? 1u : 0u) << k;
-  return bits;
-#endif
-}
-JAM_SIMD_INLINE unsigned bits_of(const Int8 &v) {
-#if defined(__SSE2__) && defined(JAM_SIMD_256)
-  return static_cast<unsigned>(_mm256_movemask_ps((__m256)v));
-#elif defined(__SSE2__)
-  __m128 half[2];
-  std::memcpy(half, &v, sizeof v);
-  return static_cast<unsigned>(_mm_movemask_ps(half[0]) | _mm_movemask_ps(half[1]) << 4);
-#else
-  unsigned bits = 0;
-  for (int k = 0; k < 8; ++k) bits |= (v[k] < 0 ? 1u : 0u) << k;
-  return bits;
-#endif
-}
+#if defined(JAM_SIMD_256)
+typedef double Double4 __attribute__((vector_size(32)));
+typedef int64_t Long4 __attribute__((vector_size(32)));
+typedef uint64_t Unsigned4 __attribute__((vector_size(32)));
+typedef float Float8 __attribute__((vector_size(32)));
+typedef int32_t Int8 __attribute__((vector_size(32)));
+typedef uint32_t UnsignedInt8 __attribute__((vector_size(32)));
 
-JAM_SIMD_INLINE Double4 square_root(const Double4 &x) {
-#if defined(__SSE2__) && defined(JAM_SIMD_256)
-  return (Double4)_mm256_sqrt_pd((__m256d)x);
-#elif defined(__SSE2__)
-  __m128d half[2];
-  std::memcpy(half, &x, sizeof x);
-  half[0] = _mm_sqrt_pd(half[0]);
-  half[1] = _mm_sqrt_pd(half[1]);
-  return load<Double4>(half);
-#else
-  return Double4{__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]), __builtin_sqrt(x[3])};
-#endif
+// Lane by lane `yes` where the mask is true, `no` elsewhere.
+template <class Mask, class Vector>
+JAM_SIMD_INLINE Vector select(const Mask &mask, const Vector &yes, const Vector &no) {
+  return mask ? yes : no;
 }
+JAM_SIMD_INLINE Float8 to_float(const Int8 &v) { return __builtin_convertvector(v, Float8); }
+
+// Bit k is set where lane k of a comparison is true (or where it is negative).
+JAM_SIMD_INLINE unsigned bits_of(const Long4 &v) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)v)); }
+JAM_SIMD_INLINE unsigned bits_of(const Int8 &v) { return static_cast<unsigned>(_mm256_movemask_ps((__m256)v)); }
+
+JAM_SIMD_INLINE Double4 square_root(const Double4 &x) { return (Double4)_mm256_sqrt_pd((__m256d)x); }
 
 // Product of the lower halves of each lane.
 JAM_SIMD_INLINE Unsigned4 multiply_low(const Unsigned4 &a, const Unsigned4 &b) {
-#if defined(__SSE2__) && defined(JAM_SIMD_256)
   return (Unsigned4)_mm256_mul_epu32((__m256i)a, (__m256i)b);
-#elif defined(__SSE2__)
-  __m128i x[2], y[2];
-  std::memcpy(x, &a, sizeof a);
-  std::memcpy(y, &b, sizeof b);
-  x[0] = _mm_mul_epu32(x[0], y[0]);
-  x[1] = _mm_mul_epu32(x[1], y[1]);
-  return load<Unsigned4>(x);
-#else
-  return (a & 0xffffffffu) * (b & 0xffffffffu);
-#endif
 }
 
 // a[0] b[0] a[2] b[2]; a[1] b[1] a[3] b[3]; the lower halves; the upper halves.
@@ -121,6 +87,7 @@ JAM_SIMD_INLINE UnsignedInt8 upper_halves(const Unsigned4 &a, const Unsigned4 &b
                            UnsignedInt8{u, u + 2, u + 4, u + 6, u + 8, u + 10, u + 12, u + 14});
 #endif
 }
+#endif  // JAM_SIMD_256
 
 // The nearest double, as the processor's conversion of one integer gives it: both halves become the low bits of
 // doubles (2^52 + low and 2^84 + 2^63 + high 2^32), whose differences are exact; the last sum rounds once.

@@ -1,5 +1,5 @@
 // Header section "Monte Carlo, runs from one configuration": the ensemble of runs and its sums.
-#include "dynamics/isoconfigurational.hpp"
+#include "dynamics/isoconfigurational/isoconfigurational.hpp"
 
 #include "capi/guard.hpp"
 

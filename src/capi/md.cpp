@@ -9,7 +9,7 @@
 #include "core/create.hpp"
 #include "core/math.hpp"
 #include "dynamics/equation_of_state.hpp"
-#include "dynamics/stage.hpp"
+#include "dynamics/event_driven/run.hpp"
 #include "io/checkpoint.hpp"
 
 using namespace jam;

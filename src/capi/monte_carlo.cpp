@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "capi/guard.hpp"
-#include "dynamics/monte_carlo.hpp"
+#include "dynamics/monte_carlo/monte_carlo.hpp"
 
 using namespace jam;
 

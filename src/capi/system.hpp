@@ -11,7 +11,7 @@
 #include "core/notes.hpp"
 #include "core/packing.hpp"
 #include "dynamics/dynamics.hpp"
-#include "dynamics/isoconfigurational.hpp"
+#include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/observer.hpp"
 
 namespace jam {

@@ -1,6 +1,7 @@
 // The periodic cell: the lattice on which the packing repeats. Every layer asks here for images, widths and the volume;
-// a new kind of cell is added here alone. Molecular dynamics has the lattice vectors in integers: dynamics/lattice.hpp.
-// Monte Carlo has integers along the cell vectors: dynamics/monte_carlo_geometry.hpp.
+// a new kind of cell is added here alone. Molecular dynamics has the lattice vectors in integers:
+// dynamics/event_driven/lattice.hpp. Monte Carlo has integers along the cell vectors:
+// dynamics/monte_carlo/geometry.hpp.
 //
 // The rows of a lower-triangular matrix are the cell vectors a_0, a_1, ...; its diagonal is positive. Then a_c is the
 // only vector up to c with a component c. So spheres can stand in the brick [0, a_00) x [0, a_11) x ..., which repeats

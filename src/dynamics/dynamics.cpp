@@ -1,9 +1,9 @@
 #include "dynamics/dynamics.hpp"
 
 #include "core/error.hpp"
-#include "dynamics/isoconfigurational.hpp"
-#include "dynamics/monte_carlo.hpp"
-#include "dynamics/stage.hpp"
+#include "dynamics/event_driven/run.hpp"
+#include "dynamics/isoconfigurational/isoconfigurational.hpp"
+#include "dynamics/monte_carlo/monte_carlo.hpp"
 
 namespace jam {
 

@@ -1,4 +1,5 @@
-// What every dynamics has in common: run, observe, archive. Event-driven molecular dynamics is Stage (stage.hpp).
+// What every dynamics has in common: run, observe, archive. Event-driven molecular dynamics is Stage
+// (event_driven/run.hpp).
 // A new dynamics derives from Dynamics and gets one line in read_dynamics (dynamics.cpp).
 #pragma once
 #include <functional>

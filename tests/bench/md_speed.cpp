@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/create.hpp"
-#include "dynamics/engine.hpp"
-#include "dynamics/md.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/options.hpp"
 
 using namespace jam;
 

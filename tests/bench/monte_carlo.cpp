@@ -11,8 +11,8 @@
 
 #include "core/create.hpp"
 #include "core/rng.hpp"
-#include "dynamics/md.hpp"
-#include "dynamics/monte_carlo.hpp"
+#include "dynamics/event_driven/options.hpp"
+#include "dynamics/monte_carlo/monte_carlo.hpp"
 
 using namespace jam;
 

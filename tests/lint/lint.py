@@ -22,6 +22,13 @@ LAYERS = {
     "io": ["dynamics", "network", "proof", "core"],
     "capi": ["core", "linalg", "lp", "network", "crunch", "soft", "dynamics", "analysis", "proof", "io"],
 }
+# Folders of a layer: each may include the layer's own headers, itself and those listed here.
+FOLDERS = {
+    "dynamics/event_driven/kernel": [],
+    "dynamics/event_driven": ["dynamics/event_driven/kernel"],
+    "dynamics/monte_carlo": [],
+    "dynamics/isoconfigurational": ["dynamics/event_driven", "dynamics/monte_carlo"],
+}
 # Third-party headers and the only files (or folders) under src that may see them.
 GUESTS = {
     r"(Clp|Coin|coin/|Osi)\w*": ["src/lp/clp_backend.cpp"],
@@ -75,6 +82,9 @@ def layers():
             target = name.split("/")[0]
             if target in LAYERS and target != layer and target not in LAYERS[layer]:
                 problem(path, number, f"layer {layer} must not include {name}")
+            folder, inner = str(path.relative_to(root / "src").parent), name.rpartition("/")[0]
+            if folder in FOLDERS and inner in FOLDERS and inner != folder and inner not in FOLDERS[folder]:
+                problem(path, number, f"folder {folder} must not include {name}")
 
 
 def private_headers():

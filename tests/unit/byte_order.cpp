@@ -14,7 +14,7 @@
 
 #define JAM_SIMD_NAMESPACE plain
 #define JAM_SIMD_TARGET
-#include "dynamics/simd.hpp"
+#include "dynamics/event_driven/kernel/simd.hpp"
 
 using namespace jam;
 

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "core/pairs.hpp"
-#include "dynamics/engine.hpp"
-#include "dynamics/md.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/options.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam;

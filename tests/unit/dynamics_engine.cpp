@@ -7,8 +7,8 @@
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
-#include "dynamics/engine.hpp"
-#include "dynamics/md.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/options.hpp"
 #include "naive_dynamics.hpp"
 
 extern "C" {

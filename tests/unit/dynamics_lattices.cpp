@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "dynamics/engine.hpp"
-#include "dynamics/stage.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam;

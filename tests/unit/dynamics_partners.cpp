@@ -4,8 +4,8 @@
 #include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
-#include "dynamics/engine.hpp"
-#include "dynamics/md.hpp"
+#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/options.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam;

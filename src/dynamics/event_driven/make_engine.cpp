@@ -1,0 +1,52 @@
+// The choice of an engine, and the order of spheres in memory.
+#include <algorithm>
+#include <numeric>
+
+#include "core/with_dimension.hpp"
+#include "dynamics/dynamics.hpp"
+#include "dynamics/event_driven/engine.hpp"
+
+namespace jam {
+namespace {
+
+std::unique_ptr<EngineBase> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
+  return with_dimension(p.dim, [&](auto d) -> std::unique_ptr<EngineBase> {
+    if (images) return std::make_unique<Engine<d, true>>(p, o, from);
+    return std::make_unique<Engine<d, false>>(p, o, from);
+  });
+}
+
+}  // namespace
+
+// Numbers of the spheres along a Morton curve: neighbours in space become neighbours in memory.
+std::vector<int32_t> curve_order(const Packing &p) {
+  const size_t n = p.n(), d = static_cast<size_t>(p.dim);
+  const int bits = static_cast<int>(std::min<size_t>(16, 62 / d));
+  std::vector<uint64_t> key(n, 0);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t c = 0; c < d; ++c) {
+      const auto x =
+          static_cast<uint64_t>(wrap(p.position[i * d + c] / p.cell.side(), 1.0) * static_cast<double>(1u << bits));
+      for (int b = 0; b < bits; ++b) key[i] |= (x >> b & 1u) << (static_cast<size_t>(b) * d + c);
+    }
+  std::vector<int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return key[a] < key[b]; });
+  return order;
+}
+
+std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
+  const bool images =
+      p.model == JAM_MODEL_MK || !p.cell.cube() || !Engine<2, false>::fits(contact_distance_max(p) / p.cell.side());
+  return choose(p, o, images, nullptr);
+}
+
+std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from) {
+  int64_t images = 0;
+  from(images);
+  if (images == not_begun) return nullptr;
+  Archive::check(images == 1 || (images == 0 && p.model == JAM_MODEL_EUCLID && p.cell.cube()));
+  return choose(p, EngineOptions{}, images == 1, &from);
+}
+
+}  // namespace jam

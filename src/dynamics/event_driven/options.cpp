@@ -1,0 +1,99 @@
+// Options of event-driven molecular dynamics, and the stages that they ask for.
+#include "dynamics/event_driven/options.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/limits.hpp"
+
+namespace jam {
+namespace {
+
+void positive(double value, const char *name) {
+  if (!(value > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, value);
+}
+void flag(int32_t value, const char *name) {
+  if (value != 0 && value != 1) fail(JAM_E_ARGUMENT, "%s is %d, it must be 0 or 1", name, value);
+}
+
+}  // namespace
+
+jam_run_options default_run_options() {
+  jam_run_options o{};
+  o.struct_size = sizeof o;
+  o.collisions_per_particle = 100.0;
+  o.wall_time = o.time = no_limit;
+  return o;
+}
+
+jam_compress_options default_compress_options() {
+  jam_compress_options o{};
+  o.struct_size = sizeof o;
+  o.pressure = 1e7;
+  o.packing_fraction = o.collisions_per_particle = o.wall_time = o.time = no_limit;
+  return o;
+}
+
+void check_run_options(const jam_run_options &o) {
+  flag(o.resume, "resume");
+  positive(o.collisions_per_particle, "collisions_per_particle");
+  positive(o.wall_time, "wall_time");
+  positive(o.time, "time");
+  if (o.collisions_per_particle == no_limit && o.wall_time == no_limit && o.time == no_limit)
+    fail(JAM_E_ARGUMENT, "collisions_per_particle, time and wall_time are all infinite: the run would not end");
+}
+
+void check_compress_options(const jam_compress_options &o) {
+  flag(o.resume, "resume");
+  if (o.growth_rate != 0.0) positive(o.growth_rate, "growth_rate");
+  if (o.growth_rate > limits::growth_rate_max)
+    fail(JAM_E_ARGUMENT, "growth_rate is %g, supported are values up to %g", o.growth_rate, limits::growth_rate_max);
+  if (!(o.pressure > 1.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be greater than 1", o.pressure);
+  positive(o.packing_fraction, "packing_fraction");
+  positive(o.collisions_per_particle, "collisions_per_particle");
+  positive(o.wall_time, "wall_time");
+  positive(o.time, "time");
+  if (!(o.growth_rate_end >= 0.0) || o.growth_rate_end > o.growth_rate)
+    fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate, which is %g", o.growth_rate_end,
+         o.growth_rate);
+  if (o.growth_rate_end > 0.0 && o.pressure == no_limit)
+    fail(JAM_E_ARGUMENT, "growth_rate_end needs a finite pressure to be reached at");
+  if (o.growth_law != JAM_GROWTH_DIAMETER && o.growth_law != JAM_GROWTH_DENSITY)
+    fail(JAM_E_ARGUMENT, "growth_law is %d, not a jam_growth_law", o.growth_law);
+}
+
+MdStage stage_of(const jam_run_options &o) {
+  MdStage s;
+  s.collisions_per_particle = o.collisions_per_particle;
+  s.wall_time = o.wall_time;
+  s.time = o.time;
+  return s;
+}
+
+namespace {
+// The protocol that avoids crystals in d = 3: fast where a fluid could order, slower near jamming.
+constexpr double first_rate = 1e-2, first_pressure = 500.0, last_rate = 3e-3;
+}  // namespace
+
+MdStage stage_of(const jam_compress_options &o) {
+  MdStage s{o.growth_rate, o.pressure, o.packing_fraction, o.collisions_per_particle, o.wall_time};
+  if (o.growth_rate == 0.0) {
+    s.growth = first_rate;
+    s.pressure = std::min(o.pressure, first_pressure);
+    s.then = o.pressure > first_pressure ? o.pressure : 0.0;
+  }
+  s.time = o.time;
+  s.growth_end = o.growth_rate_end;
+  s.relative = o.growth_law == JAM_GROWTH_DENSITY;
+  return s;
+}
+
+MdStage next_stage(const MdStage &stage) {
+  MdStage next = stage;
+  next.growth = last_rate;
+  next.pressure = stage.then;
+  next.then = 0.0;
+  return next;
+}
+
+}  // namespace jam

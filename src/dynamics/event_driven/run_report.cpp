@@ -1,0 +1,190 @@
+// What a stage tells while it runs and at its end: observers, progress, report.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/call_scope.hpp"
+#include "dynamics/event_driven/run.hpp"
+
+namespace jam {
+
+void Stage::attach(Observer *observer) {
+  if (!observer) return;
+  seen_collisions_ = collisions();
+  seen_time_ = time();
+  block_virial_ = virial() - observer->left_virial;
+  block_kinetic_integral_ = kinetic_integral() - observer->left_kinetic_integral;
+  engine_->observe(observer);
+}
+
+void Stage::update(Observer &observer) const {
+  observer.seen += collisions() - seen_collisions_;
+  observer.time += time() - seen_time_;
+}
+
+void Stage::detach(Observer *observer) {
+  if (!observer) return;
+  engine_->observe(nullptr);
+  update(*observer);
+  observer->left_virial = virial() - block_virial_;
+  observer->left_kinetic_integral = kinetic_integral() - block_kinetic_integral_;
+}
+
+// What is due at this collision; true when the callback asks to stop.
+bool Stage::observe(const Listeners &listeners) {
+  Observer &observer = *listeners.observer;
+  update(observer);
+  seen_collisions_ = collisions();
+  seen_time_ = time();
+  if (observer.block_due()) {
+    const bool whole = observer.end_block(virial() - block_virial_, kinetic_integral() - block_kinetic_integral_);
+    block_virial_ = virial();
+    block_kinetic_integral_ = kinetic_integral();
+    if (whole) sample(observer);
+  }
+  if (!observer.snapshot_due()) return false;
+  jam_progress q = progress();
+  q.snapshot = observer.end_snapshot();
+  if (listeners.show) listeners.show(current());
+  return listeners.monitor->report(q, true);
+}
+
+double Stage::until_histograms(const Observer *observer) const {
+  return observer ? seen_time_ + (observer->next_histograms() - observer->time) : no_limit;
+}
+
+// Between two collisions; nothing of the run changes. False: the call must stop, and the next one takes them.
+bool Stage::sample_histograms(Observer &observer, double at) const {
+  Packing p = p_;
+  engine_->write_state(p, at - time());
+  const LeavingScope scope;
+  try {
+    observer.take_histograms(p);
+  } catch (const Cancelled &) {
+    return false;
+  }
+  return true;
+}
+
+void Stage::sample(Observer &observer) const {
+  std::vector<double> way(p_.position.size());
+  engine_->displacements(way);
+  observer.take_sample(current(), way);
+}
+
+// ---- progress and report
+
+// Of the aim that comes first. Growth takes about equal times for equal factors of pressure.
+double Stage::fraction() const {
+  double most = std::numeric_limits<double>::quiet_NaN();  // fmax leaves it out
+  if (goal_ < no_limit) most = static_cast<double>(collisions()) / goal_;
+  if (stage_.time < no_limit) most = std::fmax(most, time() / stage_.time);
+  if (!growing()) return most;
+  most = std::fmax(most, log_share(first_pressure_, pressure_, std::min(stage_.pressure, finest_pressure())));
+  if (stage_.packing_fraction < no_limit)
+    most = std::fmax(most, log_share(jam::packing_fraction(p_), engine_->packing_fraction(), stage_.packing_fraction));
+  return most;
+}
+
+jam_progress Stage::progress() const {
+  jam_progress q = progress_of(phase());
+  q.packing_fraction = engine_->packing_fraction();
+  q.pressure = pressure_;
+  q.collisions = report_collisions_ + collisions() - call_collisions_;
+  q.fraction = fraction();
+  return q;
+}
+
+// Adds to the report, so that stages run one after the other give one.
+void Stage::finish(int32_t reason) {
+  report.stop_reason = reason;
+  report.collisions_per_second = static_cast<double>(report.collisions) / std::max(report.seconds, 1e-9);
+  report.pressure = p_.pressure;
+  report.pressure_error = standard_error();
+  report.packing_fraction = jam::packing_fraction(p_);
+  report.energy_drift = kinetic_ > 0.0 && !growing() ? std::fabs(twice_kinetic(p_) / kinetic_ - 1.0) : 0.0;
+  report.max_overlap = std::max({report.max_overlap, worst_, engine_->max_overlap, engine_->worst_overlap()});
+  report.growth_rate = engine_->growth();
+}
+
+// NVE: of the mean over all windows. Growing: the last window is the mean of the last four parts.
+double Stage::standard_error() const {
+  if (windows_.size() < (growing() ? 8u : 5u)) return std::numeric_limits<double>::quiet_NaN();
+  double mean = 0.0, square = 0.0;
+  const double m = static_cast<double>(windows_.size());
+  for (double p : windows_) mean += p / m;
+  for (double p : windows_) square += (p - mean) * (p - mean) / (m - 1.0);
+  return std::sqrt(square / (growing() ? 4.0 : m));
+}
+
+std::string Stage::text() const {
+  char line[300] = "";
+  const auto largest = std::max_element(p_.diameter.begin(), p_.diameter.end());
+  const long long sphere = largest - p_.diameter.begin();
+  const double phi = jam::packing_fraction(p_);
+  switch (report.stop_reason) {
+    case JAM_STOP_STALLED:
+      if (box_full_ && *largest > 0.999 * p_.cell.shortest())
+        std::snprintf(line, sizeof line,
+                      "sphere %lld touches its own image, nothing can grow here (packing fraction %.6g)", sphere, phi);
+      else if (box_full_)
+        std::snprintf(line, sizeof line,
+                      "two unlike spheres of the largest sizes would fill the cell, nothing can grow here (packing "
+                      "fraction %.6g)",
+                      phi);
+      else if (frozen_ > 0)
+        std::snprintf(
+            line, sizeof line,
+            "no time passes between collisions at pressure %.4g, packing fraction %.6g: spheres are in contact or "
+            "grow too fast; crunch from here",
+            pressure_, phi);
+      else
+        std::snprintf(line, sizeof line, "no collision comes: the spheres are at rest, move as one, or never meet");
+      break;
+    case JAM_STOP_PRECISION:
+      std::snprintf(line, sizeof line,
+                    "at pressure %.4g, packing fraction %.6g, gaps are as small as coordinates resolve; crunch from "
+                    "here",
+                    pressure_, phi);
+      break;
+    case JAM_STOP_WALL_TIME:
+      std::snprintf(line, sizeof line, "wall_time ended at packing fraction %.6g; resume = 1 goes on", phi);
+      break;
+    case JAM_STOP_CANCELLED:
+      std::snprintf(line, sizeof line,
+                    "cancelled by jam_cancel or a callback at packing fraction %.6g; resume = 1 goes on", phi);
+      break;
+    case JAM_STOP_TIME:
+    case JAM_STOP_COLLISIONS:
+      if (growing())
+        std::snprintf(line, sizeof line,
+                      "the limit of %s came at pressure %.4g, packing fraction %.6g; resume = 1 with a larger one goes "
+                      "on",
+                      report.stop_reason == JAM_STOP_TIME ? "time" : "collisions_per_particle", pressure_, phi);
+      break;
+    default:
+      break;
+  }
+  return line;
+}
+
+jam_status Stage::status_of(int32_t reason) const {
+  switch (reason) {
+    case JAM_STOP_PRESSURE:
+    case JAM_STOP_PACKING_FRACTION:
+      return JAM_OK;
+    case JAM_STOP_TIME:
+    case JAM_STOP_COLLISIONS:
+      return growing() ? JAM_LIMIT : JAM_OK;
+    case JAM_STOP_WALL_TIME:
+      return JAM_LIMIT;
+    case JAM_STOP_CANCELLED:
+      return JAM_CANCELLED;
+    case JAM_STOP_PRECISION:
+      return JAM_PRECISION;
+    default:
+      return JAM_NOT_CONVERGED;
+  }
+}
+
+}  // namespace jam

@@ -1,0 +1,126 @@
+// Means of a Monte Carlo run and their errors.
+#include <algorithm>
+#include <cmath>
+
+#include "core/math.hpp"
+#include "dynamics/monte_carlo/monte_carlo.hpp"
+
+namespace jam {
+
+MonteCarloMeans::MonteCarloMeans(const Packing &p, const jam_monte_carlo_options &o)
+    : n_(static_cast<double>(p.n())), dim_(p.dim), temperature_(o.temperature), hard_(o.alpha == 0.0) {}
+
+void MonteCarloMeans::sample(MonteCarlo &mc) {
+  if (!hard_) {
+    energy_.push_back(mc.energy() / n_);
+    pressure_.push_back(1.0 + mc.virial() / (dim_ * n_ * temperature_));
+    return;
+  }
+  if (h_max_ == 0.0) {
+    // Gaps up to about 1/(4 p): three quarters of a pair a sphere lie there.
+    std::vector<double> all(4096, 0.0);
+    const double range = mc.gap_range();
+    mc.count_gaps(range, all);
+    double sum = 0.0;
+    size_t k = 0;
+    while (k < all.size() && sum < 0.25 * dim_ * n_) sum += all[k++];
+    h_max_ = range * static_cast<double>(k) / static_cast<double>(all.size());
+  }
+  std::vector<double> now(bins, 0.0);
+  mc.count_gaps(h_max_, now);
+  gaps_.insert(gaps_.end(), now.begin(), now.end());
+}
+
+namespace {
+
+// Density of pairs at h = 0 from counts in bins: ln(count) = a + b h + c h^2 by least squares, weights count.
+double density_at_contact(const std::vector<double> &count, double h_max) {
+  double m[3][4] = {};
+  const double width = h_max / static_cast<double>(count.size());
+  for (size_t k = 0; k < count.size(); ++k) {
+    if (!(count[k] > 0.0)) continue;
+    const double h = (static_cast<double>(k) + 0.5) / static_cast<double>(count.size());
+    const double basis[3] = {1.0, h, h * h}, y = math::log(count[k] / width);
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) m[a][b] += count[k] * basis[a] * basis[b];
+      m[a][3] += count[k] * basis[a] * y;
+    }
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (!(m[a][a] > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+    for (int b = 0; b < 3; ++b) {
+      if (b == a) continue;
+      const double factor = m[b][a] / m[a][a];
+      for (int c = 0; c < 4; ++c) m[b][c] -= factor * m[a][c];
+    }
+  }
+  return math::exp(m[0][3] / m[0][0]);
+}
+
+constexpr size_t parts = 20;  // of a run, for the errors of its means
+
+void mean_of(const std::vector<double> &x, double &mean, double &error) {
+  mean = error = std::numeric_limits<double>::quiet_NaN();
+  if (x.empty()) return;
+  mean = 0.0;
+  for (const double v : x) mean += v / static_cast<double>(x.size());
+  if (x.size() < 2 * parts) return;
+  double square = 0.0;
+  for (size_t b = 0; b < parts; ++b) {
+    double sum = 0.0;
+    const size_t begin = b * x.size() / parts, end = (b + 1) * x.size() / parts;
+    for (size_t k = begin; k < end; ++k) sum += x[k];
+    const double off = sum / static_cast<double>(end - begin) - mean;
+    square += off * off;
+  }
+  error = std::sqrt(square / static_cast<double>(parts * (parts - 1)));
+}
+
+}  // namespace
+
+// p = 1 + n(0) / (d N), n(h) the number of pairs a unit of h: a uniform compression by h brings n(0) h pairs in
+// contact.
+void MonteCarloMeans::give_hard(jam_monte_carlo_report &report) const {
+  if (gaps_.empty()) return;
+  const size_t samples_made = gaps_.size() / bins;
+  const auto pressure = [&](size_t from, size_t to) {  // without samples from .. to
+    std::vector<double> sum(bins, 0.0);
+    double samples = 0.0;
+    for (size_t k = 0; k < samples_made; ++k) {
+      if (k >= from && k < to) continue;
+      ++samples;
+      for (size_t b = 0; b < sum.size(); ++b) sum[b] += gaps_[k * bins + b];
+    }
+    return 1.0 + density_at_contact(sum, h_max_) / samples / (dim_ * n_);
+  };
+  report.pressure = pressure(0, 0);
+  if (samples_made < 2 * parts) return;
+  double mean = 0.0, square = 0.0;
+  std::vector<double> without;
+  for (size_t b = 0; b < parts; ++b)
+    without.push_back(pressure(b * samples_made / parts, (b + 1) * samples_made / parts)),
+        mean += without.back() / parts;
+  for (const double v : without) square += (v - mean) * (v - mean);
+  report.pressure_error = std::sqrt(square * (parts - 1.0) / parts);
+}
+
+void MonteCarloMeans::give(jam_monte_carlo_report &report) const {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  report.energy = report.energy_error = report.pressure = report.pressure_error = nan;
+  if (hard_) {
+    report.energy = report.energy_error = 0.0;
+    give_hard(report);
+    return;
+  }
+  mean_of(energy_, report.energy, report.energy_error);
+  mean_of(pressure_, report.pressure, report.pressure_error);
+}
+
+void MonteCarloMeans::archive(Archive &a) {
+  for (double *x : {&n_, &dim_, &temperature_, &h_max_}) a(*x);
+  a(hard_);
+  for (std::vector<double> *v : {&energy_, &pressure_, &gaps_}) a(*v);
+  if (a.reading()) Archive::check(gaps_.size() % bins == 0 && energy_.size() == pressure_.size());
+}
+
+}  // namespace jam

@@ -1,0 +1,105 @@
+// Monte Carlo: the choice of an engine, options and the tuning of the step.
+#include "dynamics/monte_carlo/monte_carlo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/call_scope.hpp"
+#include "core/error.hpp"
+#include "core/limits.hpp"
+#include "core/math.hpp"
+#include "core/pair_rule.hpp"
+#include "core/with_dimension.hpp"
+
+namespace jam {
+
+// Compiled by copies of trials.cpp.in.
+template <int D>
+std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run);
+
+double largest_monte_carlo_step(const Packing &p) {
+  // Along a cell vector a step in a cube of that half side goes no farther than 0.49 of it.
+  const double far = p.cell.cube() ? 1.0 : std::sqrt(static_cast<double>(p.dim));
+  return 0.49 * p.cell.height_min() / far / diameter_mean(p);
+}
+
+std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
+  return with_dimension(p.dim, [&](auto d) { return make_monte_carlo_of<d>(p, o, run); });
+}
+
+// ---- options
+
+jam_monte_carlo_options default_monte_carlo_options() {
+  jam_monte_carlo_options o{};
+  o.struct_size = sizeof o;
+  o.energy_scale = o.temperature = 1.0;
+  o.acceptance = 0.45;
+  o.sweeps = 1000;
+  o.first_sweep = -1;
+  o.wall_time = std::numeric_limits<double>::infinity();
+  return o;
+}
+
+void check_monte_carlo_options(const jam_monte_carlo_options &o) {
+  const auto positive = [](double value, const char *name) {
+    if (!(value > 0.0) || std::isinf(value))
+      fail(JAM_E_ARGUMENT, "%s is %g, it must be positive and finite", name, value);
+  };
+  if (o.alpha != 0.0 && !(o.alpha > 1.0 && std::isfinite(o.alpha)))
+    fail(JAM_E_ARGUMENT, "alpha is %g, it must be 0 (hard spheres) or more than 1", o.alpha);
+  if (o.energy_unit != JAM_ENERGY_LENGTH && o.energy_unit != JAM_ENERGY_RELATIVE)
+    fail(JAM_E_ARGUMENT, "energy_unit is %d, not a jam_energy_unit", o.energy_unit);
+  positive(o.energy_scale, "energy_scale");
+  positive(o.temperature, "temperature");
+  if (!(o.step >= 0.0) || std::isinf(o.step)) fail(JAM_E_ARGUMENT, "step is %g, it must be 0 or positive", o.step);
+  if (!(o.acceptance > 0.0 && o.acceptance < 1.0))
+    fail(JAM_E_ARGUMENT, "acceptance is %g, it must be in (0, 1)", o.acceptance);
+  if (!(o.swap_share >= 0.0 && o.swap_share < 1.0))
+    fail(JAM_E_ARGUMENT, "swap_share is %g, it must be in [0, 1)", o.swap_share);
+  if (o.sweeps < 1) fail(JAM_E_ARGUMENT, "sweeps is %lld, it must be at least 1", static_cast<long long>(o.sweeps));
+  if (o.run < 0) fail(JAM_E_ARGUMENT, "run is %lld, it must not be negative", static_cast<long long>(o.run));
+  if (o.first_sweep < -1) fail(JAM_E_ARGUMENT, "first_sweep is %lld", static_cast<long long>(o.first_sweep));
+  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+}
+
+void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
+  if (p.model != JAM_MODEL_EUCLID) fail(JAM_E_UNSUPPORTED, "Monte Carlo has no quenched shifts (JAM_MODEL_MK)");
+  const double largest = largest_monte_carlo_step(p);
+  if (o.step > largest)
+    fail(JAM_E_ARGUMENT, "step is %g mean diameters; in this cell the largest is %g", o.step, largest);
+}
+
+// ---- tuning
+
+double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
+  constexpr int coarse = 60, fine = 20, coarse_sweeps = 4, fine_sweeps = 12;  // 480 sweeps, 0.1 s at n = 1024
+  constexpr double smallest = 1e-12;
+  jam_monte_carlo_options o = given;
+  check_monte_carlo(p, o);
+  const double largest = largest_monte_carlo_step(p), length = diameter_mean(p) / p.cell.side();
+  double step = std::min(0.1, largest), mean_log = 0.0;
+  o.step = step;
+  const std::unique_ptr<MonteCarlo> mc = make_monte_carlo(p, o, -1);  // no run has this number
+  int64_t number = 0;
+  for (int k = 0; k < coarse + fine; ++k) {
+    const MonteCarloCounts before = mc->counts;
+    for (int s = 0; s < (k < coarse ? coarse_sweeps : fine_sweeps); ++s) {
+      CallScope::look();
+      mc->sweep(number++);
+    }
+    const int64_t tried = mc->counts.moves - before.moves;
+    const double share =
+        tried ? static_cast<double>(mc->counts.moved - before.moved) / static_cast<double>(tried) : 1.0;
+    // Acceptance falls about exponentially with the step.
+    const double factor = math::log(std::max(share, 1e-3)) / math::log(o.acceptance);
+    step = std::min(largest,
+                    step * std::min(2.0, std::max(0.3, math::pow(std::max(factor, 1e-3), k < coarse ? -1.0 : -0.5))));
+    if (step < smallest)
+      fail(JAM_E_ARGUMENT, "no step above %g mean diameters is accepted: the spheres are in contact", smallest);
+    mc->set_step(step * length);
+    if (k >= coarse) mean_log += math::log(step) / fine;
+  }
+  return std::min(largest, math::exp(mean_log));
+}
+
+}  // namespace jam

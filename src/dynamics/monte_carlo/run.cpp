@@ -1,0 +1,133 @@
+// A Monte Carlo run as it goes on: samples, progress, report.
+#include <algorithm>
+#include <cmath>
+
+#include "core/call_scope.hpp"
+#include "dynamics/monte_carlo/monte_carlo.hpp"
+#include "dynamics/observer.hpp"
+
+namespace jam {
+
+MonteCarloStage::MonteCarloStage(const Packing &p, const jam_monte_carlo_options &o)
+    : p_(p), options_(o), means_(p, o), seen_(p.position.size(), 0.0) {
+  check_monte_carlo(p_, options_);
+}
+
+// Tunes the step if it is 0, and makes lists. A reason to stop: the next run begins anew.
+int32_t MonteCarloStage::begin(Monitor &monitor) {
+  if (engine_) return JAM_STOP_NONE;
+  jam_progress q = progress_of(phase());
+  q.packing_fraction = packing_fraction(p_);
+  monitor.expect(q);
+  const LeavingScope scope;
+  try {
+    jam_monte_carlo_options tuned = options_;
+    if (tuned.step == 0.0) tuned.step = tuned_step(p_, tuned);
+    check_monte_carlo(p_, tuned);
+    engine_ = make_monte_carlo(p_, tuned, tuned.run);
+    options_ = tuned;
+    // Velocities of before belong to another state.
+    p_.has_velocity = false;
+    if (options_.alpha > 0.0) p_.overlap_allowed = true;  // soft spheres leave overlaps: calls for hard ones must look
+    std::fill(p_.velocity.begin(), p_.velocity.end(), 0.0);
+  } catch (const Cancelled &) {
+    return monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+  }
+  return JAM_STOP_NONE;
+}
+
+MonteCarloStage::MonteCarloStage(const Packing &p, Archive &from)
+    : p_(p), options_(default_monte_carlo_options()), means_(p, options_) {
+  archive(from);
+}
+
+void MonteCarloStage::archive(Archive &a) {
+  int64_t done = engine_ ? done_ : not_begun;
+  a(options_);
+  a(done);
+  a(stop_reason_);
+  a(seen_);
+  means_.archive(a);
+  if (a.reading()) {
+    check_monte_carlo_options(options_);
+    Archive::check(done >= not_begun && seen_.size() == p_.position.size());
+    check_monte_carlo(p_, options_);
+    if (done == not_begun) return;
+    done_ = done;
+    Archive::check(options_.step > 0.0);
+    engine_ = make_monte_carlo(p_, options_, options_.run);
+  }
+  if (engine_) engine_->archive(a);
+}
+
+Packing MonteCarloStage::current() const {
+  Packing p = p_;
+  if (!engine_) return p;
+  engine_->write_state(p);
+  return p;
+}
+
+bool MonteCarloStage::tell(Monitor &monitor, double goal) const {
+  jam_progress q = progress_of(phase());
+  q.packing_fraction = packing_fraction(p_);
+  q.fraction = static_cast<double>(done_) / goal;
+  q.steps = done_;
+  return monitor.report(q);
+}
+
+void MonteCarloStage::take_displacement(Observer *observer) {
+  const std::vector<double> &moved = engine_->displacement();
+  const size_t d = static_cast<size_t>(p_.dim);
+  if (observer)
+    for (size_t k = 0; k < moved.size(); ++k)
+      observer->travel(static_cast<int32_t>(k / d))[k % d] += moved[k] - seen_[k];
+  seen_ = moved;
+}
+
+jam_status MonteCarloStage::run(const Limits &limits, const Listeners &listeners) {
+  constexpr int64_t sample_every = 10;  // sweeps; a sample takes about the time of a sweep
+  const double started = now_seconds(), wall_end = started + limits.wall_time;
+  listeners.monitor->wall_time = limits.wall_time;
+  stop_reason_ = begin(*listeners.monitor);
+  if (stop_reason_ != JAM_STOP_NONE) return stop_reason_ == JAM_STOP_CANCELLED ? JAM_CANCELLED : JAM_LIMIT;
+  const int64_t goal = static_cast<int64_t>(std::min(limits.per_particle, 9e15)), before = done_;
+  stop_reason_ = JAM_STOP_COLLISIONS;
+  while (done_ < goal) {
+    engine_->sweep(options_.first_sweep + done_++);
+    if (done_ % sample_every != 0) continue;
+    means_.sample(*engine_);
+    if (done_ == goal) break;
+    if (tell(*listeners.monitor, static_cast<double>(goal))) stop_reason_ = JAM_STOP_CANCELLED;
+    if (now_seconds() > wall_end) stop_reason_ = JAM_STOP_WALL_TIME;
+    if (stop_reason_ != JAM_STOP_COLLISIONS) break;
+  }
+  take_displacement(listeners.observer);
+  engine_->write_state(p_);
+  seconds_ = now_seconds() - started;
+  trials_ = static_cast<double>(done_ - before) * static_cast<double>(p_.n());
+  p_.pressure = report().pressure;
+  if (stop_reason_ == JAM_STOP_CANCELLED) return JAM_CANCELLED;
+  return stop_reason_ == JAM_STOP_WALL_TIME ? JAM_LIMIT : JAM_OK;
+}
+
+jam_monte_carlo_report MonteCarloStage::report() const {
+  jam_monte_carlo_report r{};
+  r.struct_size = sizeof r;
+  r.stop_reason = stop_reason_;
+  r.step = options_.step;
+  r.next_sweep = options_.first_sweep;
+  if (!engine_) return r;
+  double msd = 0.0;
+  for (const double x : engine_->displacement()) msd += x * x;
+  r.msd = msd / static_cast<double>(p_.n()) * p_.cell.side() * p_.cell.side();
+  r.sweeps = done_;
+  r.next_sweep = options_.first_sweep + done_;
+  r.acceptance = engine_->counts.acceptance();
+  r.swap_acceptance = engine_->counts.swap_acceptance();
+  means_.give(r);
+  r.seconds = seconds_;
+  r.trials_per_second = trials_ / std::max(seconds_, 1e-9);
+  return r;
+}
+
+}  // namespace jam

@@ -1,0 +1,237 @@
+// Places of the spheres in a Monte Carlo run and the lists of their neighbours: what does not depend on the energy.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "core/call_scope.hpp"
+#include "core/error.hpp"
+#include "core/math.hpp"
+#include "core/pair_rule.hpp"
+#include "dynamics/monte_carlo/cells.hpp"
+#include "dynamics/monte_carlo/geometry.hpp"
+#include "dynamics/monte_carlo/monte_carlo.hpp"
+
+namespace jam {
+
+template <int D, bool Cube>
+class MonteCarloSpheres : public MonteCarlo {
+ public:
+  MonteCarloSpheres(const Packing &p, const jam_monte_carlo_options &o)
+      : p_(p),
+        n_(static_cast<int32_t>(p.n())),
+        swap_share_(o.swap_share),
+        hard_(o.alpha == 0.0),
+        geometry_(p.cell, contact_distance_max(p) / p.cell.side()),
+        x_(p.n()),
+        radius_(p.n()),
+        centre_(p.n()),
+        displacement_(p.position.size(), 0.0),
+        first_(p.n() + 1) {
+    for (int32_t i = 0; i < n_; ++i) {
+      x_[i] = geometry_.place(&p.position[static_cast<size_t>(i) * D]);
+      radius_[i] = 0.5 * p.diameter[i] / p.cell.side();
+    }
+    contact_max_ = contact_distance_max(p) / p.cell.side();
+    set_step(o.step * diameter_mean(p) / p.cell.side());
+  }
+
+  void set_step(double step) final {
+    step_ = step;
+    // A trial from where the lists were made must stay within half the skin. Longer lists hold for longer; trials take
+    // least time near 8 steps, and shorter ones than 0.35 diameters (tests/bench/monte_carlo).
+    const double least = 2.02 * std::sqrt(static_cast<double>(D)) * step, room = geometry_.widest() - contact_max_;
+    const double best = std::min(longest_skin, std::max(0.03, skin_steps * step / contact_max_)) * contact_max_;
+    skin_ = std::max(least, std::min(best, room));
+    if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
+    choose_cells();
+    if (!cells_.in_use()) make_lists();
+  }
+
+  double gap_range() const final { return std::min(skin_, geometry_.widest() - contact_max_) / contact_max_; }
+  void count_gaps(double h_max, std::vector<double> &bins) final {
+    make_lists();  // after it the lists hold all pairs within the skin
+    each_pair([&](int32_t i, int32_t k, double r2) {
+      const double h = std::sqrt(r2) / contact(i, k) - 1.0;
+      if (h < h_max) bins[h > 0.0 ? static_cast<size_t>(h / h_max * static_cast<double>(bins.size())) : 0] += 1.0;
+    });
+  }
+
+  void write_state(Packing &p) const final {
+    for (int32_t i = 0; i < n_; ++i) {
+      geometry_.position(x_[i], &p.position[static_cast<size_t>(i) * D]);
+      p.diameter[i] = p_.diameter[i];
+    }
+  }
+  const std::vector<double> &displacement() const final { return displacement_; }
+  // The lists too: the order in them is the order of sums of energies.
+  void archive(Archive &a) final {
+    a(x_);
+    a(centre_);
+    a(displacement_);
+    a(p_.diameter);
+    a(first_);
+    a(neighbour_);
+    a(counts);
+    if (!a.reading()) return;
+    const size_t n = static_cast<size_t>(n_);
+    Archive::check(x_.size() == n && centre_.size() == n && displacement_.size() == n * D && p_.diameter.size() == n);
+    Archive::check(first_.size() == n + 1 && first_[0] == 0 && first_[n] == static_cast<int64_t>(neighbour_.size()));
+    for (size_t i = 0; i < n; ++i) {
+      Archive::check(p_.diameter[i] > 0.0 && 0.5 * p_.diameter[i] / p_.cell.side() <= contact_max_ &&
+                     first_[i] <= first_[i + 1]);
+      radius_[i] = 0.5 * p_.diameter[i] / p_.cell.side();
+    }
+    for (const int32_t k : neighbour_) Archive::check(k >= 0 && k < n_);
+    choose_cells();
+  }
+
+ protected:
+  using Place = std::array<uint64_t, D>;
+  static constexpr double skin_steps = 12.0, longest_skin = 0.7, everything = 1e9;
+  // Beyond it cells are faster, in contact distances (tests/bench/monte_carlo).
+  static constexpr double longest_step_of_lists = 0.1;
+
+  double contact(int32_t i, int32_t k) const {
+    const double sum = radius_[i] + radius_[k];
+    return p_.non_additivity == 0.0 || radius_[i] == radius_[k] ? sum : (1.0 + p_.non_additivity) * sum;
+  }
+  template <class F>
+  void each_pair(F &&f) const {
+    for (int32_t i = 0; i < n_; ++i)
+      for (int32_t e = first_[i]; e < first_[i + 1]; ++e)
+        if (const int32_t k = neighbour_[e]; k > i)
+          geometry_.each_image2(x_[i], x_[k], [&](double r2) { f(i, k, r2); });
+  }
+  void make_lists() {
+    ++counts.lists;
+    found_.clear();
+    const auto cells = static_cast<int64_t>(geometry_.height() / list_range());
+    if (cells >= 4 && math::pow(3.0, D) < n_)
+      find_in_cells(std::min<int64_t>(cells, static_cast<int64_t>(math::pow(2.0 * n_, 1.0 / D)) + 1));
+    else
+      for (int32_t i = 0; i < n_; ++i) {
+        look_at_limits(i);
+        for (int32_t k = i + 1; k < n_; ++k) note_pair(i, k);
+      }
+    std::fill(first_.begin(), first_.end(), 0);
+    for (const auto &pair : found_) ++first_[pair[0] + 1], ++first_[pair[1] + 1];
+    for (int32_t i = 0; i < n_; ++i) first_[i + 1] += first_[i];
+    neighbour_.resize(2 * found_.size());
+    at_.assign(first_.begin(), first_.end() - 1);
+    for (const auto &pair : found_) {
+      neighbour_[at_[pair[0]]++] = pair[1];
+      neighbour_[at_[pair[1]]++] = pair[0];
+    }
+    centre_ = x_;
+  }
+
+  // Whether sphere i would overlap another at a place.
+  bool overlaps(int32_t i, const Place &at) const {
+    if (cells_.in_use()) return overlaps_in_cells(i, at);
+    for (int32_t e = first_[i]; e < first_[i + 1]; ++e)
+      if (touches(i, at, neighbour_[e])) return true;
+    return false;
+  }
+  // Before a trial that takes sphere i there.
+  void prepare(int32_t i, const Place &to) {
+    if (!cells_.in_use() && geometry_.distance2(to, centre_[i]) >= 0.25 * skin_ * skin_) make_lists();
+  }
+  void put(int32_t i, const Place &to) {
+    x_[i] = to;
+    if (cells_.in_use()) cells_.move(i, to);
+  }
+
+  Packing p_;  // diameters of now; positions of the last lists
+  int32_t n_;
+  double swap_share_, step_ = 0.0, skin_ = 0.0;
+  bool hard_;
+  MonteCarloGeometry<D, Cube> geometry_;
+  std::vector<Place> x_;
+  std::vector<double> radius_;
+  std::vector<Place> centre_;
+  std::vector<double> displacement_;
+  std::vector<int32_t> first_, neighbour_;
+  double contact_max_ = 0.0;
+
+ private:
+  bool touches(int32_t i, const Place &at, int32_t k) const {
+    const double sigma = contact(i, k);
+    return geometry_.nearest2(at, x_[k]) < sigma * sigma;
+  }
+  // Not a part of the loop over lists, which is slower with this code in it.
+  [[gnu::noinline]] bool overlaps_in_cells(int32_t i, const Place &at) const {
+    return cells_.any(at, [&](int32_t k) { return k != i && touches(i, at, k); });
+  }
+  // Sums of soft energies need the order of a list, which the archive keeps; an overlap needs no order.
+  void choose_cells() {
+    cells_.clear();
+    const auto side = static_cast<int64_t>(geometry_.height() / contact_max_);
+    if (hard_ && step_ > longest_step_of_lists * contact_max_ && side >= 4 && math::pow(3.0, D) < n_)
+      cells_.build(
+          x_, static_cast<size_t>(std::min<int64_t>(side, static_cast<int64_t>(math::pow(2.0 * n_, 1.0 / D)) + 1)));
+  }
+  // Longest distance at which a pair is listed, of all pairs and of this one. With swaps any two spheres can get the
+  // largest diameters.
+  double list_range() const { return contact_max_ + skin_; }
+  double list_range(int32_t i, int32_t k) const { return (swap_share_ > 0.0 ? contact_max_ : contact(i, k)) + skin_; }
+  void note_pair(int32_t i, int32_t k) {
+    const double range = list_range(i, k);
+    if (geometry_.nearest2(x_[i], x_[k]) < range * range) found_.push_back({i, k});
+  }
+  void look_at_limits(int64_t step) const {
+    if (step % 64 == 0) CallScope::look();
+    // A pair found is two entries of the lists besides.
+    CallScope::need_memory(static_cast<double>(found_.size()) * 4.0 * sizeof(int32_t), "neighbour lists");
+  }
+  // Pairs of each cell with itself and with half of the cells around it.
+  void find_in_cells(int64_t cells) {
+    size_t total = 1;
+    for (int c = 0; c < D; ++c) total *= static_cast<size_t>(cells);
+    cell_first_.assign(total + 1, 0);
+    cell_of_.resize(x_.size());
+    for (int32_t i = 0; i < n_; ++i) {
+      size_t cell = 0;
+      for (int c = 0; c < D; ++c)  // the upper 32 bits of x times cells, over 2^32
+        cell = cell * static_cast<size_t>(cells) + ((x_[i][c] >> 32) * static_cast<uint64_t>(cells) >> 32);
+      cell_of_[i] = static_cast<int32_t>(cell);
+      ++cell_first_[cell + 1];
+    }
+    for (size_t k = 0; k < total; ++k) cell_first_[k + 1] += cell_first_[k];
+    in_cell_.resize(x_.size());
+    at_.assign(cell_first_.begin(), cell_first_.end() - 1);
+    for (int32_t i = 0; i < n_; ++i) in_cell_[at_[cell_of_[i]]++] = i;
+    int steps = 1;
+    for (int c = 0; c < D; ++c) steps *= 3;
+    for (size_t cell = 0; cell < total; ++cell) {
+      look_at_limits(static_cast<int64_t>(cell));
+      const int32_t begin = cell_first_[cell], end = cell_first_[cell + 1];
+      for (int32_t a = begin; a < end; ++a)
+        for (int32_t b = a + 1; b < end; ++b) note_pair(in_cell_[a], in_cell_[b]);
+      if (begin == end) continue;
+      for (int step = steps / 2 + 1; step < steps; ++step) {
+        const size_t other = cell_beside(cell, step, static_cast<size_t>(cells));
+        for (int32_t a = begin; a < end; ++a)
+          for (int32_t b = cell_first_[other]; b < cell_first_[other + 1]; ++b) note_pair(in_cell_[a], in_cell_[b]);
+      }
+    }
+  }
+  // The digits of `step` in base 3, less 1, are the steps along the axes.
+  static size_t cell_beside(size_t cell, int step, size_t cells) {
+    size_t other = 0, weight = 1;
+    for (int c = 0; c < D; ++c, step /= 3, cell /= cells, weight *= cells) {
+      const size_t place = cell % cells;
+      const int by = step % 3 - 1;
+      other += weight * (by < 0   ? (place ? place - 1 : cells - 1)
+                         : by > 0 ? (place + 1 < cells ? place + 1 : 0)
+                                  : place);
+    }
+    return other;
+  }
+
+  MonteCarloCells<D> cells_;  // not in use: lists are
+  // to make lists
+  std::vector<std::array<int32_t, 2>> found_;
+  std::vector<int32_t> cell_first_, cell_of_, in_cell_, at_;
+};
+
+}  // namespace jam

@@ -1,4 +1,0 @@
-// The loops for every processor of the target; on x86-64 that is SSE2.
-#define JAM_SIMD_NAMESPACE portable
-#define JAM_SIMD_TARGET
-#include "dynamics/pair_kernel_loops.hpp"

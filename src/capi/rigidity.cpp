@@ -29,8 +29,8 @@ Answer answer_of(const jam_rigidity_report &r) {
                      "and %lld motions keep all contacts closed; jam_flex gives one",
                      kind, n(r.contacts), n(r.contacts_needed), n(r.flexes))};
   return {JAM_AMBIGUOUS,
-          sentence("undecided whether the packing is %s jammed: %lld pairs with gaps of 1e-10 to 1e-7 may or may "
-                   "not be contacts, and the rigidity margin is %.1e; jam_crunch closes contacts",
+          sentence("undecided whether the packing is %s jammed: %lld pairs are nearly closed, and the rigidity margin "
+                   "is %.1e; jam_crunch closes contacts",
                    kind, n(r.undecided_contacts), r.rigidity_margin)};
 }
 

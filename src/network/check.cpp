@@ -115,7 +115,10 @@ CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_poi
     }
   }
   bool changes = verdict.when_closed != verdict.result.jammed;
-  if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no && q.n() > 1) {
+  // Digits that were lost in a way that leaves no step, such as a turned frame: a pair touches, others are open by as
+  // much as was lost. Where all pairs are open by more than rounding, nothing touches.
+  if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no && r.nearest_gap < contact_gap_limit &&
+      q.n() > 1) {
     const GeometryResult wide = contacts_from_geometry(q, default_geometry_options(), cancel_point);
     if (wide.clear && wide.when_closed == Verdict::yes) {
       r.jammed = r.strictly_jammed = JAM_VERDICT_UNDECIDED;

@@ -214,6 +214,7 @@ namespace {
 // Result on the rows that are `on`, with its arrays as long as those of the whole list.
 RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, Jamming kind,
                          const CancellationPoint &cancel_point) {
+  if (std::count(on.begin(), on.end(), 0) == 0) return test_rigidity(g, kind, cancel_point);
   const RigidityMatrix part = subset(g, on);
   RigidityResult r = test_rigidity(part, kind, cancel_point);
   std::vector<char> carrying(g.contacts(), 0);
@@ -234,7 +235,7 @@ RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, J
 namespace {
 
 // With the closed contacts jammed, another contact between two of their force-carrying spheres changes nothing: its row
-// is a combination of theirs. True when all undecided contacts are of that kind or cannot carry force at all.
+// is a combination of theirs. True when all contacts in doubt are of that kind or cannot carry force at all.
 bool within_jammed(const RigidityMatrix &g, const std::vector<char> &closed, const std::vector<char> &carrying) {
   std::vector<char> stable(g.nodes, 0), on(g.contacts(), 1);
   for (size_t k = 0; k < g.contacts(); ++k)
@@ -293,24 +294,31 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
     wanted[k] = in_list[k] > 0.0 ||
                 (counts(k) && resolution.may_touch(near.gap[k], contact_distance(p, near.pairs.i[k], near.pairs.j[k])));
   net = subset(near, wanted, p.dim);
-  std::vector<char> closed;
-  for (size_t k = 0; k < near.size(); ++k)
-    if (wanted[k]) closed.push_back(near.gap[k] < (in_list[k] > 0.0 ? undecided_gap_limit : contact_gap_limit));
+  std::vector<char> closed, near_enough;
+  for (size_t k = 0; k < near.size(); ++k) {
+    if (!wanted[k]) continue;
+    const bool named = in_list[k] > 0.0;
+    closed.push_back(near.gap[k] < (named ? undecided_gap_limit : contact_gap_limit));
+    near_enough.push_back(closed.back() || named ||
+                          near.gap[k] * contact_distance(p, near.pairs.i[k], near.pairs.j[k]) < resolution.reach());
+  }
   out.undecided_contacts = std::count(closed.begin(), closed.end(), 0);
   const RigidityMatrix g = make_rigidity_matrix(p, net);
   out.sphere = g.sphere;
-  const std::vector<char> all(net.size(), 1);
-  const bool undecided = out.undecided_contacts > 0;
-  out.result = test_part(g, undecided ? closed : all, kind, cancel_point);
+  out.result = test_part(g, closed, kind, cancel_point);
   out.when_closed = out.result.jammed;
-  if (undecided && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
-    RigidityResult shut = test_rigidity(g, kind, cancel_point);
+  if (near_enough != closed && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
+    RigidityResult shut = test_part(g, near_enough, kind, cancel_point);
     const bool same = shut.jammed == out.result.jammed;
     out.when_closed = shut.jammed;
     // Jammed with and without the pairs in doubt: closed contacts alone prove it. Else the flex of the open ones is
     // kept.
     if (same ? shut.jammed != Verdict::yes : out.result.jammed == Verdict::yes) out.result = std::move(shut);
     if (!same) out.result.jammed = Verdict::undecided;
+  }
+  if (std::count(closed.begin(), closed.end(), 1) == 0 && g.nodes > 0 && out.result.jammed == Verdict::no) {
+    out.result.flex.assign(g.unknowns(), 0.0);  // nothing is closed: any motion will do
+    out.result.flex[0] = 1.0;
   }
   if (out.result.jammed == Verdict::no && resolution.coarse(p) && may_hold_spheres(g))
     out.result.jammed = Verdict::undecided;

@@ -51,17 +51,17 @@ RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
                              const CancellationPoint &cancel_point = CancellationPoint());
 
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
-// below undecided_gap_limit. Undecided are other pairs below undecided_gap_limit, those of `listed` below
-// listed_gap_limit, and those that the digits of the coordinates cannot tell from contacts. Undecided pairs are taken
-// as closed, then as open; where the two verdicts differ, the packing is undecided. Where both are jammed, contacts and
+// below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
+// listed_gap_limit, and pairs that the digits of the coordinates cannot tell from contacts. They are taken as closed,
+// then as open; where the two verdicts differ, the packing is undecided. Where both are jammed, contacts and
 // forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
 // their sign: then only spheres with too few pairs near them make a no.
 struct PackingVerdict {
   RigidityResult result;
-  ContactNetwork contacts;      // all that the test looked at, force as in result
-  std::vector<int32_t> sphere;  // node of result.flex -> sphere
-  int64_t undecided_contacts = 0;
-  Verdict when_closed = Verdict::undecided;  // with all undecided pairs closed
+  ContactNetwork contacts;         // all that the test looked at, force as in result
+  std::vector<int32_t> sphere;     // node of result.flex -> sphere
+  int64_t undecided_contacts = 0;  // pairs that are not closed and open by less than undecided_gap_limit, or in doubt
+  Verdict when_closed = Verdict::undecided;  // with all pairs in doubt closed
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };

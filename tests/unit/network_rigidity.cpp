@@ -8,6 +8,7 @@
 #include "capi/system.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
+#include "network/check.hpp"
 #include "network/rigidity_test.hpp"
 #include "rigidity_oracle.hpp"
 // Last: cmocka defines a macro `fail`.
@@ -173,12 +174,16 @@ void amorphous(void **) {
     Packing shrunk = p;
     for (double &x : shrunk.diameter) x *= 1.0 - 1e-3;
     assert_true(of_packing(shrunk).jammed == Verdict::no);
-    // A gap of 1e-8: no double tells; 1e-6 is open.
-    Packing close = p;
-    for (double &x : close.diameter) x *= 1.0 - 1e-8;
-    assert_true(of_packing(close).jammed == Verdict::undecided);
-    for (double &x : close.diameter) x *= 1.0 - 1e-6;
-    assert_true(of_packing(close).jammed == Verdict::no);
+    // Gaps are known to 1e-15: nothing touches.
+    for (const double gap : {3e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
+      Packing close = p;
+      for (double &x : close.diameter) x *= 1.0 - gap;
+      const PackingVerdict v = test_packing(close, nullptr, Jamming::collective);
+      assert_true(v.result.jammed == Verdict::no && v.result.stressed == Verdict::no);
+      assert_true(test_packing(close, nullptr, Jamming::strict).result.jammed == Verdict::no);
+      assert_int_equal(v.result.flex.size(), v.sphere.size() * static_cast<size_t>(dim));
+      assert_true(check_as_it_is(close).report.reason == JAM_CHECK_APART);
+    }
   }
 }
 

@@ -307,7 +307,7 @@ class Campaigns(unittest.TestCase):
         e.run([1], ThreadPoolExecutor(1), progress=False)
         self.assertNotIn("builds", str(e.status()))
         other = dict(jam.store.provenance(), commit="0123456789ab", library="f" * 16)
-        with unittest.mock.patch("jam.store.provenance", lambda: other):
+        with unittest.mock.patch("jam._formats.write_packing.provenance", lambda: other):
             status = e.run([1, 2], ThreadPoolExecutor(1), progress=False)
         self.assertIn("made by 2 builds", str(status))
         self.assertIn("commit 0123456789ab library ffffffffffffffff", str(status))

@@ -89,7 +89,7 @@ class Making(unittest.TestCase):
             jam.System.random(model="hard")
         for code in jam.StatusCode:
             if code < 0:
-                self.assertTrue(issubclass(jam._api.errors._BY_STATUS[code], jam.JamError))
+                self.assertTrue(issubclass(jam._api.exceptions.BY_STATUS[code], jam.JamError))
 
 
 class Views(unittest.TestCase):

@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 
 import jam
-from jam._formats import replacing, sealed
+from jam._formats import replacing, seal
 from jam.store import StoreError
 
 
@@ -31,7 +31,7 @@ def crafted(data, change):
     text = index if isinstance(index, bytes) else json.dumps(index).encode()
     data += text  # behind the HDF5, where its length does not matter
     place = [len(data) - len(text), len(text), hashlib.sha256(text).hexdigest()]
-    data[:512] = sealed._head(len(data), place, hashlib.sha256(data[512:]).hexdigest())
+    data[:512] = seal.head_of(len(data), place, hashlib.sha256(data[512:]).hexdigest())
     return bytes(data)
 
 
@@ -265,7 +265,7 @@ class Crafted(Case):
             data = path.read_bytes()  # the old index under a new seal: only its places are read
             place = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})", data)
             index = [int(place[1]), int(place[2]), place[3].decode()]
-            head = sealed._head(len(data), index, hashlib.sha256(data[512:]).hexdigest())
+            head = seal.head_of(len(data), index, hashlib.sha256(data[512:]).hexdigest())
             try:
                 loaded = jam.load(self.written(head + data[512:]))
                 np.testing.assert_array_equal(loaded.forces, self.disks.forces)

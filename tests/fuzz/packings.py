@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 import jam
-from jam._formats import sealed
+from jam._formats import seal
 
 SECONDS, MEMORY = 10, 2 << 30
 
@@ -64,21 +64,21 @@ def sealed_again(data):
     try:
         index = json.loads(bytes(data[at : at + size]))
         for entry in index["data"].values():
-            kind = sealed._type(entry[2])
-            entry[3] = hashlib.sha256(data[entry[0] : entry[0] + sealed._size(entry[1], kind)]).hexdigest()
+            kind = seal.type_of(entry[2])
+            entry[3] = hashlib.sha256(data[entry[0] : entry[0] + seal.size_of(entry[1], kind)]).hexdigest()
         text = json.dumps(index).encode()
         data[at : at + size] = text[:size].ljust(size)
     except Exception:
         pass  # the flip hit the index: only its own checksum can fit
     digest = hashlib.sha256(data[at : at + size]).hexdigest()
-    whole = hashlib.sha256(data[sealed.USER_BLOCK :]).hexdigest()
-    data[: sealed.USER_BLOCK] = sealed._head(len(data), [at, size, digest], whole)
+    whole = hashlib.sha256(data[seal.USER_BLOCK :]).hexdigest()
+    data[: seal.USER_BLOCK] = seal.head_of(len(data), [at, size, digest], whole)
     return data
 
 
 def craft(data, draw):
     """A flip behind the seal, one in three in the index, with checksums that fit."""
-    first, size = index_of(data) if draw.random() < 0.3 else (sealed.USER_BLOCK, len(data) - sealed.USER_BLOCK)
+    first, size = index_of(data) if draw.random() < 0.3 else (seal.USER_BLOCK, len(data) - seal.USER_BLOCK)
     data[first + draw.randrange(size)] ^= 1 << draw.randrange(8)
     return sealed_again(data)
 
@@ -100,7 +100,7 @@ def attempt(data, expected):
                 file.write(data)
             try:
                 answer = "same" if values(jam.load("changed.h5")) == expected else "OTHER VALUES"
-            except sealed.StoreError as error:
+            except seal.StoreError as error:
                 answer = "StoreError" if "changed.h5" in str(error) else "UNNAMED " + str(error)
             except BaseException as error:
                 answer = f"{type(error).__name__}: {error}"

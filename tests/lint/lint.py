@@ -5,6 +5,9 @@ import pathlib
 import re
 import sys
 
+sys.dont_write_bytecode = True  # in the source tree
+import python_layers as python_package  # noqa: E402
+
 root = pathlib.Path(sys.argv[2])
 problems = []
 
@@ -85,6 +88,13 @@ def layers():
             folder, inner = str(path.relative_to(root / "src").parent), name.rpartition("/")[0]
             if folder in FOLDERS and inner in FOLDERS and inner != folder and inner not in FOLDERS[folder]:
                 problem(path, number, f"folder {folder} must not include {name}")
+
+
+def python_layers():
+    python_package.check(root / "bindings/python/jam", sys.stdlib_module_names, problem)
+    # the rule sees a circle of three, and none where nothing leads back
+    if python_package.circles({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}}) != ["a", "b", "c"]:
+        problem("tests/lint/python_layers.py", 0, "this rule is broken")
 
 
 def private_headers():
@@ -336,7 +346,7 @@ def columns():
                 problem(path, number, f"{len(line)} columns, 120 are allowed")
 
 
-RULES = [layers, private_headers, doc_comments, names, file_sizes, no_side_effects, own_math]
+RULES = [layers, python_layers, private_headers, doc_comments, names, file_sizes, no_side_effects, own_math]
 RULES += [plain_words, sentence_length, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):

@@ -8,19 +8,10 @@ from typing import Any
 import numpy as np
 
 from ._api.arrays import Array
+from .ensemble.protocol import _uniform
 from .system import System
 
 
-def _uniform(seed: int, k: int) -> float:
-    """In (0, 1): the k-th number of a seed, by the finaliser of splitmix64 (Steele, Lea and Flood 2014)."""
-    mask = (1 << 64) - 1
-    x = (seed * 0x9E3779B97F4A7C15 + k) & mask
-    for _ in range(2):
-        x = (x + 0x9E3779B97F4A7C15) & mask
-        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & mask
-        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & mask
-        x ^= x >> 31
-    return ((x >> 11) + 0.5) * 2.0**-53
 
 
 def take_diameters(text: str) -> tuple[str, Any]:

@@ -11,11 +11,11 @@ from typing import Any, Callable
 
 from . import files, raw
 from ._api.generated import LogLevel, Phase, StopReason, Verdict
-from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS, STAGES
 from ._formats.replacing import replacing
-from ._system.progress import every_ten_seconds
+from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS, STAGES
 from ._start import start, take_diameters
-from ._api.errors import JamError
+from ._system.progress import every_ten_seconds
+from .errors import JamError
 from .system import System
 
 DONE, EARLY, USAGE, FAILED, OUTPUT = range(5)  # exit status, as jam-pack

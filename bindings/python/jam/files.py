@@ -5,14 +5,15 @@ System.write and System.write_contacts write most of them by the ending of the n
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import numpy as np
 
-from ._formats.replacing import replacing
 from ._api.arrays import Array
-from ._api.errors import StateError, UnsupportedError
-from .other_files import read_ase, read_gsd, write_gsd  # noqa: F401
 from ._api.results import Modes
+from ._formats import ase, gsd
+from ._formats.replacing import replacing
+from .errors import StateError, UnsupportedError
 from .system import System
 
 
@@ -112,3 +113,76 @@ def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
         for i in range(system.n):
             numbers = ",".join(f"{x:.17g}" for x in (*plain.c[i], plain.s[i], weighted.s[i], q6[i]))
             file.write(f"{i},{z[i]},{names[i]},{numbers},{phi[i]}\n")
+
+
+def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
+    """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `read_gsd` prefers."""
+    gsd.write(path, system.positions, system.diameters, system.cell)
+
+
+def read_gsd(
+    path: str | os.PathLike[str],
+    frame: int = -1,
+    *,
+    diameters: Any = None,
+    radii: Any = None,
+    doubles: bool = True,
+    **options: Any,
+) -> System:
+    """Reads one frame of a GSD file; the last by default.
+
+    Files that libjam wrote come back to the bit. Others hold float32, so that spheres in contact overlap by 1e-7:
+    overlap='shrink' is then needed.
+
+    Diameters are looked for in particles/diameter, in the spheres of particles/type_shapes and in
+    state/hpmc/sphere/radius. Those found must agree. A file with none of them is refused: GSD leaves out its default,
+    diameters of 1, so that such a file may hold spheres of that size or none.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    frame : int
+        Number of the frame from 0; negative ones count from the end.
+    diameters : array_like, optional
+        Instead of those in the file: one for all or one for each sphere, in the order of the frame.
+    radii : array_like, optional
+        Instead of diameters.
+    doubles : bool
+        False leaves the chunks log/jam out. They are refused where another program changed the frame beside them.
+    **options
+        As of System.from_arrays, but for box, cell and dim, which the file holds.
+    """
+    return System.from_arrays(
+        **gsd.arguments(path, frame, diameters=diameters, radii=radii, doubles=doubles, **options)
+    )
+
+
+def read_ase(
+    path: str | os.PathLike[str],
+    diameters: Any = None,
+    *,
+    radii: Any = None,
+    dim: int = 3,
+    frame: int = -1,
+    **options: Any,
+) -> System:
+    """Reads any file that ASE reads (CIF, POSCAR, ...), periodic in all directions.
+
+    Parameters
+    ----------
+    path : path-like
+        ASE tells the format by the name or the content.
+    diameters : array_like, optional
+        One for all or one for each sphere, in the order of the file. Needed unless the file has an array `radius` or
+        `diameter`. Where ASE sorts the spheres of a LAMMPS file by their ids, one for each is refused.
+    radii : array_like, optional
+        Instead of diameters.
+    dim : int
+        2 reads a plane z = const and leaves the third direction out.
+    frame : int
+        Number of the frame from 0; negative ones count from the end.
+    **options
+        As of System.from_arrays; overlap='shrink' for files with few digits.
+    """
+    return System.from_arrays(**ase.arguments(path, diameters, radii=radii, dim=dim, frame=frame, **options))

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
-from ._api.arrays import Array
 from . import statistics
-from ._system.runs import Runs, campaign, run, take_runs  # noqa: F401  public here
+from ._api.arrays import Array
+from ._system.runs import Runs, campaign, make_runs as run, take_runs  # noqa: F401  public here
 from .statistics import Estimate
 
 # ---- predictors

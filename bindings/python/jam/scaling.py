@@ -13,7 +13,6 @@ from typing import Any, Callable, NamedTuple, Sequence
 
 import numpy as np
 
-
 from ._api.arrays import Array
 
 RESAMPLES = 200  # of a bootstrap: its error is then good to 5 %

@@ -5,7 +5,6 @@ from typing import Any, Callable, Iterable, NamedTuple, Sequence
 
 import numpy as np
 
-
 from ._api.arrays import Array
 
 

@@ -1,26 +1,27 @@
 """The system of spheres: a thin, native-feeling layer over the C handle."""
 from __future__ import annotations
 
-import html
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any
 
-import numpy as np
-
-from ._api import calls, given, errors
-from . import raw
-from ._system.network import Network
-from ._system.progress import end, reporter
-from ._system.state import State
-from ._system.verbs import Verbs
+from . import errors, raw
+from ._api.arrays import as_array
+from ._api.calls import freeze
+from ._api.errors import METHODS
+from ._api.given import cell_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
+from ._api.options import option_struct
 from ._api.results import Contacts, Modes
+from ._formats import gsd
+from ._system.progress import end, reporter
+from ._system.verbs import Verbs
+from ._system.writing import Writing
 
 __all__ = ["Contacts", "Modes", "System"]
 
 
-class System(State, Verbs, Network):
+class System(Verbs, Writing):
     """N spheres in a periodic cube, or in any periodic cell.
 
     Make one by `System.random`, `System.from_arrays` or `System.read`. `run`, `compress` and `crunch` move the spheres.
@@ -82,7 +83,7 @@ class System(State, Verbs, Network):
         >>> jam.System.random(n=100, dim=2, seed=7)
         System(n=100, dim=2, packing_fraction=0.2, box=1, seed=7)
         """
-        sizes = None if diameters is None else calls.as_array(diameters, name="diameters").reshape(-1)
+        sizes = None if diameters is None else as_array(diameters, name="diameters").reshape(-1)
         if packing_fraction is None:
             packing_fraction = 0.0  # the library's own, by dimension
         made = dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction)
@@ -128,13 +129,13 @@ class System(State, Verbs, Network):
         >>> jam.System.from_arrays([[1.0, 1.0], [3.0, 3.0]], radii=0.5, box=4.0).diameters
         array([1., 1.])
         """
-        x = given.positions_of(positions, diameters, radii, dim)
-        sizes = given.sizes_of(diameters, radii, len(x))
-        given.refuse_start_options(options, ("packing_fraction",), "the diameters are given")
+        x = positions_of(positions, diameters, radii, dim)
+        sizes = sizes_of(diameters, radii, len(x))
+        refuse_start_options(options, ("packing_fraction",), "the diameters are given")
         if options.get("n") not in (None, len(x)):
             raise ValueError(f"n is {options['n']}, and there are {len(x)} positions")
         if box is None and cell is None:
-            given.refuse_unnamed_box(x)
+            refuse_unnamed_box(x)
         options.update(n=len(x), dim=x.shape[1], box=box, cell=cell)
         return cls._create(options, x.reshape(-1), sizes)
 
@@ -155,17 +156,16 @@ class System(State, Verbs, Network):
         """
         name = os.fsdecode(path)
         if name.lower().endswith(".gsd"):
-            from . import other_files
-
-            return other_files.read_gsd(name, **{key: value for key, value in options.items() if value is not None})
+            given = {key: value for key, value in options.items() if value is not None}
+            return cls.from_arrays(**gsd.arguments(name, **given))
         for unknown in ("diameters", "radii", "cell"):
             if unknown in options:
                 raise TypeError(
                     f"{unknown}= goes with GSD files and jam.files.read_ase alone: "
                     "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
                 )
-        options["box"] = given.side_of(options.get("box"))
-        return cls._made(*raw.read_watched(name, calls.options("jam_create_options", options), None))
+        options["box"] = side_of(options.get("box"))
+        return cls._made(*raw.read_watched(name, option_struct("jam_create_options", options), None))
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
@@ -180,12 +180,12 @@ class System(State, Verbs, Network):
 
     @classmethod
     def _create(cls, options: dict[str, Any], positions: Any, diameters: Any, progress: Any = None) -> "System":
-        box, vectors = given.cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
-        made = calls.options("jam_create_options", dict(options, box=box))
+        box, vectors = cell_of(options.pop("box", None), options.pop("cell", None), options["dim"])
+        made = option_struct("jam_create_options", dict(options, box=box))
         told = reporter(progress)
 
         def on_progress(p: Any) -> bool:
-            return bool(told(calls.freeze(p, "jam_progress"))) if told else False
+            return bool(told(freeze(p, "jam_progress"))) if told else False
 
         try:
             if vectors is None:
@@ -221,20 +221,7 @@ class System(State, Verbs, Network):
         return self.copy()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        with tempfile.TemporaryDirectory() as folder:  # the checkpoint holds all: velocities, shifts, results
-            file = Path(folder, "state")
-            self.checkpoint_write(str(file))
-            return _restore, (file.read_bytes(), self.calls, self.trace)
-
-    def _results(self) -> tuple[Any, ...] | None:
-        """Report, contacts and history, None where there is none."""
-        found: list[Any] = []
-        for name in ("report", "contacts", "history"):
-            try:
-                found.append(getattr(self, name))
-            except errors.StateError:
-                found.append(None)
-        return tuple(found) if found[1] is not None or found[0] is not None else None
+        return restore, (self._state(), self.calls, self.trace)
 
     def __repr__(self) -> str:
         if self._handle is None:
@@ -246,107 +233,15 @@ class System(State, Verbs, Network):
         found: int = self.n
         return found
 
-    # ---- files
-    def write(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
-        """Writes positions and diameters with 17 digits.
 
-        Parameters
-        ----------
-        path : path-like
-            The file appears whole or not at all.
-        format : {'auto', 'plain', 'xyz', 'lammps', 'vtp'}
-            'auto' goes by the ending: .xyz and .extxyz are extended XYZ; .data and .lmp LAMMPS data; .vtp ParaView's;
-            .gsd HOOMD's (needs python3-gsd); .dat, .txt and no ending plain text. With .gz behind it the file is
-            compressed. Other endings are refused.
-        """
-        name = os.fsdecode(path)
-        if format == "auto" and name.endswith(".gsd"):
-            from . import other_files
-
-            return other_files.write_gsd(self, name)
-        calls.finished(raw.jam_write(self.handle, name, calls.as_enum(format, "Format")))
-
-    def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
-        """Writes the contact network: pairs, unit vectors, gaps and forces.
-
-        Parameters
-        ----------
-        path : path-like
-            The file appears whole or not at all.
-        format : {'auto', 'csv', 'dump', 'vtp'}
-            'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
-            behind it the file is compressed.
-        """
-        calls.finished(raw.jam_write_contacts(self.handle, os.fspath(path), calls.as_enum(format, "ContactFormat")))
-
-    def page(
-        self,
-        path: str | os.PathLike[str],
-        title: str = "",
-        *,
-        values: Mapping[str, Any] | None = None,
-        small: bool = False,
-    ) -> None:
-        """Writes one HTML file to look at the packing in a browser; it needs no network.
-
-        It shows spheres and contact forces to turn and to slice, the numbers of each sphere, the certificate and
-        distributions.
-
-        Parameters
-        ----------
-        path : path-like
-            The file appears whole or not at all.
-        title : str
-            Its heading.
-        values : mapping of str to array_like, shape (n,)
-            More numbers that spheres can be coloured by, under these names.
-        small : bool
-            The picture alone, without the numbers beside it.
-
-        Examples
-        --------
-        >>> import jam
-        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
-        >>> report = disks.crunch()
-        >>> disks.page("disks.html", values={"height": disks.positions[:, 1]})
-        """
-        columns = {name: calls.as_array(x, name=name).reshape(-1) for name, x in (values or {}).items()}
-        for name, column in columns.items():
-            if "\n" in name or not name:
-                raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty")
-            if len(column) != self.n:
-                raise ValueError(f"{name} must have shape ({self.n},), not {column.shape}")
-        numbers = np.concatenate(list(columns.values())) if columns else None
-        calls.finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers))
-
-    def _repr_html_(self) -> str:
-        """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""
-        if self._handle is None or self.n > 20000:
-            return f"<pre>{html.escape(repr(self))}</pre>"
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "page.html")
-            self.page(file, small=True)
-            text = file.read_text(encoding="utf-8")
-        return (
-            f'<iframe srcdoc="{html.escape(text)}" title="{html.escape(repr(self))}" '
-            'style="width:100%;height:480px;border:1px solid #ccc"></iframe>'
-        )
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
-
-        Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
-        options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
-        """
-        from . import store
-
-        store.save(self, path)
-
-
-def _restore(state: bytes, calls: list[Any], trace: list[Any]) -> System:
+def restore(state: bytes, calls: list[Any], trace: list[Any]) -> System:
+    """A system from the bytes of a checkpoint."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "state")
         file.write_bytes(state)
         made = System.from_checkpoint(file)
     made.calls, made.trace = calls, trace
     return made
+
+
+METHODS.update(name for name in dir(System) if callable(getattr(System, name)))

@@ -1,6 +1,21 @@
-"""Types that annotations share."""
+"""Arrays as C takes them."""
+from __future__ import annotations
+
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint64_t": np.uint64, "size_t": np.uint64}
+
+
+def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
+    """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused."""
+    if isinstance(values, np.ma.MaskedArray) and (masked := np.count_nonzero(values.mask)):
+        raise ValueError(f"{name}: {masked} values are masked: fill them, or leave these spheres out")
+    array = np.asarray(values)
+    wanted = np.dtype(DTYPES[dtype])
+    if array.dtype != wanted and not np.can_cast(array.dtype, wanted, "same_kind"):
+        raise TypeError(f"{name}: cannot convert {array.dtype} to {wanted} without loss")
+    return np.ascontiguousarray(array, wanted)

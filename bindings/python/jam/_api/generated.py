@@ -4,6 +4,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum
 
+from .shown import as_table as _as_table
+
 JAM_ABI = 0
 JAM_MAX_DIM = 8
 
@@ -382,6 +384,10 @@ class Report:
 
     status: StatusCode = StatusCode.OK  # > 0: stopped early, or not the answer hoped for; the state is valid
     status_text: str = ""  # why, in a sentence
+    text: str = ""  # a paragraph that says it all, where a call has one
+
+    def __repr__(self) -> str:
+        return self.text or _as_table(self)
 
 
 @dataclass(frozen=True, repr=False)

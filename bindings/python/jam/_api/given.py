@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from . import calls
+from .arrays import Array, as_array
 from .generated import JAM_MAX_DIM
-from .arrays import Array
 
 
 def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
@@ -17,7 +16,7 @@ def cell_of(box: Any, cell: Any, dim: int) -> tuple[float | None, Array | None]:
     name, given = ("cell", cell) if box is None else ("box", box)
     if given is None:
         return None, None
-    x, single = calls.as_array(given, name=name), np.ndim(given) == 0
+    x, single = as_array(given, name=name), np.ndim(given) == 0
     if single and name == "box":
         return float(x[0]), None
     if x.shape == (dim, dim) and name == "cell":
@@ -44,7 +43,7 @@ def side_of(box: Any) -> float | None:
     """The side of the cube for a file that names no box."""
     if box is None:
         return None
-    x = calls.as_array(box, name="box").reshape(-1)
+    x = as_array(box, name="box").reshape(-1)
     if len(x) == 0 or (x != x[0]).any():
         raise ValueError("box for a file that names none must be one side: make other cells by System.from_arrays")
     return float(x[0])
@@ -55,7 +54,7 @@ def sizes_of(diameters: Any, radii: Any, n: int, names: tuple[str, str] = ("diam
     if (diameters is None) == (radii is None):
         raise TypeError(f"give either {names[0]} or {names[1]}")
     name, given = ("diameters", diameters) if radii is None else ("radii", radii)
-    x = calls.as_array(given, name=name)
+    x = as_array(given, name=name)
     if x.ndim > 1 or x.size not in (1, n):
         raise ValueError(f"{name} must be one number or have shape ({n},), not {x.shape}")
     return x.reshape(-1) if radii is None else 2.0 * x.reshape(-1)
@@ -63,7 +62,7 @@ def sizes_of(diameters: Any, radii: Any, n: int, names: tuple[str, str] = ("diam
 
 def positions_of(given: Any, diameters: Any, radii: Any, dim: int | None) -> Array:
     """Positions (n, d). A transposed array and a last column of sizes are refused, unless dim= says that it is meant so."""
-    x = calls.as_array(given, name="positions")
+    x = as_array(given, name="positions")
     if x.ndim != 2:
         raise ValueError(f"positions must have shape (n, d), not {x.shape}")
     if len(x) == 0:
@@ -84,7 +83,7 @@ def positions_of(given: Any, diameters: Any, radii: Any, dim: int | None) -> Arr
         raise TypeError(f"give either diameters or radii{hint}")
     if last >= 2 and len(x) > 1 and count in (1, len(x)):
         name = "diameters" if radii is None else "radii"
-        size = np.broadcast_to(calls.as_array(sizes, name=name).reshape(-1), len(x))
+        size = np.broadcast_to(as_array(sizes, name=name).reshape(-1), len(x))
         if any(np.array_equal(x[:, last], factor * size) for factor in (0.5, 1.0, 2.0)):
             raise ValueError(
                 f"the last column of positions {x.shape} holds the sizes of the spheres: pass {columns}. "

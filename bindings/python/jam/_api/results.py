@@ -1,57 +1,12 @@
-"""What calls return: reports that print as tables, the contact network, modes."""
+"""What calls return: the contact network, modes."""
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from .arrays import Array
-from .._system import methods
-from .generated import REPORTS, StatusCode
-
-
-def _text(value: Any) -> str:
-    if hasattr(value, "name"):
-        found: str = value.name.lower()
-        return found
-    return f"{value:.12g}" if isinstance(value, float) else str(value)
-
-
-def _repr(self: Any) -> str:
-    width = max(len(f.name) for f in fields(self))
-    lines = [f"  {f.name:{width}s}  {_text(getattr(self, f.name))}" for f in fields(self)]
-    status = getattr(self, "status", None)
-    head = type(self).__name__ + (f" ({status.name.lower()})" if status is not None and status != 0 else "")
-    if text := getattr(self, "status_text", ""):
-        head += ": " + text
-    return "\n".join([head] + lines)
-
-
-for _class in set(REPORTS.values()):
-    setattr(_class, "__repr__", _repr)  # reports print as a table
-
-
-def _paragraph(self: Any) -> str:
-    return getattr(self, "text", "") or _repr(self)
-
-
-setattr(REPORTS["jam_check_report"], "__str__", _paragraph)
-setattr(REPORTS["jam_check_report"], "__repr__", _paragraph)
-
-
-def _short(self: Any) -> str:
-    """A named tuple of results: arrays by shape, numbers as they are."""
-    parts = (
-        f"{name}={'array' + str(value.shape) if isinstance(value, np.ndarray) else value}"
-        for name, value in zip(self._fields, self)
-    )
-    return f"{type(self).__name__}({', '.join(parts)})"
-
-
-for _class in vars(methods).values():
-    if isinstance(_class, type) and issubclass(_class, tuple):
-        setattr(_class, "__repr__", _short)
+from .generated import StatusCode
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,20 @@
-"""Frames of GSD by HOOMD's schema: what stands in a frame itself, what in frame 0, and what libjam keeps beside."""
+"""Frames of GSD by HOOMD's schema: what stands in a frame itself, what in frame 0, and what libjam keeps beside.
+
+Needs python3-gsd.
+"""
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Callable
+from functools import partial
+from typing import Any, Callable
 
 import numpy as np
 
 from .._api.arrays import Array
-
-if TYPE_CHECKING:
-    from ..system import System
+from .._api.given import sizes_of
+from .frames import bad, box_of, in_range, plane, refuse_cell
+from .replacing import replacing
 
 # Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
 _POSITION, _DIAMETER, _CELL = "jam/position", "jam/diameter", "jam/cell"
@@ -34,18 +39,51 @@ class Found:
     doubles: Doubles | None
 
 
-def frame_of(system: System) -> Any:
+def write(path: str | os.PathLike[str], positions: Array, diameters: Array, cell: Array) -> None:
+    """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `arguments` prefers."""
     import gsd.hoomd
 
-    d, cell = system.dim, system.cell
+    if len(cell) > 3:
+        raise ValueError(f"GSD holds two or three dimensions, this packing has d = {len(cell)}")
     frame = gsd.hoomd.Snapshot()
-    frame.configuration.dimensions = d
+    frame.configuration.dimensions = len(cell)
     frame.configuration.box = _box(cell)
-    frame.particles.N = system.n
-    frame.particles.position = _centred(system.positions, cell)
-    frame.particles.diameter = system.diameters
-    frame.log = {_POSITION: np.array(system.positions), _DIAMETER: np.array(system.diameters), _CELL: np.array(cell)}
-    return frame
+    frame.particles.N = len(diameters)
+    frame.particles.position = _centred(positions, cell)
+    frame.particles.diameter = diameters
+    frame.log = {_POSITION: np.array(positions), _DIAMETER: np.array(diameters), _CELL: np.array(cell)}
+    with replacing(path) as part, gsd.hoomd.open(part.name, "wb") as file:
+        file.append(frame)
+
+
+def arguments(
+    path: str | os.PathLike[str],
+    frame: int = -1,
+    *,
+    diameters: Any = None,
+    radii: Any = None,
+    doubles: bool = True,
+    **options: Any,
+) -> dict[str, Any]:
+    """What System.from_arrays takes for one frame; the arguments are those of jam.files.read_gsd."""
+    import gsd.hoomd
+
+    name = os.fsdecode(path)
+    refuse_cell(options, name)
+    try:
+        opened = gsd.hoomd.open(name, "rb")
+    except RuntimeError as error:  # the package's only word for a file that is none of GSD
+        raise bad(name, f"no GSD file that can be read: {error}") from None
+    with opened as file:
+        at, by_hand = in_range(name, frame, len(file)), diameters is not None or radii is not None
+        found = _read(file, at, partial(bad, name), not by_hand, doubles)
+    d, cell, sizes = found.dim, found.cell[: found.dim, : found.dim], found.diameters
+    x = plane(name, found.positions, found.cell, d) + 0.5 * cell.sum(0)
+    if found.doubles is not None:
+        x, sizes, cell = found.doubles.positions, found.doubles.diameters, found.doubles.cell
+    if by_hand:
+        sizes = sizes_of(diameters, radii, len(x))
+    return dict(positions=x, diameters=sizes, **box_of(cell), dim=d, **options)
 
 
 def _box(cell: Array) -> Array:
@@ -67,7 +105,7 @@ def _centred(x: Array, cell: Array) -> Array:
     return found
 
 
-def read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
+def _read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
     """One frame, with its diameters and with libjam's doubles where they are asked for."""
     one = file[frame]
     d, n = int(one.configuration.dimensions), int(one.particles.N)

@@ -9,8 +9,8 @@ import h5py
 import numpy as np
 
 from .._api.arrays import Array
-from .._api.errors import StoreError
-from .sealed import Group, Shard, _plain_value
+from ..errors import StoreError
+from .groups import Group, Shard, plain_value
 
 _MOST_OBJECTS, _DEEPEST = 1_000_000, 12
 
@@ -29,7 +29,7 @@ class _Walk:
     def group(self, node: Any, at: str, depth: int) -> None:
         if depth > _DEEPEST:
             raise self.refuse(at, f"lies more than {_DEEPEST} groups deep")
-        self.attributes[at.rstrip("/")] = {k: _plain_value(v) for k, v in node.attrs.items()}
+        self.attributes[at.rstrip("/")] = {k: plain_value(v) for k, v in node.attrs.items()}
         for name in node:
             self.objects += 1
             if self.objects > _MOST_OBJECTS:

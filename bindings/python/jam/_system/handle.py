@@ -5,8 +5,9 @@ import threading
 from contextlib import contextmanager
 from typing import Any, Callable
 
-from .._api import calls, errors
-from .. import raw
+from .. import errors, raw
+from .._api.calls import freeze, invoke
+from .._api.errors import last_text
 from .._api.generated import Info, Progress, Report, StatusCode
 from .methods import Methods
 from .progress import end, reporter
@@ -86,7 +87,7 @@ class Base(Methods):
 
     def _recorder(self, user: Callable[..., Any] | None) -> Callable[..., Any]:
         def on_progress(p: Any) -> bool:
-            record = calls.freeze(p, "jam_progress")
+            record = freeze(p, "jam_progress")
             if len(self.trace) < TRACE_LENGTH:
                 self.trace.append(record)
             return bool(user(record)) if user else False
@@ -112,18 +113,18 @@ class Base(Methods):
         """
         handle = self.handle
         with self._reporting(progress):
-            status, result = calls.invoke(handle, self.dim, name, args, named)
+            status, result = invoke(handle, self.dim, name, args, named)
             self._note(status, result)
         return result
 
     def _ask(self, name: str, *args: Any) -> Any:
         """What call() returns, for properties: the status of the last call stays."""
-        return calls.invoke(self.handle, self.dim, name, args, {})[1]
+        return invoke(self.handle, self.dim, name, args, {})[1]
 
     def _note(self, status: int, report: Any = None) -> None:
         """Keeps the status of a call that has just returned, on this thread, and writes it on its report."""
         self.status = StatusCode(status)
-        self.status_text = errors.last_text() if status else ""
+        self.status_text = last_text() if status else ""
         if isinstance(report, Report):
             object.__setattr__(report, "status", self.status)
             object.__setattr__(report, "status_text", self.status_text)

@@ -5,13 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from .._api.arrays import Array
-from .._api import calls
 from .. import raw
+from .._api.arrays import Array
+from .._api.calls import freeze, new_report
 from .._api.generated import CheckReport, CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
-from .handle import Base
-from .methods import FlexResult, RefinedPositionsResult, StressStatesResult
+from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Modes
+from .._api.tuples import FlexResult, RefinedPositionsResult, StressStatesResult
+from .handle import Base
 
 
 class Network(Base):
@@ -20,9 +21,9 @@ class Network(Base):
     @property
     def report(self) -> CrunchReport:
         """Result and certificate of the last crunch, a CrunchReport."""
-        made = calls.new_report("jam_crunch_report")
+        made = new_report("jam_crunch_report")
         raw.jam_crunch_report_get(self.handle, made)
-        found: CrunchReport = calls.freeze(made, "jam_crunch_report")
+        found: CrunchReport = freeze(made, "jam_crunch_report")
         return found
 
     @property
@@ -92,7 +93,7 @@ class Network(Base):
         """
         from scipy.sparse import csr_matrix
 
-        chosen = calls.options("jam_hessian_options", dict(options, stiffness=stiffness))
+        chosen = option_struct("jam_hessian_options", dict(options, stiffness=stiffness))
         size = self.dim * len(self._ask("hessian_map"))
         count = raw.jam_hessian(self.handle, chosen, None, None, None)[1]
         start, column, value = np.empty(size + 1, np.int32), np.empty(count, np.int32), np.empty(count)
@@ -137,12 +138,12 @@ class Network(Base):
         (5, True)
         """
         handle = self.handle
-        h = calls.options("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
-        o = calls.options("jam_modes_options", dict(options, which=which, count=k))
+        h = option_struct("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
+        o = option_struct("jam_modes_options", dict(options, which=which, count=k))
         spheres = self._ask("hessian_map")
         m = (
             min(k, self.dim * len(spheres))
-            if calls.as_enum(which, "ModesWhich") != ModesWhich.ALL
+            if as_enum(which, "ModesWhich") != ModesWhich.ALL
             else self.dim * len(spheres)
         )
         values, vectors = np.empty(m), np.empty((m, len(spheres), self.dim))
@@ -247,11 +248,11 @@ class Network(Base):
         Collectively jammed, but not strictly
         """
         handle = self.handle
-        chosen = calls.options("jam_check_options", {"crunch": crunch, "wall_time": wall_time})
-        made = calls.new_report("jam_check_report")
+        chosen = option_struct("jam_check_options", {"crunch": crunch, "wall_time": wall_time})
+        made = new_report("jam_check_report")
         with self._reporting(progress):
             status = raw.jam_check_packing(handle, chosen, made)
-            found: CheckReport = calls.freeze(made, "jam_check_report")
+            found: CheckReport = freeze(made, "jam_check_report")
             self._note(status, found)
         object.__setattr__(found, "text", "" if status == StatusCode.CANCELLED else raw.jam_check_text(made))
         return found
@@ -284,6 +285,6 @@ class Network(Base):
         """
         out, strain = np.empty((self.n, self.dim)), np.empty((self.dim, self.dim))
         with self._reporting(progress):
-            kind = calls.as_enum(kind, "RigidityKind")
+            kind = as_enum(kind, "RigidityKind")
             self._note(raw.jam_flex(self.handle, kind, out.reshape(-1), strain.reshape(-1))[0])
         return FlexResult(out, strain)

@@ -7,10 +7,10 @@ from typing import Any, Callable, Iterator
 
 import numpy as np
 
+from .. import errors
 from .._api.arrays import Array
-from .._api import errors
+from .._api.tuples import ObservedCorrelationResult, ObservedGapsResult, ObservedPairsResult, ObservedSpheresResult
 from .handle import Base
-from .methods import ObservedCorrelationResult, ObservedGapsResult, ObservedPairsResult, ObservedSpheresResult
 
 
 @dataclass(frozen=True, repr=False)

@@ -12,12 +12,12 @@ from typing import Any, Sequence
 
 import numpy as np
 
-from .._api.arrays import Array
-from .._api import calls
 from .. import raw
+from .._api.arrays import Array, as_array
 from .._api.generated import IsoconfColumn, StatusCode
+from .._api.options import option_struct
 from .._formats.replacing import replacing
-from .._api.errors import StoreError
+from ..errors import StoreError
 
 # What numpy and zipfile make of a damaged .npz file
 _DAMAGE: tuple[type[Exception], ...] = (OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError)
@@ -201,7 +201,7 @@ def take_runs(system: Any) -> Runs:
     )
 
 
-def run(
+def make_runs(
     system: Any,
     instants: Any,
     monte_carlo: dict[str, Any] | None,
@@ -210,9 +210,9 @@ def run(
     options: dict[str, Any],
 ) -> Runs:
     """What System.isoconfigurational calls."""
-    times = calls.as_array(instants, name="instants").reshape(-1)
-    made = calls.options("jam_isoconf_options", options)
-    chosen = None if monte_carlo is None else calls.options("jam_monte_carlo_options", monte_carlo)
+    times = as_array(instants, name="instants").reshape(-1)
+    made = option_struct("jam_isoconf_options", options)
+    chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
     kept = np.asarray([int(k) for k in keep], dtype=np.int32)
     with system._reporting(progress):
         status = raw.jam_isoconfigurational(

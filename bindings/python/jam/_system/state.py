@@ -5,9 +5,9 @@ from typing import Any, Callable
 
 import numpy as np
 
-from .._api.arrays import Array
-from .._api import calls
 from .. import raw
+from .._api.arrays import Array, as_array
+from .._api.calls import finished, freeze, new_report
 from .._api.generated import Info
 from .handle import Base, _View
 
@@ -18,9 +18,9 @@ class State(Base):
     @property
     def info(self) -> Info:
         """Number, dimension, box, packing fraction, pressure and model, as an Info."""
-        made = calls.new_report("jam_info")
+        made = new_report("jam_info")
         raw.jam_info_get(self.handle, made)
-        found: Info = calls.freeze(made, "jam_info")
+        found: Info = freeze(made, "jam_info")
         return found
 
     @property
@@ -98,11 +98,11 @@ class State(Base):
         self._set(raw.jam_set_velocities, values, "velocities")
 
     def _set(self, function: Callable[..., Any], values: Any, name: str) -> None:
-        x = calls.as_array(values, name=name)
+        x = as_array(values, name=name)
         shape = self._show(raw.jam_positions_view).shape
         if x.shape != shape:
             raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
-        calls.finished(function(self.handle, x.reshape(-1)))
+        finished(function(self.handle, x.reshape(-1)))
 
     @property
     def diameters(self) -> Array:
@@ -122,18 +122,18 @@ class State(Base):
 
     @cell.setter
     def cell(self, vectors: Any) -> None:
-        calls.finished(raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None))
+        finished(raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None))
 
     def strain(self, strain: Any) -> None:
         """Deforms cell and positions by r -> (1 + strain) r, strain of shape (d, d); diameters stay."""
-        calls.finished(raw.jam_strain(self.handle, self._matrix(strain, "strain")))
+        finished(raw.jam_strain(self.handle, self._matrix(strain, "strain")))
 
     def _matrix(self, values: Any, name: str) -> Array:
-        x = calls.as_array(values, name=name)
+        x = as_array(values, name=name)
         if x.shape != (self.dim, self.dim):
             raise ValueError(f"{name} must have shape ({self.dim}, {self.dim}), not {x.shape}")
         return x.reshape(-1)
 
     def scale_diameters(self, factor: float) -> None:
         """Multiplies all diameters by factor."""
-        calls.finished(raw.jam_scale_diameters(self.handle, float(factor)))
+        finished(raw.jam_scale_diameters(self.handle, float(factor)))

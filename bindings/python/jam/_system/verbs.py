@@ -7,12 +7,15 @@ from typing import Any, Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
-from .._api.arrays import Array
-from .._api import calls
 from .. import raw
+from .._api.arrays import Array
+from .._api.calls import freeze, new_report
+from .._api.documented import takes
 from .._api.generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode, StopReason
+from .._api.options import as_enum, option_struct, spelled_out
 from .observe import Observing, Step
 from .progress import end, reporter
+from .runs import Runs, make_runs
 
 
 class Verbs(Observing):
@@ -20,22 +23,23 @@ class Verbs(Observing):
 
     def _verb(self, name: str, struct: str, report: str, progress: Any, options: Mapping[str, Any] | None) -> Any:
         handle = self.handle
-        chosen = None if options is None else calls.options(struct, dict(options))
-        made = calls.new_report(report)
+        chosen = None if options is None else option_struct(struct, dict(options))
+        made = new_report(report)
         with self._reporting(progress):
             status = getattr(raw, name)(handle, chosen, made)
-            frozen = calls.freeze(made, report)
+            frozen = freeze(made, report)
             self._note(status, frozen)
         self.calls.append(
             {
                 "verb": name.removeprefix("jam_"),
-                "options": {} if chosen is None else calls.spelled_out(chosen, struct),
+                "options": {} if chosen is None else spelled_out(chosen, struct),
                 "status": self.status.name.lower(),
                 "stop_reason": getattr(getattr(frozen, "stop_reason", None), "name", "none").lower(),
             }
         )
         return frozen
 
+    @takes("jam_run_options")
     def run(self, collisions_per_particle: float | None = None, *, progress: Any = None, **options: Any) -> MdReport:
         """Molecular dynamics at constant volume and energy, event by event.
 
@@ -66,6 +70,7 @@ class Verbs(Observing):
         )
         return found
 
+    @takes("jam_compress_options")
     def compress(
         self,
         stages: Iterable[Mapping[str, float] | Sequence[float]] | None = None,
@@ -114,6 +119,7 @@ class Verbs(Observing):
             raise ValueError("stages is empty")
         return report
 
+    @takes("jam_crunch_options")
     def crunch(
         self,
         *,
@@ -179,6 +185,7 @@ class Verbs(Observing):
 
         return on_progress
 
+    @takes("jam_isoconf_options")
     def isoconfigurational(
         self,
         instants: Any,
@@ -187,7 +194,7 @@ class Verbs(Observing):
         keep: Sequence[int] = (),
         progress: Any = None,
         **options: Any,
-    ) -> Any:
+    ) -> Runs:
         """Runs from this configuration, each with velocities (or Monte Carlo trials) of its own.
 
         The packing does not change. A status > 0 says that it stopped early, with the runs that were made.
@@ -205,10 +212,9 @@ class Verbs(Observing):
         -------
         near_jamming.Runs
         """
-        from .runs import run
+        return make_runs(self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options)
 
-        return run(self, instants, None if monte_carlo is None else dict(monte_carlo), keep, progress, options)
-
+    @takes("jam_relax_options")
     def relax(self, *, progress: Any = None, **options: Any) -> RelaxReport:
         """Minimises the energy of overlapping spheres (overlap="allow" at creation). Returns a RelaxReport.
 
@@ -219,6 +225,7 @@ class Verbs(Observing):
         found: RelaxReport = self._verb("jam_relax", "jam_relax_options", "jam_relax_report", progress, options or None)
         return found
 
+    @takes("jam_decompress_options")
     def decompress(self, *, progress: Any = None, **options: Any) -> DecompressReport:
         """From overlapping spheres down to jamming, compared with crunch. Returns a DecompressReport.
 
@@ -245,16 +252,5 @@ class Verbs(Observing):
     def log(self, callback: Callable[[int, str], Any] | None, level: int | str = "info") -> None:
         """Sends the library's log lines of up to this level to callback(level, line); None silences it."""
         handle = self.handle
-        raw.set_log(handle, callback, calls.as_enum(level, "LogLevel"))
+        raw.set_log(handle, callback, as_enum(level, "LogLevel"))
         handle._log = callback  # the C side holds a borrowed reference
-
-
-for _verb, _struct in (
-    ("run", "run"),
-    ("compress", "compress"),
-    ("crunch", "crunch"),
-    ("isoconfigurational", "isoconf"),
-    ("relax", "relax"),
-    ("decompress", "decompress"),
-):
-    calls.spell_out(getattr(Verbs, _verb), f"jam_{_struct}_options")

@@ -7,10 +7,13 @@
     for forces, gaps in e.each("forces", "gaps"): ...   # one packing after the other, read when asked for
     jam.ensemble.table("folder")         # all protocols of a folder
 """
-from .._api.errors import StoreError
-from .ensemble import DamagedWarning, Ensemble, Entry, Status, protocols, table
+
+from ..errors import StoreError
+from .ensemble import Ensemble, protocols, table
+from .entry import Entry
 from .pool import LocalPool, WorkerDied
 from .protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
+from .status import DamagedWarning, Status
 
 __all__ = [
     "DamagedWarning",

@@ -10,9 +10,10 @@ from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack
 from typing import Any
 
-from .._api.errors import StoreError
-from .ensemble import Ensemble, Status
+from ..errors import StoreError
+from .ensemble import Ensemble
 from .protocol import ProtocolError
+from .status import Status
 
 DONE, PARTIAL, USAGE, REFUSED, OUTPUT = range(5)  # exit status, as python3 -m jam
 

@@ -22,14 +22,18 @@ from typing import Any, Iterator, NamedTuple
 import numpy as np
 
 from .._api.arrays import Array
-from .. import store
-from .._api.generated import REPORTS
+from .._api.generated import CrunchReport
+from .._formats.groups import refusing
+from .._formats.provenance import provenance
+from .._formats.read_packing import jam_of
+from .._formats.records import dtype_of
 from .._formats.replacing import check_writable, remove_abandoned
+from .._formats.sealed import open_file
+from .._formats.write_packing import write_file
+from ..errors import StoreError
 from .protocol import identity
-from .._api.errors import StoreError
-from .._formats.sealed import open_file, refusing
 
-_REPORT = store._dtype(REPORTS["jam_crunch_report"])
+_REPORT = dtype_of(CrunchReport)
 _REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()
 #: A row of a table: what tells packings apart, the report of the crunch, and the crystal score (nan: not asked for).
 ROW = np.dtype(
@@ -127,7 +131,7 @@ class Folder:
     def keep_protocol(self, name: str, text: str) -> None:
         path = self.path / "protocols" / (name + ".json")
         if not path.exists():
-            store.write_file(path, text.encode() + b"\n", self.parts)
+            write_file(path, text.encode() + b"\n", self.parts)
 
     # ---- what is there
     def scan(self) -> tuple[dict[str, Found], dict[str, Found]]:
@@ -178,7 +182,7 @@ class Folder:
     def row_from_file(self, name: str, path: str | os.PathLike[str]) -> bytes:
         """The row of a packing from its file."""
         with open_file(path, self.unverified) as file, refusing(path):
-            store._jam(file, path)
+            jam_of(file, path)
             return row_of(file, name).tobytes()
 
     # ---- index
@@ -238,8 +242,8 @@ class Folder:
 
     def write_failure(self, name: str, protocol_id: str, seed: int, status: str, text: str) -> None:
         record = {"seed": seed, "protocol": protocol_id, "status": status, "text": text, "time": time.time()}
-        data = json.dumps({**record, **store.provenance()}, indent=2).encode() + b"\n"
-        store.write_file(self.failure(name), data, self.parts)
+        data = json.dumps({**record, **provenance()}, indent=2).encode() + b"\n"
+        write_file(self.failure(name), data, self.parts)
 
 
 def hash_of_row() -> int:

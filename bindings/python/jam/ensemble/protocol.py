@@ -19,12 +19,11 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
+from .. import _options as _programs, errors, raw
+from .._api import generated
 from .._api.arrays import Array
-from .._api import calls, generated, errors
-from .. import raw
-from .. import _options as _programs
 from .._api.generated import OPTIONS, StatusCode
-from .._start import _uniform
+from .._api.options import option_struct, spelled_out
 from ..system import System
 
 PARTS = ("start", "stages", "crunch", "analysis")
@@ -47,10 +46,10 @@ def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple
         raise ProtocolError(f"{where}: unknown {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     numbers = {k: float(v) if known[k] == "float" and v is not None else v for k, v in given.items()}
     try:
-        made = calls.options(struct, numbers)
+        made = option_struct(struct, numbers)
     except (TypeError, ValueError) as error:
         raise ProtocolError(f"{where}: {error}") from None
-    return {k: v for k, v in calls.spelled_out(made, struct).items() if k in known}
+    return {k: v for k, v in spelled_out(made, struct).items() if k in known}
 
 
 def _diameters(given: Any, n: int) -> Any:
@@ -197,6 +196,18 @@ def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str
     """32 hex digits that name one packing: of the protocol, the seed and the version of libjam."""
     text = f"{protocol_id} {int(seed)} {version or raw.jam_version()}"
     return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _uniform(seed: int, k: int) -> float:
+    """In (0, 1): the k-th number of a seed, by the finaliser of splitmix64 (Steele, Lea and Flood 2014)."""
+    mask = (1 << 64) - 1
+    x = (seed * 0x9E3779B97F4A7C15 + k) & mask
+    for _ in range(2):
+        x = (x + 0x9E3779B97F4A7C15) & mask
+        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & mask
+        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & mask
+        x ^= x >> 31
+    return ((x >> 11) + 0.5) * 2.0**-53
 
 
 def _sizes(law: Any, n: int, seed: int) -> Array | None:

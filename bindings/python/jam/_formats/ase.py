@@ -1,0 +1,82 @@
+"""What ASE reads: CIF, POSCAR and more. Needs python3-ase."""
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from .._api.arrays import Array
+from .._api.given import sizes_of
+from .frames import bad, box_of, in_range, plane, refuse_cell
+
+# What other programs call the sizes of spheres, as factors to the diameter.
+_SIZES = {"radius": 2.0, "radii": 2.0, "diameter": 1.0, "diameters": 1.0}
+
+
+def arguments(
+    path: str | os.PathLike[str],
+    diameters: Any = None,
+    *,
+    radii: Any = None,
+    dim: int = 3,
+    frame: int = -1,
+    **options: Any,
+) -> dict[str, Any]:
+    """What System.from_arrays takes for one frame; the arguments are those of jam.files.read_ase."""
+    import ase.io
+    import ase.io.formats
+
+    name = os.fsdecode(path)
+    if dim not in (2, 3):
+        raise ValueError(f"dim must be 2 or 3 in files of ASE, not {dim!r}")
+    refuse_cell(options, name)
+    kind = ase.io.formats.filetype(name)
+    frames = ase.io.read(name, index=":", format=kind)
+    at = in_range(name, frame, len(frames))
+    atoms = frames[at]
+    if len(atoms) == 0:
+        raise bad(name, "the frame holds no sphere")
+    if not all(atoms.pbc[:dim]):
+        hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
+        raise bad(name, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")
+    positions = np.asarray(atoms.positions)
+    if diameters is None and radii is None:
+        sizes = _sizes_in(name, atoms.arrays)
+    else:
+        sizes = sizes_of(diameters, radii, len(atoms))
+        if sizes.size > 1:
+            _refuse_sorted(name, kind, at, positions)
+    cell = np.asarray(atoms.cell)
+    x = plane(name, positions, cell, dim)
+    return dict(positions=x, diameters=sizes, **box_of(cell[:dim, :dim]), dim=dim, **options)
+
+
+def _sizes_in(path: str, arrays: dict[str, Array]) -> Array:
+    """Diameters from the one array of a frame that has the name of a size, in either case of letters."""
+    found = [name for name in arrays if name.lower() in _SIZES]
+    if not found:
+        raise bad(path, "no array `radius` or `diameter`: give diameters=")
+    sizes = [_SIZES[name.lower()] * np.asarray(arrays[name], float) for name in found]
+    for name, other in zip(found[1:], sizes[1:]):
+        if not np.array_equal(other, sizes[0]):
+            raise bad(path, f"the arrays `{found[0]}` and `{name}` name different sizes: give diameters=")
+    return sizes[0]
+
+
+# Formats in which a file may list the atoms in another order than ASE: the option that leaves its order as it is.
+_SORTED = {"lammps-dump-text": {"order": False}, "lammps-dump-binary": {"order": False}, "lammps-data": {"sort_by_id": False}}
+
+
+def _refuse_sorted(path: str, kind: str, frame: int, positions: Array) -> None:
+    if kind not in _SORTED:
+        return
+    import ase.io
+
+    as_written = ase.io.read(path, index=frame, format=kind, **_SORTED[kind])
+    if not np.array_equal(as_written.positions, positions):
+        raise bad(
+            path,
+            "ASE sorts these atoms by id, but the file has another order, so it is unclear which atom has which "
+            "diameter: System.read takes the radii from a column of the file; or sort the file by id",
+        )

@@ -1,0 +1,141 @@
+"""One packing, one HDF5 file: positions and box as H5MD, all else in the group `jam`.
+
+    h5md, particles/spheres      H5MD 1.1: box/edges as a full matrix, position as a trajectory of one frame
+    jam  (attributes)            schema, seed, protocol (its name), provenance
+    jam/state                    bytes of a checkpoint: what dynamics depend on, velocities and random shifts among it
+    jam/diameters                (n,), unit of the box
+    jam/report                   report of the crunch, one compound value
+    jam/contacts                 pairs, vectors, gaps, forces: row k of each is the same contact
+    jam/coordination             (n,) contacts of each sphere, 0 for rattlers
+    jam/history                  steps of the crunch, a compound value a step
+    jam/protocol, jam/calls      JSON: the protocol; the calls made with every option and what ended them
+    jam/analysis                 results of the protocol's analysis by name
+
+The file is sealed (see seal.py): what is read was written by save() to the last bit, and libhdf5 does not parse it.
+Attributes beside the arrays say what they mean (see explain.py).
+
+A file is made in memory, written beside under a name nobody else has, flushed to the disk, and renamed. Readers hence
+see all of a file or none of it, and a writer that is killed leaves only a file of the folder `parts`.
+"""
+from __future__ import annotations
+
+import io
+import json
+import os
+import time
+from dataclasses import is_dataclass
+from typing import Any, Mapping
+
+import h5py
+import numpy as np
+
+from .. import raw
+from ..errors import StoreError
+from .contents import Contents, MENDED
+from .explain import explain, report_text, report_type
+from .provenance import provenance
+from .records import pack
+from .replacing import replacing
+from .seal import seal
+
+SCHEMA = 1
+CONTACTS = ("pairs", "vectors", "gaps", "forces")
+
+
+def _text(value: str) -> Any:
+    """Text of fixed length, which lies in one place of a file."""
+    data = value.encode()
+    return np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))
+
+
+def put(group: Any, name: str, value: Any) -> None:
+    """Any result of a call: a number, text, an array, a report, a named tuple of them."""
+    if hasattr(value, "_asdict"):
+        inner = group.create_group(name)
+        for key, part in value._asdict().items():
+            put(inner, key, part)
+    elif is_dataclass(value):
+        cls: Any = type(value)
+        node = group.create_dataset(name, data=pack(value).astype(report_type(cls)))
+        node.attrs.update(report_text(cls))
+    elif value is not None:
+        node = group.create_dataset(name, data=_text(value) if isinstance(value, str) else value)
+        explain(node, node.name.lstrip("/"))
+
+
+def _h5md(file: Any, contents: Contents) -> None:
+    dim = len(contents.cell)
+    head = file.create_group("h5md")
+    head.attrs["version"] = np.array([1, 1], np.int32)
+    head.create_group("author").attrs["name"] = "unknown"
+    creator = head.create_group("creator")
+    creator.attrs["name"], creator.attrs["version"] = "jam", raw.jam_version()
+    spheres = file.create_group("particles/spheres")
+    box = spheres.create_group("box")
+    box.attrs["dimension"] = np.int32(dim)
+    box.attrs["boundary"] = ["periodic"] * dim
+    put(spheres, "position/value", contents.positions[None])
+    position = spheres["position"]
+    position.create_dataset("step", data=np.zeros(1, np.int64))
+    position.create_dataset("time", data=np.zeros(1))
+    put(box, "edges/value", contents.cell[None])
+    edges = box["edges"]
+    edges["step"], edges["time"] = position["step"], position["time"]
+
+
+def image(
+    contents: Contents,
+    *,
+    analysis: Mapping[str, Any] | None = None,
+    protocol: str | None = None,
+    protocol_id: str = "",
+    times: Mapping[str, float] | None = None,
+) -> bytes:
+    """The bytes of a packing's file.
+
+    Parameters
+    ----------
+    contents : Contents
+        The network is stored where there is one.
+    analysis : mapping, optional
+        Results by name: numbers, arrays, reports, named tuples of them.
+    protocol, protocol_id : str, optional
+        The protocol as JSON and its name.
+    times : mapping, optional
+        Seconds by name, beside the moment of writing.
+    """
+
+    def fill(file: Any) -> list[str]:
+        _h5md(file, contents)
+        group = file.create_group("jam")
+        group.attrs.update({"schema": SCHEMA, "seed": contents.seed, "protocol": protocol_id, **provenance()})
+        group.attrs["written"] = time.time()
+        group.attrs.update(times or {})
+        put(group, "state", np.frombuffer(contents.state, np.uint8))
+        put(group, "diameters", contents.diameters)
+        if contents.report is not None or contents.contacts is not None:
+            put(group, "report", contents.report)
+            put(group, "history", contents.history)
+            put(group, "coordination", contents.coordination)
+        if contents.contacts is not None:
+            for name in CONTACTS:
+                put(group, "contacts/" + name, getattr(contents.contacts, name))
+        put(group, "calls", json.dumps(contents.calls))
+        put(group, "protocol", protocol)
+        results = group.create_group("analysis")
+        for name, value in (analysis or {}).items():
+            put(results, name, value)
+        return []
+
+    memory = io.BytesIO()
+    seal(memory, fill)
+    return memory.getvalue()
+
+
+def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLike[str] | None = None) -> None:
+    """Writes a file so that it is there as a whole or not at all; see replacing.py."""
+    try:
+        with replacing(path, parts=parts) as file:
+            file.write(data)
+    except OSError as error:
+        raise StoreError(error.errno, f"{path} cannot be written: {error.strerror}. {MENDED}") from error

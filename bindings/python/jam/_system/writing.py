@@ -1,0 +1,152 @@
+"""What a system writes: its packing, contacts, page, and the file of all of it."""
+from __future__ import annotations
+
+import html
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, Callable, Mapping
+
+import numpy as np
+
+from .. import raw
+from .._api.arrays import as_array
+from .._api.calls import finished
+from .._api.options import as_enum
+from .._formats import gsd
+from .._formats.contents import Contents, MENDED
+from ..errors import StateError, StoreError
+from .network import Network
+from .state import State
+
+
+class Writing(State, Network):
+    """Files of a system."""
+
+    def write(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
+        """Writes positions and diameters with 17 digits.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears whole or not at all.
+        format : {'auto', 'plain', 'xyz', 'lammps', 'vtp'}
+            'auto' goes by the ending: .xyz and .extxyz are extended XYZ; .data and .lmp LAMMPS data; .vtp ParaView's;
+            .gsd HOOMD's (needs python3-gsd); .dat, .txt and no ending plain text. With .gz behind it the file is
+            compressed. Other endings are refused.
+        """
+        name = os.fsdecode(path)
+        if format == "auto" and name.endswith(".gsd"):
+            return gsd.write(name, self.positions, self.diameters, self.cell)
+        finished(raw.jam_write(self.handle, name, as_enum(format, "Format")))
+
+    def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:
+        """Writes the contact network: pairs, unit vectors, gaps and forces.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears whole or not at all.
+        format : {'auto', 'csv', 'dump', 'vtp'}
+            'auto' goes by the ending: .csv is a table, .dump a LAMMPS dump local, .vtp lines for ParaView. With .gz
+            behind it the file is compressed.
+        """
+        finished(raw.jam_write_contacts(self.handle, os.fspath(path), as_enum(format, "ContactFormat")))
+
+    def page(
+        self,
+        path: str | os.PathLike[str],
+        title: str = "",
+        *,
+        values: Mapping[str, Any] | None = None,
+        small: bool = False,
+    ) -> None:
+        """Writes one HTML file to look at the packing in a browser; it needs no network.
+
+        It shows spheres and contact forces to turn and to slice, the numbers of each sphere, the certificate and
+        distributions.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears whole or not at all.
+        title : str
+            Its heading.
+        values : mapping of str to array_like, shape (n,)
+            More numbers that spheres can be coloured by, under these names.
+        small : bool
+            The picture alone, without the numbers beside it.
+
+        Examples
+        --------
+        >>> import jam
+        >>> disks = jam.System.random(n=64, dim=2, seed=1, diameters=[1.0] * 32 + [1.4] * 32)
+        >>> report = disks.crunch()
+        >>> disks.page("disks.html", values={"height": disks.positions[:, 1]})
+        """
+        columns = {name: as_array(x, name=name).reshape(-1) for name, x in (values or {}).items()}
+        for name, column in columns.items():
+            if "\n" in name or not name:
+                raise ValueError(f"{name!r} is no name of values: it must be one line that is not empty")
+            if len(column) != self.n:
+                raise ValueError(f"{name} must have shape ({self.n},), not {column.shape}")
+        numbers = np.concatenate(list(columns.values())) if columns else None
+        finished(raw.jam_write_page(self.handle, os.fspath(path), title, int(small), "\n".join(columns), numbers))
+
+    def _repr_html_(self) -> str:
+        """What notebooks show: the small page in a frame. Above 20000 spheres the text of repr, to keep notebooks small."""
+        if self._handle is None or self.n > 20000:
+            return f"<pre>{html.escape(repr(self))}</pre>"
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "page.html")
+            self.page(file, small=True)
+            text = file.read_text(encoding="utf-8")
+        return (
+            f'<iframe srcdoc="{html.escape(text)}" title="{html.escape(repr(self))}" '
+            'style="width:100%;height:480px;border:1px solid #ccc"></iframe>'
+        )
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
+
+        Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
+        options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
+        """
+        from .._formats.write_packing import image, write_file
+
+        write_file(path, image(self._contents()))
+
+    def _state(self) -> bytes:
+        """The bytes of a checkpoint, which holds all: velocities, shifts, results."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "state")
+            self.checkpoint_write(str(file))
+            return file.read_bytes()
+
+    def _contents(self) -> Contents:
+        """What files of packings hold; without results where there are none."""
+        try:
+            state = self._state()
+        except OSError as error:
+            what = f"the state cannot be written below {tempfile.gettempdir()}: {error}. {MENDED}"
+            raise StoreError(error.errno or 5, what) from error
+        contacts = _or_none(lambda: self.contacts)
+        return Contents(
+            state=state,
+            calls=self.calls,
+            seed=self.seed,
+            positions=self.positions,
+            cell=self.cell,
+            diameters=self.diameters,
+            report=_or_none(lambda: self.report),
+            contacts=contacts,
+            history=_or_none(lambda: self.history),
+            coordination=None if contacts is None else self.coordination,
+        )
+
+
+def _or_none(ask: Callable[[], Any]) -> Any:
+    try:
+        return ask()
+    except StateError:
+        return None

@@ -43,6 +43,28 @@ class Protocols(unittest.TestCase):
         self.assertEqual([s["pressure"] for s in full["stages"]], [500.0, 1e7])
         self.assertEqual(full, jam.ensemble.complete({"start": {"n": 128}}))
 
+    def test_what_no_crunch_made_is_unknown(self):
+        with tempfile.TemporaryDirectory() as folder:
+            e = Ensemble(folder, dict(SMALL, crunch=None, analysis={}))
+            self.assertEqual(e.run([1, 2], progress=False, workers=1).jammed, 0)
+            table = e.table()
+            for row, entry in zip(table, e):
+                system = entry.system()
+                self.assertAlmostEqual(row["packing_fraction"], system.packing_fraction, 12)
+                self.assertAlmostEqual(row["diameter_mean"], system.diameters.mean(), 12)
+        for name in ("rattlers", "contacts", "excess_contacts", "strictly_jammed", "lp_solves", "contacts_kept"):
+            self.assertEqual(table[name].tolist(), [-1, -1], name)
+        for name in ("max_overlap", "force_residual", "gain", "min_gap", "seconds", "rigidity_margin"):
+            self.assertTrue(np.isnan(table[name]).all(), name)
+        self.assertEqual(table["status"].tolist(), [jam.StatusCode.E_STATE] * 2)
+        self.assertEqual(table["jammed"].tolist(), [0, 0])
+
+    def test_seeds_are_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for wrong in (1.5, -1, 2**64):
+                with self.assertRaisesRegex(ProtocolError, "seed"):
+                    Ensemble(folder, SMALL).run([wrong], progress=False)
+
     def test_wrong_entries_are_named(self):
         for wrong, text in (
             (dict(n=10, speed=3), "speed"),

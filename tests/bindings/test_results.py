@@ -175,7 +175,62 @@ class Statuses(unittest.TestCase):
         np.testing.assert_array_equal(runs.kept[0], whole.kept[0])
 
 
+    def test_runs_have_the_shapes_of_the_header(self):
+        s = jam.System.random(n=20, dim=3, seed=1)
+        runs = s.isoconfigurational([1, 2], runs=3, density_ratio=0.9, keep=[1])
+        np.testing.assert_array_equal(s.isoconf_kept(1), runs.kept[1])
+        self.assertEqual(s.isoconf_kept(1).shape, (3, 20, 3))
+        sums = s.isoconf_sums(-1)
+        shapes = [getattr(sums, k).shape for k in ("displacement", "square", "distance2", "distance4")]
+        self.assertEqual(shapes, [(2, 20, 3), (2, 20, 3), (2, 20), (2, 20)])
+        np.testing.assert_array_equal(sums.displacement[1], runs.kept[1].sum(0))
+
+
+class Cancelled(unittest.TestCase):
+    """A result that was never made is an exception: neither zeros nor memory."""
+
+    def test_analysis_that_is_cancelled_returns_nothing(self):
+        s = jam.System.random(n=300, dim=3, seed=1)
+        s.compress(growth_rate=0.1, pressure=1e4)
+        s.crunch()
+
+        def stop(progress):
+            return True
+
+        for call in (
+            lambda: s.modes(10, progress=stop),
+            lambda: s.flex("strict", progress=stop),
+            lambda: s.moduli(progress=stop),
+            lambda: s.elastic_tensor(progress=stop),
+            lambda: s.rigidity("strict", progress=stop),
+            lambda: s.check(progress=stop),
+            lambda: s.contacts_from_geometry(progress=stop),
+            lambda: s.stress_states(progress=stop),
+            lambda: s.floppy_modes(progress=stop),
+            lambda: s.call("rigidity", "strict", progress=stop),
+        ):
+            with self.assertRaisesRegex(jam.errors.StoppedError, "stopped the call"):
+                call()
+        self.assertEqual(s.rigidity("collective").jammed, jam.Verdict.YES)
+
+    def test_what_a_call_does_not_write_is_unknown(self):
+        s = jam.System.random(n=20, dim=2, seed=1)
+        s.contacts_from_geometry()
+        self.assertEqual(s.status, jam.StatusCode.NOT_JAMMED)
+        refined = s.refined_positions()
+        self.assertEqual(s.status, jam.StatusCode.AMBIGUOUS)
+        self.assertTrue(np.isnan(refined.high).all() and np.isnan(refined.low).all())
+
+
 class Protocol(unittest.TestCase):
+    def test_options_that_every_stage_overrides_are_refused(self):
+        s = jam.System.random(n=60, seed=1)
+        for extra in ({"growth_rate": 1.0}, {"pressure": 10.0}, {"growth_rate": 1e-3, "wall_time": 1e6}):
+            with self.assertRaisesRegex(ValueError, next(iter(extra)) + ".* no effect"):
+                s.compress(stages=[(0.1, 1e3), {"growth_rate": 0.1, "pressure": 1e4}], **extra)
+        s.compress(stages=[{"growth_rate": 0.1}, (0.1, 100.0)], pressure=50.0)
+        self.assertGreater(s.pressure, 90.0)
+
     def test_limits_keep_both_stages(self):
         plain = jam.System.random(n=60, seed=1)
         self.assertGreater(plain.compress().pressure, 0.9e7)

@@ -37,6 +37,15 @@ function check(status::Integer)
     throw(JamError(status, text))
 end
 
+"The same for a call that returns what it found: one that was cancelled has written nothing, and throws."
+function written(status::Integer)
+    status == JAM_CANCELLED && throw(JamError(status, unsafe_string(jam_last_error())))
+    return check(status)
+end
+
+"n numbers for a call to fill: NaN, or -1, where it writes nothing."
+unknown(::Type{T}, n...) where {T} = fill(T <: AbstractFloat ? T(NaN) : T(-1), n...)
+
 "N spheres in a periodic cube; owns the C handle, which a finalizer frees."
 mutable struct System
     handle::Ptr{Cvoid}
@@ -335,9 +344,9 @@ Any C function that fills one array: asks for the size, then fills. `call_array(
 """
 function call_array(::Type{T}, f, s::System, args...) where {T}
     needed = Ref{Csize_t}(0)
-    check(f(handle(s), args..., nothing, 0, needed))
-    out = Vector{T}(undef, Int(needed[]))
-    note!(s, f(handle(s), args..., out, length(out), needed))
+    written(f(handle(s), args..., nothing, 0, needed))
+    out = unknown(T, Int(needed[]))
+    note!(s, written(f(handle(s), args..., out, length(out), needed)))
     return out
 end
 
@@ -350,6 +359,7 @@ JAM_NOT_JAMMED, or JAM_AMBIGUOUS when undecided.
 function judge(s::System; progress = nothing, given...)
     o, made = options(jam_check_options, jam_check_options_init, given), jam_check_report()
     verb(h -> jam_check_packing(h, o, made), s, progress)
+    written(s.status)
     return made, unsafe_string(jam_check_text(made))
 end
 
@@ -371,10 +381,10 @@ Compressed rows, 1-based; symmetric, so `SparseMatrixCSC(m, m, row_start, column
 function hessian_rows(s::System; given...)
     o = options(jam_hessian_options, jam_hessian_options_init, given)
     needed = Ref{Csize_t}(0)
-    check(jam_hessian(handle(s), o, nothing, 0, nothing, 0, nothing, 0, needed))
+    written(jam_hessian(handle(s), o, nothing, 0, nothing, 0, nothing, 0, needed))
     rows = Int(info(s).dim) * length(call_array(Int32, jam_hessian_map, s)) + 1
-    start, column, value = Vector{Int32}(undef, rows), Vector{Int32}(undef, needed[]), Vector{Cdouble}(undef, needed[])
-    check(jam_hessian(handle(s), o, start, length(start), column, length(column), value, length(value), needed))
+    start, column, value = unknown(Int32, rows), unknown(Int32, needed[]), unknown(Cdouble, needed[])
+    written(jam_hessian(handle(s), o, start, length(start), column, length(column), value, length(value), needed))
     return start .+ Int32(1), column .+ Int32(1), value
 end
 
@@ -388,8 +398,9 @@ function modes(s::System, k::Integer; progress = nothing, given...)
     o = options(jam_modes_options, jam_modes_options_init, (; count = k, given...))
     m = Int(info(s).dim) * length(call_array(Int32, jam_hessian_map, s))
     count = o.which == JAM_MODES_ALL ? m : min(k, m)
-    values, vectors, needed = Vector{Cdouble}(undef, count), Matrix{Cdouble}(undef, m, count), Ref{Csize_t}(0)
+    values, vectors, needed = unknown(Cdouble, count), unknown(Cdouble, m, count), Ref{Csize_t}(0)
     verb(c -> jam_modes(c, h, o, values, length(values), vectors, length(vectors), nothing, 0, needed), s, progress)
+    written(s.status)
     return values[1:needed[]], vectors[:, 1:needed[]]
 end
 

@@ -10,6 +10,12 @@ Array = NDArray[Any]
 DTYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64, "uint64_t": np.uint64, "size_t": np.uint64}
 
 
+def unknown_array(shape: Any, dtype: Any = np.float64) -> Array:
+    """An array for a call to fill: nan, or -1, where it writes nothing."""
+    found: Array = np.full(shape, np.nan if np.dtype(dtype).kind == "f" else -1, dtype)
+    return found
+
+
 def as_array(values: Any, dtype: str = "double", name: str = "array") -> Array:
     """Values as a C-contiguous array of the C type, copied only if needed. Complex, masked numbers and text are refused."""
     if isinstance(values, np.ma.MaskedArray) and (masked := np.count_nonzero(values.mask)):

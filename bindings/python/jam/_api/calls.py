@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import raw
 from . import errors, generated
-from .arrays import DTYPES, as_array
+from .arrays import DTYPES, as_array, unknown_array
 from .generated import CALLS, OPTIONS, REPORTS, ROWS, StatusCode, TABLES
 from .options import as_enum, option_struct, unknown
 from .tuples import TUPLES
@@ -36,22 +36,30 @@ def new_report(name: str) -> Any:
     return getattr(raw, name)()
 
 
-# Shapes of the arrays that calls fill, by name of function and array: m is *needed or *rows, d the dimension. Others are flat (m,).
-SHAPES: dict[str, dict[str, Callable[[int, int], tuple[int, ...]]]] = {
-    "contacts": {"iout": lambda m, d: (m // 2, 2)},
-    "contact_vectors": {"out": lambda m, d: (m // d, d)},
-    "crunch_step_contacts": {"iout": lambda m, d: (m // 2, 2)},
-    "crunch_step_displacements": {"out": lambda m, d: (m // d, d)},
-    "crunch_step_vectors": {"out": lambda m, d: (m // d, d)},
-    "floppy_mode": {"out": lambda m, d: (m // d, d)},
-    "compare": {"out": lambda m, d: (m // d, d)},
-    "elastic_tensor": {"affine": lambda m, d: (d, d, d, d), "relaxed": lambda m, d: (d, d, d, d)},
-    "gaps": {"pair": lambda m, d: (m, 2)},
-    "sphere_structure": {"c": lambda m, d: (m, d)},
-    "observed_spheres": {"displacement": lambda m, d: (m, d)},
-    "isoconf_sums": {"displacement": lambda m, d: (m, d), "square": lambda m, d: (m, d)},
-    "observed_pairs": {"pair": lambda m, d: (m, 2)},
-    "observed_gaps": {"edge": lambda m, d: (m + 1 if m else 0,)},
+# Shapes of the arrays that calls fill, by name of function and array: m is *needed or *rows, d the dimension,
+# n the number of spheres. Others are flat (m,).
+SHAPES: dict[str, dict[str, Callable[[int, int, int], tuple[int, ...]]]] = {
+    "contacts": {"iout": lambda m, d, n: (m // 2, 2)},
+    "contact_vectors": {"out": lambda m, d, n: (m // d, d)},
+    "crunch_step_contacts": {"iout": lambda m, d, n: (m // 2, 2)},
+    "crunch_step_displacements": {"out": lambda m, d, n: (m // d, d)},
+    "crunch_step_vectors": {"out": lambda m, d, n: (m // d, d)},
+    "floppy_mode": {"out": lambda m, d, n: (m // d, d)},
+    "compare": {"out": lambda m, d, n: (m // d, d)},
+    "elastic_tensor": {"affine": lambda m, d, n: (d, d, d, d), "relaxed": lambda m, d, n: (d, d, d, d)},
+    "gaps": {"pair": lambda m, d, n: (m, 2)},
+    "sphere_structure": {"c": lambda m, d, n: (m, d)},
+    "observed_spheres": {"displacement": lambda m, d, n: (m, d)},
+    "isoconf_kept": {"out": lambda m, d, n: (m // (n * d), n, d)},
+    "isoconf_sums": {
+        "displacement": lambda m, d, n: (m // n, n, d),
+        "square": lambda m, d, n: (m // n, n, d),
+        "distance2": lambda m, d, n: (m // n, n),
+        "distance4": lambda m, d, n: (m // n, n),
+    },
+    "refined_positions": {"high": lambda m, d, n: (n, d), "low": lambda m, d, n: (n, d)},
+    "observed_pairs": {"pair": lambda m, d, n: (m, 2)},
+    "observed_gaps": {"edge": lambda m, d, n: (m + 1 if m else 0,)},
 }
 INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
 
@@ -115,14 +123,14 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
     count = next((k for k, arg in enumerate(asked) if arg in ("needed", "rows")), None)
     if fills and count is not None and status in (0, StatusCode.AMBIGUOUS):
-        m = scalars[count]
+        m, spheres = scalars[count], raw.jam_diameters_view(handle)[1][1] if on_system else 0
         for arg, at, ctype in fills:
-            shape = SHAPES.get(name, {}).get(arg, lambda m, d: (m,))(m, dim)
-            outputs[arg] = np.empty(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else DTYPES[ctype])
+            shape = SHAPES.get(name, {}).get(arg, lambda m, d, n: (m,))(m, dim, spheres)
+            outputs[arg] = unknown_array(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else DTYPES[ctype])
             passed[at] = outputs[arg].reshape(-1)
         status, *scalars = function(*first, *passed)
-        if status in (StatusCode.CANCELLED,):
-            outputs.update({arg: None for arg, _, _ in fills})
+    if not any(isinstance(o, tuple) and "stop_reason" in REPORTS[o[1]].__annotations__ for o in outputs.values()):
+        not_cancelled(status)
     results = {a: freeze(*o) if isinstance(o, tuple) else o for a, o in outputs.items()}
     results.update({a: v for a, v in zip(asked, scalars) if a not in ("needed", "rows")})
     if (columns := TABLES.get("jam_" + name)) and results["table"] is not None:
@@ -131,6 +139,13 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     if len(results) > 1:
         return StatusCode(status), TUPLES[name](*results.values())
     return StatusCode(status), next(iter(results.values()), None)
+
+
+def not_cancelled(status: int) -> int:
+    """Raises where a cancel has ended a call: it has written nothing. Reports with a stop_reason say how far theirs came."""
+    if status == StatusCode.CANCELLED:
+        raise errors.StoppedError(errors.last_text())
+    return status
 
 
 def finished(answer: Any) -> None:

@@ -15,9 +15,9 @@ class ClosedError(JamError, ValueError):
 
 
 class StoppedError(JamError, TimeoutError):
-    """A call that makes a system was stopped by wall_time or by its progress callable, so there is none.
+    """A call was stopped before it made anything: by cancel(), its progress callable or, where it makes a system, wall_time.
 
-    Also a setter that a cancel() of another thread has ended: the system is as before.
+    The system is as before. Calls that move spheres return the report of what they reached instead.
     """
 
     __module__ = "jam.errors"

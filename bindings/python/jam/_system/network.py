@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from .. import raw
-from .._api.arrays import Array
-from .._api.calls import freeze, new_report
+from .._api.arrays import Array, unknown_array
+from .._api.calls import freeze, new_report, not_cancelled
 from .._api.generated import CheckReport, CrunchReport, HistoryColumn, ModesWhich, RigidityReport, StatusCode
 from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Modes
@@ -95,9 +95,10 @@ class Network(Base):
 
         chosen = option_struct("jam_hessian_options", dict(options, stiffness=stiffness))
         size = self.dim * len(self._ask("hessian_map"))
-        count = raw.jam_hessian(self.handle, chosen, None, None, None)[1]
+        status, count = raw.jam_hessian(self.handle, chosen, None, None, None)
+        not_cancelled(status)
         start, column, value = np.empty(size + 1, np.int32), np.empty(count, np.int32), np.empty(count)
-        self._note(raw.jam_hessian(self.handle, chosen, start, column, value)[0])
+        self._note(not_cancelled(raw.jam_hessian(self.handle, chosen, start, column, value)[0]))
         return csr_matrix((value, column, start), shape=(size, size))
 
     def modes(
@@ -146,11 +147,11 @@ class Network(Base):
             if as_enum(which, "ModesWhich") != ModesWhich.ALL
             else self.dim * len(spheres)
         )
-        values, vectors = np.empty(m), np.empty((m, len(spheres), self.dim))
-        participation = np.empty(m)
+        values, vectors = unknown_array(m), unknown_array((m, len(spheres), self.dim))
+        participation = unknown_array(m)
         with self._reporting(progress):
             status, m = raw.jam_modes(handle, h, o, values, vectors.reshape(-1), participation)
-            self._note(status)
+            self._note(not_cancelled(status))
         return Modes(values[:m], vectors[:m], participation[:m], spheres, self.status)
 
     def pair_correlation(
@@ -200,10 +201,11 @@ class Network(Base):
         """
         handle, contacts = self.handle, self.report.contacts
         with self._reporting(progress):
-            m = raw.jam_stress_states(handle, None, None)[-1]
-            force, basis = np.empty(contacts if m else 0), np.empty((m, contacts))
+            status, _, m = raw.jam_stress_states(handle, None, None)
+            not_cancelled(status)
+            force, basis = unknown_array(contacts if m else 0), unknown_array((m, contacts))
             status, residual, _ = raw.jam_stress_states(handle, force, basis.reshape(-1))
-            self._note(status)
+            self._note(not_cancelled(status))
         return StressStatesResult(force, basis, residual)
 
     def rigidity(self, kind: int | str = "collective", *, progress: Any = None) -> RigidityReport:
@@ -251,10 +253,10 @@ class Network(Base):
         chosen = option_struct("jam_check_options", {"crunch": crunch, "wall_time": wall_time})
         made = new_report("jam_check_report")
         with self._reporting(progress):
-            status = raw.jam_check_packing(handle, chosen, made)
+            status = not_cancelled(raw.jam_check_packing(handle, chosen, made))
             found: CheckReport = freeze(made, "jam_check_report")
             self._note(status, found)
-        object.__setattr__(found, "text", "" if status == StatusCode.CANCELLED else raw.jam_check_text(made))
+        object.__setattr__(found, "text", raw.jam_check_text(made))
         return found
 
     def refined_positions(self, ratio: Any = None) -> RefinedPositionsResult:
@@ -271,7 +273,7 @@ class Network(Base):
             In the unit of the box.
         """
         found: RefinedPositionsResult = self.call("refined_positions", ratio)
-        return RefinedPositionsResult(*(np.asarray(part).reshape(self.n, self.dim) for part in found))
+        return found
 
     def flex(self, kind: int | str = "collective", *, progress: Any = None) -> FlexResult:
         """A motion that keeps or opens all contacts, for a packing that is not jammed.
@@ -283,8 +285,8 @@ class Network(Base):
         strain : array, shape (d, d)
             Of the cell; 0 for the collective kind.
         """
-        out, strain = np.empty((self.n, self.dim)), np.empty((self.dim, self.dim))
+        out, strain = unknown_array((self.n, self.dim)), unknown_array((self.dim, self.dim))
         with self._reporting(progress):
             kind = as_enum(kind, "RigidityKind")
-            self._note(raw.jam_flex(self.handle, kind, out.reshape(-1), strain.reshape(-1))[0])
+            self._note(not_cancelled(raw.jam_flex(self.handle, kind, out.reshape(-1), strain.reshape(-1))[0]))
         return FlexResult(out, strain)

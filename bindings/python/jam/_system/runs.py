@@ -182,7 +182,7 @@ def take_runs(system: Any) -> Runs:
         one = system._ask("isoconf_sums", block)
         counts.append(one.runs)
         for name in _SUMS:
-            sums[name].append(getattr(one, name).reshape((m, n, d) if name in ("displacement", "square") else (m, n)))
+            sums[name].append(getattr(one, name))
     shape = {name: (0, m, n, d) if name in ("displacement", "square") else (0, m, n) for name in _SUMS}
     series = {
         c.name.lower(): np.array([system._ask("isoconf_series", b, c) for b in range(report.blocks)]).reshape(-1, m)
@@ -220,7 +220,7 @@ def make_runs(
         )
         system._note(status)
     runs = take_runs(system)
-    sets = {int(k): system._ask("isoconf_kept", int(k)).reshape(-1, system.n, system.dim) for k in kept}
+    sets = {int(k): system._ask("isoconf_kept", int(k)) for k in kept}
     return replace(runs, instants=times, block=made.block, kept=sets, status=system.status)
 
 

@@ -88,7 +88,8 @@ class Verbs(Observing):
         ----------
         stages : sequence, optional
             Each stage is a pair (growth_rate, pressure) or a dict of options, growth_rate among them. They run one after the other, and
-            `options` hold for all of them. A stage that stops early ends the sequence.
+            `options` hold for all of them; one that every stage gives itself is refused. A stage that stops early ends
+            the sequence.
 
         Returns
         -------
@@ -106,9 +107,11 @@ class Verbs(Observing):
         report: MdReport | None = None
         if stages is None:
             report = self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
-            stages = ()
-        for stage in stages:
-            given = dict(stage) if isinstance(stage, Mapping) else dict(zip(("growth_rate", "pressure"), stage))
+        made = [dict(s) if isinstance(s, Mapping) else dict(zip(("growth_rate", "pressure"), s)) for s in stages or ()]
+        idle = [k for k, v in options.items() if v is not None and made and all(k in given for given in made)]
+        if idle:
+            raise ValueError(f"{', '.join(idle)} would have no effect: every stage gives its own")
+        for given in made:
             last: MdReport = self._verb(
                 "jam_compress", "jam_compress_options", "jam_md_report", progress, {**options, **given}
             )

@@ -21,7 +21,7 @@ from .campaign import Campaign, progress_bar
 from .entry import Entry
 from .folder import FIELDS, Folder, builds_of
 from .pool import LocalPool
-from .protocol import ProtocolError, complete, identity, packing_name, to_json
+from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
 from .status import Status, warn
 
 
@@ -103,7 +103,7 @@ class Ensemble:
         StoreError
             The folder cannot be written (read-only, disk full). Nothing that was finished is lost.
         """
-        seeds = list(dict.fromkeys(int(s) for s in seeds))
+        seeds = list(dict.fromkeys(map(whole_seed, seeds)))
         self.files.prepare()
         self.files.keep_protocol(self.id, to_json(self.protocol))
         done, failed = self.files.scan()
@@ -138,7 +138,7 @@ class Ensemble:
             lost = sum(f["protocol"] == self.id for f in self.files.failures(failed))
             asked = len(rows) + lost + len(left_out)
         else:
-            names = [self.name(s) for s in dict.fromkeys(seeds)]
+            names = [self.name(s) for s in dict.fromkeys(map(whole_seed, seeds))]
             rows = rows[np.isin(rows["name"], np.array(names, "S32"))]
             left_out = {k: v for k, v in left_out.items() if k in set(names)}
             asked, lost = len(names), sum(n in failed for n in names)
@@ -161,7 +161,8 @@ class Ensemble:
         -------
         numpy structured array, or pandas.DataFrame
             Fields: seed, name, protocol, version, commit and library (the build), n, dim, the fields of CrunchReport
-            (enums as numbers), crystal_score, seconds_made, written. Files that cannot be read have no row.
+            (enums as numbers), crystal_score, seconds_made, written. Without a crunch packing_fraction and diameter_mean
+            are those of the packing, other numbers nan or -1. Files that cannot be read have no row.
         """
         return _as_table(self._rows(), pandas)
 

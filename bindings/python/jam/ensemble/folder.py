@@ -13,9 +13,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import sqlite3
 import time
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
 
@@ -26,7 +28,7 @@ from .._api.generated import CrunchReport
 from .._formats.groups import refusing
 from .._formats.provenance import provenance
 from .._formats.read_packing import jam_of
-from .._formats.records import dtype_of
+from .._formats.records import dtype_of, unknown
 from .._formats.replacing import check_writable, remove_abandoned
 from .._formats.sealed import open_file
 from .._formats.write_packing import write_file
@@ -68,6 +70,9 @@ def row_of(file: Any, name: str) -> Array:
         made[key] = attributes.get(key, absent)
     made["name"], made["n"] = name, len(jam["diameters"])
     made["dim"] = file["particles/spheres/position/value"].shape[2]
+    for f in fields(CrunchReport):
+        made[f.name] = unknown(str(f.type))
+    made["packing_fraction"], made["diameter_mean"] = _of_spheres(file)
     if "report" in jam:
         report = jam["report"]
         for key in set(_REPORT_FIELDS) & set(report.dtype.names):
@@ -75,6 +80,14 @@ def row_of(file: Any, name: str) -> Array:
     score = jam.get("analysis/crystal_score")
     made["crystal_score"] = np.nan if score is None or score.dtype.kind != "f" else score[()]
     return made
+
+
+def _of_spheres(file: Any) -> tuple[float, float]:
+    """Packing fraction and mean diameter, which need no crunch."""
+    sigma, cell = file["jam/diameters"], file["particles/spheres/box/edges/value"][0]
+    d = len(cell)
+    ball = math.pi ** (d / 2) / math.gamma(d / 2 + 1) / 2**d
+    return ball * float((sigma**d).sum()) / abs(float(np.linalg.det(cell))), float(sigma.mean())
 
 
 def builds_of(rows: Array) -> tuple[str, ...]:
@@ -247,8 +260,9 @@ class Folder:
 
 
 def hash_of_row() -> int:
-    """A number that changes with ROW: an index of another layout is made again."""
-    return int.from_bytes(hashlib.sha256(f"{ROW.descr} {_CHECK}".encode()).digest()[:3], "big") + 1
+    """A number that changes with ROW and with what stands for unknown: an index of another layout is made again."""
+    absent = [unknown(str(f.type)) for f in fields(CrunchReport)]
+    return int.from_bytes(hashlib.sha256(f"{ROW.descr} {absent} {_CHECK}".encode()).digest()[:3], "big") + 1
 
 
 def _checksum(name: str, size: int, changed: int, row: bytes) -> bytes:

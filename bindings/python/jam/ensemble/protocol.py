@@ -192,9 +192,17 @@ def identity(protocol: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps(minimal(protocol), sort_keys=True).encode()).hexdigest()[:12]
 
 
+def whole_seed(seed: Any) -> int:
+    """A seed as an int; 1.5 and 2**64 are none."""
+    whole = int(seed)
+    if whole != seed or not 0 <= whole < 1 << 64:
+        raise ProtocolError(f"a seed must be a whole number from 0 to 2**64 - 1, not {seed!r}")
+    return whole
+
+
 def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str:
     """32 hex digits that name one packing: of the protocol, the seed and the version of libjam."""
-    text = f"{protocol_id} {int(seed)} {version or raw.jam_version()}"
+    text = f"{protocol_id} {whole_seed(seed)} {version or raw.jam_version()}"
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 

@@ -1,8 +1,6 @@
-// Elastic tensor and moduli with the non-affine part, and comparing two packings.
+// Elastic tensor and moduli with the non-affine part.
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 #include "analysis/spectrum.hpp"
 #include "core/error.hpp"
@@ -114,63 +112,6 @@ jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const Conta
       m.shear_max = std::max(m.shear_max, plane);
     }
   return m;
-}
-
-jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, const Packing &b, const ContactNetwork *nb,
-                                std::vector<double> &displacement) {
-  if (a.dim != b.dim || a.n() != b.n())
-    fail(JAM_E_ARGUMENT, "the packings differ: d = %d and %d, n = %zu and %zu", a.dim, b.dim, a.n(), b.n());
-  for (int c = 0; c < a.dim; ++c)
-    for (int k = 0; k <= c; ++k)
-      if (std::fabs(a.cell.row(c)[k] - b.cell.row(c)[k]) > 1e-12 * a.cell.side())
-        fail(JAM_E_ARGUMENT, "the cells differ: component %d of vector %d is %.17g and %.17g", k, c, a.cell.row(c)[k],
-             b.cell.row(c)[k]);
-  jam_comparison c{};
-  const size_t n = a.n(), d = static_cast<size_t>(a.dim);
-  std::vector<char> stable(n, 1);
-  for (size_t i = 0; i < n; ++i) stable[i] = (!na || na->coordination[i] > 0) && (!nb || nb->coordination[i] > 0);
-  const auto count = std::count(stable.begin(), stable.end(), 1);
-  if (count == 0) std::fill(stable.begin(), stable.end(), 1);
-  const double weight = static_cast<double>(count ? count : static_cast<std::ptrdiff_t>(n));
-  c.packing_fraction_change = packing_fraction(b) - packing_fraction(a);
-  displacement.assign(n * d, 0.0);
-  // The mean is taken out of nearest-image displacements; taking it out can change nearest images, hence the passes.
-  std::vector<double> shift(d, 0.0);
-  for (int pass = 0; pass < 5; ++pass) {
-    std::vector<double> mean(d, 0.0);
-    for (size_t i = 0; i < n; ++i) {
-      double *u = &displacement[i * d];
-      for (size_t x = 0; x < d; ++x) u[x] = b.position[i * d + x] - a.position[i * d + x] - shift[x];
-      a.cell.nearest(u);
-      for (size_t x = 0; x < d; ++x)
-        if (stable[i]) mean[x] += u[x] / weight;
-    }
-    for (size_t x = 0; x < d; ++x) shift[x] += mean[x];
-  }
-  const double unit = diameter_mean(a);
-  for (size_t i = 0; i < n; ++i) {
-    if (!stable[i]) continue;
-    double u2 = 0.0;
-    for (size_t x = 0; x < d; ++x) u2 += displacement[i * d + x] * displacement[i * d + x];
-    c.displacement_rms += u2 / weight;
-    c.displacement_max = std::max(c.displacement_max, std::sqrt(u2) / unit);
-  }
-  c.displacement_rms = std::sqrt(c.displacement_rms) / unit;
-  c.stable_in_both = static_cast<int64_t>(count);
-  if (!na || !nb) return c;
-  std::map<std::pair<int32_t, int32_t>, int> left;
-  for (size_t k = 0; k < na->size(); ++k) ++left[{na->pairs.i[k], na->pairs.j[k]}];
-  for (size_t k = 0; k < nb->size(); ++k) {
-    auto it = left.find({nb->pairs.i[k], nb->pairs.j[k]});
-    if (it != left.end() && it->second > 0) --it->second, ++c.common_contacts;
-  }
-  c.contacts_a = static_cast<int64_t>(na->size());
-  c.contacts_b = static_cast<int64_t>(nb->size());
-  const int64_t all = c.contacts_a + c.contacts_b - c.common_contacts;
-  const auto common = static_cast<double>(c.common_contacts);
-  c.overlap = all > 0 ? common / static_cast<double>(all) : 1.0;
-  c.overlap_a = c.contacts_a > 0 ? common / static_cast<double>(c.contacts_a) : 1.0;
-  return c;
 }
 
 }  // namespace jam

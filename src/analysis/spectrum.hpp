@@ -1,4 +1,4 @@
-// Density of states and elastic moduli from a Hessian without its modes; comparison of packings.
+// Density of states and elastic moduli from a Hessian without its modes.
 #pragma once
 #include <vector>
 #include "network/self_stress.hpp"
@@ -26,9 +26,5 @@ ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const Co
 // Moduli from that tensor.
 jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
                           const CancellationPoint &cancel_point = CancellationPoint());
-
-// displacement (n, d) from a to b without its mean over spheres stable in both.
-jam_comparison compare_packings(const Packing &a, const ContactNetwork *na, const Packing &b, const ContactNetwork *nb,
-                                std::vector<double> &displacement);
 
 }  // namespace jam

@@ -1,5 +1,6 @@
 // Header section "analysis": density of states, moduli, projections, comparing packings.
 #include <algorithm>
+#include "analysis/comparison.hpp"
 #include "analysis/spectrum.hpp"
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
@@ -108,18 +109,18 @@ jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, dou
 
 jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
                        size_t out_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_const(sys, [&]() -> Answer {
     const Reading reading(other, "other");
     if (!comparison && !out && !needed) fail(JAM_E_NULL, "comparison, out and needed are all NULL");
     check_out_struct(comparison, "comparison");
     check_output(out, out_len, sys->packing.position.size(), "out");
-    std::vector<double> displacement;
-    const jam_comparison c = compare_packings(sys->packing, sys->has_report ? &sys->contacts : nullptr, other->packing,
-                                              other->has_report ? &other->contacts : nullptr, displacement);
-    if (needed) *needed = displacement.size();
-    put_output(displacement, out, displacement.size());
-    give_struct(c, comparison);
-    return JAM_OK;
+    const Comparison c = compare_packings(sys->packing, sys->has_report ? &sys->contacts : nullptr, other->packing,
+                                          other->has_report ? &other->contacts : nullptr);
+    if (needed) *needed = c.displacement.size();
+    put_output(c.displacement, out, c.displacement.size());
+    give_struct(c.numbers, comparison);
+    if (c.doubts.empty()) return JAM_OK;
+    return {JAM_AMBIGUOUS, c.doubts};
   });
 }
 

@@ -348,6 +348,20 @@ void shrink_to_contact(Packing &p, double least, Notes *notes) {
                 packing_fraction(p), before);
 }
 
+namespace {
+
+// A lattice has many sets of cell vectors: what became of those that were given.
+void say_cell(const ReducedCell &reduced, int dim, Notes *notes) {
+  if (!notes) return;
+  bool same = true;
+  const size_t d = static_cast<size_t>(dim);
+  for (size_t k = 0; k < d * d; ++k) same = same && reduced.transform[k] == (k % (d + 1) == 0 ? 1 : 0);
+  if (!same) notes->say("the cell vectors were replaced by shorter ones of the same lattice");
+  if (reduced.rotated) notes->say("the spheres were rotated with the cell, whose vectors are lower-triangular now");
+}
+
+}  // namespace
+
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
                      const double *diameters, size_t diameters_len, const double *cell, Notes *notes) {
   check_options(o);
@@ -369,7 +383,13 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   if (positions_len) {
     p.position.resize(n * o.dim);
     p.position.assign(positions, positions + positions_len);
-    cell ? enter_cell(p, reduce_cell(p.dim, cell)) : wrap_positions(p);
+    if (cell) {
+      const ReducedCell reduced = reduce_cell(p.dim, cell);
+      say_cell(reduced, p.dim, notes);
+      enter_cell(p, reduced);
+    } else {
+      wrap_positions(p);
+    }
     if (o.overlap == JAM_OVERLAP_SHRINK)
       shrink_to_contact(p, o.shrink_min, notes);
     else

@@ -117,17 +117,17 @@ void read_atoms(LineReader &in, int64_t n, const Box &box, const Columns &column
     for (size_t c = 0; c < columns.count; ++c) x[c] = parse_number(in, words[columns.axis[c]]);
     for (size_t c = 0; c < 3; ++c) {
       const double scaled = x[0] * box.rows[c] + x[1] * box.rows[3 + c] + x[2] * box.rows[6 + c];
-      if (c < 2)
-        position.push_back(columns.scaled ? scaled : x[c] - box.low[c]);
-      else  // from the origin of the file, where it is 0 in a plane
-        position.push_back(columns.scaled ? scaled + box.low[2] : x[2]);
+      // z from the origin of the file, where it is 0 in a plane
+      position.push_back(!columns.scaled ? x[c] : c < 2 ? scaled : scaled + box.low[2]);
     }
     content.diameter.push_back(columns.size.diameter(in, words));
     if (columns.has_id) ids.push_back(parse_count(in, words[columns.id], "the number of an atom"));
   }
   const bool plane = columns.count == 2;
   take_plane(position, plane ? -1.0 : box.low[2], plane ? 1.0 : box.low[2] + box.rows[8], content);
-  if (content.dim == 3)
+  if (!columns.scaled)
+    measure_from_corner(&box.low[0], content);
+  else if (content.dim == 3)
     for (size_t k = 2; k < content.position.size(); k += 3) content.position[k] -= box.low[2];
   if (!std::is_sorted(ids.begin(), ids.end())) {
     content.notes.say("the ids of the dump do not count up: spheres keep its order, ids are not kept");

@@ -78,11 +78,25 @@ double SizeColumn::diameter(const LineReader &in, const std::vector<std::string_
   return radius_ ? 2.0 * x : x;
 }
 
-void say_unread(FileContent &content, const std::vector<std::string> &names) {
+void say_unread(FileContent &content, const std::vector<std::string> &names, const char *parts) {
   if (names.empty()) return;
   std::string all;
   for (const std::string &name : names) all += (all.empty() ? "" : ", ") + shown(name);
-  content.notes.say("columns of the file that were not read: %s", all.c_str());
+  content.notes.say("%s of the file that were not read: %s", parts, all.c_str());
+}
+
+void measure_from_corner(const double *corner, FileContent &content) {
+  const size_t d = static_cast<size_t>(content.dim);
+  std::string at;
+  bool moved = false;
+  for (size_t c = 0; c < d; ++c) {
+    moved = moved || corner[c] != 0.0;
+    at += ' ';
+    append_number(at, corner[c]);
+  }
+  if (!moved) return;
+  for (size_t k = 0; k < content.position.size(); ++k) content.position[k] -= corner[k % d];
+  content.notes.say("the corner of the cell is at%s in the file: positions are measured from there", at.c_str());
 }
 
 void take_cell(const LineReader &in, std::vector<double> rows, FileContent &content) {

@@ -88,8 +88,12 @@ class SizeColumn {
   size_t column_ = 0;
 };
 
-// Says which columns were not read, once for a file.
-void say_unread(FileContent &content, const std::vector<std::string> &names);
+// Says which `parts` (columns, keys) were not read, once for a file.
+void say_unread(FileContent &content, const std::vector<std::string> &names, const char *parts = "columns");
+
+// Moves the positions so that the corner of the cell, at `corner` (d numbers or more) in the file, is at 0, and says
+// so.
+void measure_from_corner(const double *corner, FileContent &content);
 
 // The d rows of cell vectors, of any form: a cube along the axes becomes content.box, other cells are checked.
 void take_cell(const LineReader &in, std::vector<double> rows, FileContent &content);

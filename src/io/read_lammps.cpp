@@ -227,7 +227,7 @@ void make_content(const LineReader &in, Header &header, const std::vector<Atom> 
   else
     take_plane(position, low, low + cell[8], content);
   const size_t d = static_cast<size_t>(content.dim);
-  for (size_t k = 0; k < content.position.size(); ++k) content.position[k] -= header.low[k % d];
+  measure_from_corner(&header.low[0], content);
   if (d == 2 && (cell[6] != 0.0 || cell[7] != 0.0))
     in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
   std::vector<double> rows;

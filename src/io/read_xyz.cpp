@@ -7,40 +7,63 @@
 namespace jam {
 namespace {
 
-// The value of key= on the comment line, in quotes, in braces or bare; false when the key is not there. Once only.
-bool find_key(const LineReader &in, std::string_view comment, std::string_view key, std::string_view &value) {
-  size_t k = 0;
-  bool found = false;
-  while (k < comment.size()) {
-    while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
-    const size_t start = k;
-    while (k < comment.size() && comment[k] != '=' && comment[k] != ' ' && comment[k] != '\t') ++k;
-    const std::string_view name = comment.substr(start, k - start);
-    if (k >= comment.size() || comment[k] != '=') continue;  // a bare word
-    const char opens = ++k < comment.size() ? comment[k] : ' ';
-    const bool quoted = opens == '"' || opens == '\'' || opens == '{';
-    if (quoted) ++k;
-    const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
-    size_t stop = comment.find_first_of(ends, k);
-    if (stop == std::string_view::npos) {
-      if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
-      stop = comment.size();
+// The keys on the comment line of a frame.
+class Keys {
+ public:
+  // key=value, the value in quotes, in braces or bare. Words without = are comments.
+  Keys(const LineReader &in, std::string_view comment) : in_(in) {
+    for (size_t k = 0; k < comment.size();) {
+      while (k < comment.size() && (comment[k] == ' ' || comment[k] == '\t')) ++k;
+      const size_t start = k;
+      while (k < comment.size() && comment[k] != '=' && comment[k] != ' ' && comment[k] != '\t') ++k;
+      const std::string_view name = comment.substr(start, k - start);
+      if (k >= comment.size() || comment[k] != '=') continue;
+      const char opens = ++k < comment.size() ? comment[k] : ' ';
+      const bool quoted = opens == '"' || opens == '\'' || opens == '{';
+      if (quoted) ++k;
+      const char *const ends = opens == '{' ? "}" : opens == '"' ? "\"" : opens == '\'' ? "'" : " \t";
+      size_t stop = comment.find_first_of(ends, k);
+      if (stop == std::string_view::npos) {
+        if (quoted) in.fail(JAM_E_FORMAT, "the quote after '%s=' is not closed", shown(name).c_str());
+        stop = comment.size();
+      }
+      keys_.push_back({name, comment.substr(k, stop - k), false});
+      k = stop + 1;
     }
-    if (name == key) {
-      if (found) in.fail(JAM_E_FORMAT, "'%s=' is there twice", shown(name).c_str());
-      found = true;
-      value = comment.substr(k, stop - k);
-    }
-    k = stop + 1;
   }
-  return found;
-}
+  // Once only. From then on the key counts as read.
+  bool find(std::string_view name, std::string_view &value) {
+    bool found = false;
+    for (Key &key : keys_) {
+      if (key.name != name) continue;
+      if (found) in_.fail(JAM_E_FORMAT, "'%s=' is there twice", shown(name).c_str());
+      found = key.read = true;
+      value = key.value;
+    }
+    return found;
+  }
+  std::vector<std::string> unread() const {
+    std::vector<std::string> names;
+    for (const Key &key : keys_)
+      if (!key.read) names.emplace_back(key.name);
+    return names;
+  }
+
+ private:
+  struct Key {
+    std::string_view name, value;
+    bool read;
+  };
+  const LineReader &in_;
+  std::vector<Key> keys_;
+};
 
 struct Columns {
   size_t total = 0, pos = 0, pos_count = 0, id = 0;
   bool has_pos = false, has_id = false;
   SizeColumn size;
   std::vector<std::string> unread;
+  std::vector<double> origin;  // the corner of the cell
 };
 
 Columns read_properties(const LineReader &in, std::string_view properties) {
@@ -103,41 +126,73 @@ void read_cell(const LineReader &in, std::string_view text, const char *name, si
   content.box = take_box(in, words[0]);
 }
 
-// Every direction must be periodic, as T, True or 1; in d = 2 the third one is ignored.
+// Every direction must be periodic, as T, True or 1; in d = 2 the third one is ignored, from d = 4 on three are named.
 void check_periodic(const LineReader &in, std::string_view pbc, int dim) {
   std::vector<std::string_view> words;
   split(pbc, words);
-  for (size_t k = 0; k < words.size() && k < static_cast<size_t>(dim); ++k) {
+  const size_t needed = static_cast<size_t>(std::min(dim, 3));
+  bool periodic = words.size() >= needed;
+  for (size_t k = 0; k < std::min(words.size(), static_cast<size_t>(dim)); ++k) {
     const std::string word = lower(words[k]);
-    if (word == "t" || word == "true" || word == "1") continue;
-    in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction%s", shown(pbc).c_str(),
-            dim == 3 && k == 2 ? "; a packing of disks needs dim=2 on this line" : "");
+    periodic = periodic && (word == "t" || word == "true" || word == "1");
   }
+  if (periodic) return;
+  const bool plane = dim == 3 && words.size() == 3 && lower(words[2])[0] != 't' && words[2] != "1";
+  in.fail(JAM_E_UNSUPPORTED, "pbc='%s': the box must be periodic in every direction%s", shown(pbc).c_str(),
+          plane ? "; a packing of disks needs dim=2 on this line" : "");
+}
+
+// Lattice, the cell vectors; beyond three dimensions `cell` when it is no cube, whose first three are those of Lattice.
+void read_cells(const LineReader &in, Keys &keys, FileContent &content) {
+  std::string_view lattice, whole;
+  if (!keys.find("Lattice", lattice))
+    in.fail(JAM_E_FORMAT, "no Lattice=, the cell vectors, such as Lattice=\"L 0 0 0 L 0 0 0 L\" for a cube");
+  if (content.dim <= 3 || !keys.find("cell", whole)) return read_cell(in, lattice, "Lattice", 3, content);
+  const size_t d = static_cast<size_t>(content.dim);
+  read_cell(in, whole, "cell", d, content);
+  std::vector<std::string_view> of_lattice, of_cell;
+  split(lattice, of_lattice);
+  split(whole, of_cell);
+  bool same = of_lattice.size() == 9;
+  for (size_t k = 0; k < 9 && same; ++k)
+    same = parse_number(in, of_lattice[k]) == parse_number(in, of_cell[d * (k / 3) + k % 3]);
+  if (!same)
+    in.fail(JAM_E_FORMAT, "Lattice and cell differ: Lattice holds three components of the first three vectors");
+}
+
+// Where the corner of the cell is, as OVITO writes it.
+std::vector<double> read_origin(const LineReader &in, Keys &keys, int dim) {
+  std::string_view text;
+  std::vector<double> origin(static_cast<size_t>(std::max(dim, 3)), 0.0);
+  if (!keys.find("Origin", text)) return origin;
+  std::vector<std::string_view> words;
+  split(text, words);
+  if (words.size() != 3 && words.size() != static_cast<size_t>(dim))
+    in.fail(JAM_E_FORMAT, "Origin has %zu numbers, 3 are needed", words.size());
+  if (words.size() < static_cast<size_t>(dim))
+    in.fail(JAM_E_UNSUPPORTED, "Origin has 3 numbers, d = %d needs %d", dim, dim);
+  for (size_t k = 0; k < words.size(); ++k) origin[k] = parse_number(in, words[k]);
+  return origin;
 }
 
 // What line 2 says of the frame.
-Columns read_keys(const LineReader &in, std::string_view comment, const ReadOptions &options, FileContent &content) {
+Columns read_keys(const LineReader &in, Keys &keys, const ReadOptions &options, FileContent &content) {
   std::string_view value;
-  if (!find_key(in, comment, "Properties", value))
+  if (!keys.find("Properties", value))
     in.fail(JAM_E_FORMAT, "no Properties=, such as Properties=species:S:1:pos:R:3:radius:R:1 for these columns");
   Columns columns = read_properties(in, value);
   int64_t dim = static_cast<int64_t>(columns.pos_count);
-  if (find_key(in, comment, "dim", value))
+  if (keys.find("dim", value))
     dim = parse_count(in, value, "a dimension");
   else if (dim == 3 && options.dim == 2)
     dim = 2;
   content.dim = take_dim(in, dim);
   if (dim != static_cast<int64_t>(columns.pos_count) && !(dim == 2 && columns.pos_count == 3))
     in.fail(JAM_E_FORMAT, "dim is %d but pos has %zu columns", content.dim, columns.pos_count);
-  if (!find_key(in, comment, "Lattice", value))
-    in.fail(JAM_E_FORMAT, "no Lattice=, the cell vectors, such as Lattice=\"L 0 0 0 L 0 0 0 L\" for a cube");
-  std::string_view whole;
-  if (content.dim > 3 && find_key(in, comment, "cell", whole))
-    read_cell(in, whole, "cell", static_cast<size_t>(content.dim), content);
-  else
-    read_cell(in, value, "Lattice", 3, content);
-  if (find_key(in, comment, "pbc", value)) check_periodic(in, value, content.dim);
-  if (find_key(in, comment, "non_additivity", value)) {
+  read_cells(in, keys, content);
+  columns.origin = read_origin(in, keys, content.dim);
+  if (keys.find("pbc", value)) check_periodic(in, value, content.dim);
+  if (keys.find("non_additivity", value)) {
     content.non_additivity = parse_number(in, value);
     content.has_non_additivity = true;
     at_line(in, [&] { check_non_additivity(content.non_additivity); });
@@ -172,6 +227,8 @@ void read_rows(LineReader &in, int64_t n, const Columns &columns, FileContent &c
     before = id;
   }
   if (!sorted) content.notes.say("the ids of the file do not count up: spheres keep its order, ids are not kept");
+  if (height != 0.0) content.notes.say("the third coordinate, %g of every disk, was left out", height);
+  measure_from_corner(columns.origin.data(), content);
 }
 
 // Frame k; false at the end of the file.
@@ -187,10 +244,12 @@ bool read_frame(LineReader &in, const ReadOptions &options, int64_t k, int64_t &
             static_cast<long long>(n), shown(line).c_str());
   n = take_count(in, parse_count(in, words[0], "a number of spheres"));
   if (!in.next(line)) in.fail(JAM_E_FORMAT, "the file ends before the line of keys");
-  const std::string keys(line);
+  const std::string comment(line);
+  Keys keys(in, comment);
   const Columns columns = read_keys(in, keys, options, content);
   read_rows(in, n, columns, content);
   say_unread(content, columns.unread);
+  say_unread(content, keys.unread(), "keys");
   return true;
 }
 

@@ -149,7 +149,7 @@ static void dumps_in_any_form(void **state) {
   (void)state;
   for (k = 0; k < sizeof texts / sizeof *texts; ++k) {
     jam_system *sys = read_text(texts[k]);
-    if (k == 0) assert_string_equal(jam_notes(sys), "columns of the file that were not read: type");
+    if (k == 0) assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: type"));
     if (k == 3) {
       assert_non_null(strstr(jam_notes(sys), "ids of the dump do not count up: spheres keep its order"));
       assert_non_null(strstr(jam_notes(sys), "1 of 3 spheres lay outside the cell"));

@@ -12,6 +12,29 @@ static PyObject *jam_error_factory = NULL; /* callable (status, text) -> excepti
 /* Texts name files, whose names need not be UTF-8: other bytes show as \xff. */
 static PyObject *jam_text(const char *text) { return PyUnicode_DecodeUTF8(text, (Py_ssize_t)strlen(text), "backslashreplace"); }
 
+/* A text for C as new bytes, or NULL with an exception: str as UTF-8, where names of files that are not UTF-8 give their
+ * own bytes and other lone surrogates show as \ud800; bytes as they are. A NUL inside would cut it short. */
+static PyObject *jam_bytes(PyObject *text) {
+  PyObject *bytes = NULL;
+  if (PyBytes_Check(text)) {
+    bytes = text;
+    Py_INCREF(bytes);
+  } else if (PyUnicode_Check(text)) {
+    bytes = PyUnicode_AsEncodedString(text, "utf-8", "surrogateescape");
+    if (!bytes && PyErr_ExceptionMatches(PyExc_UnicodeEncodeError)) {
+      PyErr_Clear();
+      bytes = PyUnicode_AsEncodedString(text, "utf-8", "backslashreplace");
+    }
+  } else {
+    PyErr_Format(PyExc_TypeError, "a text is needed, not %.100s", Py_TYPE(text)->tp_name);
+  }
+  if (bytes && strlen(PyBytes_AS_STRING(bytes)) != (size_t)PyBytes_GET_SIZE(bytes)) {
+    PyErr_SetString(PyExc_ValueError, "a text must not hold the character NUL");
+    Py_CLEAR(bytes);
+  }
+  return bytes;
+}
+
 /* Raises the exception of a status below zero. An exception that a callback has already raised wins. */
 static void jam_raise(jam_status status) {
   if (PyErr_Occurred()) return;
@@ -34,7 +57,7 @@ static int jam_buffer(PyObject *object, Py_buffer *view, int flags, const char *
   if (object == Py_None) return 1;
   if (PyObject_GetBuffer(object, view, flags | PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) return 0;
   const char *format = view->format ? view->format : "B";
-  if (*format == '<' || *format == '=' || *format == '@') ++format;
+  if (*format == (PY_LITTLE_ENDIAN ? '<' : '>') || *format == '=' || *format == '@') ++format;
   const char *wanted = *kind == 'f' ? "d" : *kind == 'i' ? "ilq" : *kind == 'u' ? "ILQ" : *kind == 'c' ? "bBc" : NULL;
   if ((size_t)view->itemsize != size || (wanted && (format[1] || !strchr(wanted, format[0])))) {
     PyErr_Format(PyExc_TypeError, "%s: items of %zd bytes and format '%s' where C needs %zu bytes of kind '%s'", name,
@@ -172,6 +195,14 @@ void set_error_factory(PyObject *callable) {
 }
 %}
 
+// ---- texts, None for NULL
+%typemap(in) const char * (PyObject *bytes) {
+  bytes = NULL;
+  if ($input != Py_None && !(bytes = jam_bytes($input))) SWIG_fail;
+  $1 = bytes ? PyBytes_AS_STRING(bytes) : NULL;
+}
+%typemap(arginit) const char * { bytes$argnum = NULL; }
+%typemap(freearg) const char * { Py_XDECREF(bytes$argnum); }
 // ---- names of files: str, bytes or path-like, as the file system encodes them; a NUL inside is refused
 %typemap(in) const char *path (PyObject *bytes) {
   bytes = NULL;

@@ -12,11 +12,21 @@
 namespace jam {
 namespace {
 
-// A string of JSON inside a script element: nothing in it can end the element.
+// A string of JSON inside a script element: nothing in it can end the element. Bytes that are not UTF-8, as names of
+// files may have them, show as \xff.
 void put_string(std::string &out, const std::string &text) {
   out += '"';
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
+  for (size_t k = 0, length = 0; k < text.size(); k += length) {
+    const char c = text[k];
+    length = character_length(std::string_view(text).substr(k));
+    if (length == 0) {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      out += code;
+      length = 1;
+    } else if (length > 1) {
+      out.append(text, k, length);
+    } else if (c == '"' || c == '\\')
       (out += '\\') += c;
     else if (static_cast<unsigned char>(c) < ' ' || c == '<') {
       char code[8];

@@ -130,6 +130,23 @@ std::string shown(std::string_view word) {
   return out;
 }
 
+size_t character_length(std::string_view text) {
+  const auto byte = [&](size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+  const unsigned first = byte(0);
+  if (text.empty() || first < 0x80) return text.empty() ? 0 : 1;
+  const size_t length = first >= 0xc2 && first < 0xe0   ? 2
+                        : (first & 0xf0u) == 0xe0       ? 3
+                        : first >= 0xf0 && first < 0xf5 ? 4
+                                                        : 0;
+  for (size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xc0u) != 0x80) return 0;
+  // Longer forms than needed, halves of UTF-16 and numbers above 0x10ffff
+  const unsigned second = byte(1);
+  const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+                     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
+  return wrong ? 0 : length;
+}
+
 namespace {
 std::errc convert(std::string_view word, double &x) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);  // from_chars knows no plus sign

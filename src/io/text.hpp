@@ -15,7 +15,7 @@ namespace jam {
 class LineReader {
  public:
   explicit LineReader(const char *path);
-  // The first 64 KiB, or less: what tells the format. Before the first next().
+  // The first 64 KiB, or less: which decide the format. Before the first next().
   std::string_view head() const { return {buffer_.data() + begin_, end_ - begin_}; }
   // The next line without its end in `line`; false at the end of the file. A last line without an end is refused, as
   // the file may be cut inside its last number, unless the caller looks at cut_short() itself.
@@ -55,6 +55,9 @@ bool is_number(std::string_view word);  // as parse_number takes it
 std::string lower(std::string_view word);
 // A word of a file, cut and cleaned for an error text.
 std::string shown(std::string_view word);
+
+// Bytes of the character of UTF-8 at the beginning of text (RFC 3629); 0 where none begins.
+size_t character_length(std::string_view text);
 
 // Appends x with 17 significant digits: enough for every double to come back with the same bits.
 void append_number(std::string &out, double x);

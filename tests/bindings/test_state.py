@@ -1,6 +1,7 @@
 """Making, copying, viewing and closing systems from Python; what arrays are taken."""
 import copy
 import gc
+import os
 import pickle
 import subprocess
 import sys
@@ -65,6 +66,21 @@ class Making(unittest.TestCase):
         with self.assertRaises((TypeError, BufferError, ValueError)):
             jam.raw.jam_coordination(s.handle, b"read-only")
 
+    def test_texts_reach_c_as_they_are(self):
+        """Names that are not UTF-8 come from the system with lone surrogates."""
+        s = jam.System.random(8, 2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p\udcff.html")
+            shown = {"é \u2200 \U0001f600": "é \u2200 \U0001f600", "a\udcff": "a\\\\xff", "a\ud800": "a\\\\ud800", b"a\xc3\xa9": "aé"}
+            for title, text in shown.items():
+                s.page(path, title)
+                with open(path, "rb") as file:
+                    self.assertIn(('{"title": "%s"' % text).encode(), file.read())
+            s.page(path, values={"a\udcff": range(8)})
+            for title, kind in (("a\0b", ValueError), (1, TypeError), (Path("a"), TypeError)):
+                with self.assertRaises(kind):
+                    s.page(path, title)
+
     def test_errors_are_classes_with_text(self):
         with self.assertRaises(jam.errors.DimensionError) as caught:
             jam.System.random(dim=9)
@@ -108,6 +124,13 @@ class Views(unittest.TestCase):
         view, moved = s.positions, (s.positions + 0.25) % 1.0
         s.positions = moved
         np.testing.assert_array_equal(view, moved)
+
+    def test_view_has_the_byte_order_of_this_machine(self):
+        s = jam.System.random(8, 2)
+        self.assertTrue(s.positions.dtype.isnative)
+        other = s.positions.astype(np.dtype("f8").newbyteorder())
+        with self.assertRaisesRegex(TypeError, "format"):
+            jam.raw.jam_set_positions(s.handle, other.reshape(-1))
 
     def test_view_keeps_the_memory_alive(self):
         view = jam.System.random(n=5000, seed=9).positions

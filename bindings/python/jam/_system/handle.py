@@ -5,6 +5,8 @@ import threading
 from contextlib import contextmanager
 from typing import Any, Callable
 
+import numpy as np
+
 from .. import errors, raw
 from .._api.calls import freeze, invoke
 from .._api.errors import last_text
@@ -13,6 +15,7 @@ from .methods import Methods
 from .progress import end, reporter
 
 TRACE_LENGTH = 200_000  # progress records kept by a system
+_DOUBLE = np.dtype(np.float64).str  # in the byte order of this machine
 
 
 class _View:
@@ -20,7 +23,7 @@ class _View:
 
     def __init__(self, handle: Any, address: int, shape: tuple[int, ...]) -> None:
         self._handle = handle
-        self.__array_interface__ = {"version": 3, "typestr": "<f8", "shape": shape, "data": (address, True)}
+        self.__array_interface__ = {"version": 3, "typestr": _DOUBLE, "shape": shape, "data": (address, True)}
 
 
 class _Dispatch:

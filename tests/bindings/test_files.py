@@ -93,6 +93,9 @@ class Files(unittest.TestCase):
             jam.files.write_contacts_csv(jam.System.random(n=10), self.path / "never.csv")
         with self.assertRaises(jam.errors.UnsupportedError):
             jam.files.write_vtk(jam.System.random(n=10, dim=4, packing_fraction=0.05), self.path / "never.vtp")
+        for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):  # the shell may append to what it has opened
+            with self.assertRaisesRegex(OSError, "open descriptor"):
+                jam.files.write_csv(self.s, name)
         self.assertEqual(sorted(os.listdir(self.path)), before)
 
 

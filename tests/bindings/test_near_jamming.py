@@ -45,9 +45,14 @@ def test_runs(packing):
         assert np.array_equal(joined.total(name), runs.total(name))
     assert np.array_equal(joined.kept[1], sets)
     assert refused(ValueError, second.merge, first)
+    other = packing.copy()
+    other.scale_diameters(0.999)
+    assert refused(ValueError, first.merge, other.isoconfigurational([2, 10, 50], first_run=20, runs=20, **options))
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "runs.npz")
         runs.save(file)
+        os.mkfifo(file + ".pipe")  # nobody writes into it: reading would wait for ever
+        assert refused(jam.errors.StoreError, nj.Runs.load, file + ".pipe")
         back = jam.near_jamming.Runs.load(file)
         with open(file, "rb") as saved:
             good = saved.read()

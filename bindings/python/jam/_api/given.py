@@ -93,12 +93,12 @@ def positions_of(given: Any, diameters: Any, radii: Any, dim: int | None) -> Arr
 
 
 # Positions that were computed in single precision reach out of [0, 1] by this much.
-_ROUNDING = 1e-6
+ROUNDING = 1e-6
 
 
 def refuse_unnamed_box(x: Array) -> None:
     """Positions outside [0, 1] belong to another box than the default, or were not wrapped yet: only the caller knows."""
-    out = np.isfinite(x) & ((x < -_ROUNDING) | (x > 1.0 + _ROUNDING))
+    out = np.isfinite(x) & ((x < -ROUNDING) | (x > 1.0 + ROUNDING))
     if out.any():
         i, k = np.argwhere(out)[0]
         raise ValueError(

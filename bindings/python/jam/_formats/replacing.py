@@ -16,15 +16,19 @@ import stat
 import uuid
 from typing import IO, Any, Iterator
 
+_OPEN = re.compile(r"/dev/(stdin|stdout|stderr|fd/\d+)|/proc/(self|thread-self|\d+)/fd/\d+")
 _PART = re.compile(r"\.jam-[0-9a-f]{16}-[0-9a-f]{32}\.part")
 
 
 def replaceable(path: str | os.PathLike[str]) -> str:
     """The regular file that a rename onto path may replace. Links are followed, so that they stay.
 
-    Devices, pipes and folders are refused: a rename would put a file in their place. So are files that may not be
-    written: a rename would pass over their protection.
+    Devices, pipes and folders are refused: a rename would put a file in their place. So are open descriptors: the shell
+    may append to their file, which a rename would replace. So are files that may not be written: a rename would pass
+    over their protection.
     """
+    if _OPEN.fullmatch(os.fsdecode(path)):
+        raise OSError(errno.EINVAL, "it is an open descriptor, give the name of a file", os.fspath(path))
     real = os.path.realpath(os.fspath(path))
     if os.path.exists(real):
         if not os.path.isfile(real):
@@ -32,6 +36,15 @@ def replaceable(path: str | os.PathLike[str]) -> str:
         if not os.access(real, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), os.fspath(path))
     return real
+
+
+def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
+    """A file to read that has a length and a beginning to go back to. A pipe without a writer would wait without end."""
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
+    return os.fdopen(descriptor, "rb")
 
 
 def _begin(target: str) -> str:

@@ -6,7 +6,6 @@ import hashlib
 import json
 import os
 import re
-import stat
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
@@ -15,6 +14,7 @@ from .._api.arrays import Array
 from ..errors import StoreError
 from . import unsealed
 from .groups import Group, Shard, damaged, refusing
+from .replacing import open_regular
 from .seal import BEGIN, USER_BLOCK, check_names, head_of, size_of, type_of
 
 _LARGEST_INDEX = 1 << 22  # bytes; 1000 packings of a shard take 0.1 MB
@@ -141,15 +141,11 @@ def open_file(
         Bytes of the largest file that is read; default a quarter of the machine's memory.
     """
     with refusing(path):
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)  # a pipe without a writer would wait
-    try:
+        bytes_ = open_regular(path)
+    with bytes_:
         with refusing(path):
-            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-                raise StoreError(22, f"{path} is no regular file")
-            opened = _content(_File(path, descriptor, memory_limit), unverified)
+            opened = _content(_File(path, bytes_.fileno(), memory_limit), unverified)
         yield opened
-    finally:
-        os.close(descriptor)
 
 
 def _content(file: _File, unverified: bool) -> Group | Shard:

@@ -16,7 +16,7 @@ from .. import raw
 from .._api.arrays import Array, as_array
 from .._api.generated import IsoconfColumn, StatusCode
 from .._api.options import option_struct
-from .._formats.replacing import replacing
+from .._formats.replacing import open_regular, replacing
 from ..errors import StoreError
 
 # What numpy and zipfile make of a damaged .npz file
@@ -32,7 +32,7 @@ class Runs:
     instants (m,); counts (b,): runs of each block; displacement, square (b, m, n, d): sums of dr_c and dr_c^2;
     distance2, distance4 (b, m, n): of |dr|^2 and |dr|^4; series: {column: (b, m)}, sums of one number a run;
     kept: {index of an instant: (runs, n, d)}; first_run: number of the first run; status: of the call;
-    origin: what a campaign's runs were made from, '' outside of campaigns.
+    origin: digest of the packing and the options that the runs were made from.
     """
 
     instants: Array
@@ -124,6 +124,8 @@ class Runs:
         """These runs and those that follow them. Bits are those of one campaign, as blocks begin at multiples of `block`."""
         if not np.array_equal(self.instants, other.instants) or self.block != other.block:
             raise ValueError("the two have other instants or blocks")
+        if self.origin != other.origin:
+            raise ValueError("the two are runs from other packings, or with other options")
         if other.first_run != self.first_run + self.runs:
             raise ValueError(
                 f"runs {other.first_run} ... do not follow {self.first_run} ... {self.first_run + self.runs - 1}"
@@ -152,7 +154,7 @@ class Runs:
     def load(cls, path: str | os.PathLike[str], unverified: bool = False) -> "Runs":
         """Reads what save wrote. A damaged file is a jam.errors.StoreError; unverified: without the checksum."""
         try:
-            with np.load(path) as file:
+            with open_regular(path) as opened, np.load(opened) as file:
                 data = {k: file[k] for k in file.files}
                 if data.pop("sha256", "") != _digest(data) and not unverified:
                     raise ValueError("its arrays differ from its checksum; unverified=True reads files of older versions")
@@ -214,6 +216,8 @@ def make_runs(
     made = option_struct("jam_isoconf_options", options)
     chosen = None if monte_carlo is None else option_struct("jam_monte_carlo_options", monte_carlo)
     kept = np.asarray([int(k) for k in keep], dtype=np.int32)
+    rest = {name: value for name, value in (("keep", keep), ("monte_carlo", monte_carlo)) if value}
+    origin = _origin(system, dict(options, block=made.block, **rest))
     with system._reporting(progress):
         status = raw.jam_isoconfigurational(
             system.handle, made, chosen, times, kept if kept.size else None, raw.jam_isoconf_report()
@@ -221,7 +225,7 @@ def make_runs(
         system._note(status)
     runs = take_runs(system)
     sets = {int(k): system._ask("isoconf_kept", int(k)) for k in kept}
-    return replace(runs, instants=times, block=made.block, kept=sets, status=system.status)
+    return replace(runs, instants=times, block=made.block, kept=sets, status=system.status, origin=origin)
 
 
 def _digest(arrays: dict[str, Any]) -> str:
@@ -233,7 +237,7 @@ def _digest(arrays: dict[str, Any]) -> str:
 
 
 # What may change from one part of a campaign to the next.
-_FREE = ("runs", "threads", "memory_limit", "wall_time", "progress")
+_FREE = ("runs", "first_run", "threads", "memory_limit", "wall_time", "progress")
 
 
 def _origin(system: Any, options: dict[str, Any]) -> str:
@@ -265,7 +269,6 @@ def campaign(
     while done is None or done.runs < runs:
         first = 0 if done is None else done.runs
         made = system.isoconfigurational(instants, first_run=first, runs=min(part, runs - first), **options)
-        made = replace(made, origin=origin)
         done = made if done is None else done.merge(made)
         done.save(path)
         if made.status > 0:

@@ -21,7 +21,7 @@ void take_cell(jam_system *sys, Packing &p) {
 extern "C" {
 
 jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     const std::vector<double> rows = sys->packing.cell.rows();
     return give_array(rows.data(), rows.size(), out, out_len, needed);
   });

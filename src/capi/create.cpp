@@ -43,7 +43,7 @@ void jam_system::show(const Packing &result) noexcept {
 namespace {
 jam_status view(const jam_system *sys, const std::vector<double> Packing::*member, const double **out,
                 size_t *len) noexcept {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     need(out, "view");
     need(len, "view_len");
     *out = (sys->packing.*member).data();
@@ -125,7 +125,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
 void jam_destroy(jam_system *sys) { delete sys; }
 
 jam_status jam_info_get(const jam_system *sys, jam_info *info) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     need(info, "info");
     check_out_struct(info, "info");
     const Packing &p = sys->packing;

@@ -7,7 +7,7 @@ using namespace jam;
 namespace {
 template <class F>
 jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     if (!sys->has_report)
       fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
     return f(sys->contacts);
@@ -16,7 +16,7 @@ jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
 
 template <class F>
 jam_status with_step(const jam_system *sys, F &&f) noexcept {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     if (!sys->crunching || !sys->crunching->step().shown)
       fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
     return f(sys->crunching->step());
@@ -86,7 +86,7 @@ jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_report *repor
 }
 
 jam_status jam_crunch_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     if (!sys->has_history) fail(JAM_E_STATE, "there is no history: call jam_crunch first");
     if (column < 0 || column >= static_cast<int32_t>(history_columns))
       fail(JAM_E_ARGUMENT, "column is %d, not a jam_history_column", column);

@@ -87,12 +87,22 @@ Answer run_short(const jam_system *sys, F &&f) {
   }
 }
 
-// A const call on a handle: checks the handle inside the try.
+// A const call on a handle that computes: checks the handle inside the try.
 template <class F>
 jam_status guard_const(const jam_system *sys, F &&f, const char *name = "sys") noexcept {
   return guard([&] {
     const Reading reading(sys, name);
     return run_short(sys, f);
+  });
+}
+
+// A const call that copies what the handle holds: nothing in it is long enough to be stopped, and a monitor of its own
+// would take ten times as long as a view.
+template <class F>
+jam_status guard_read(const jam_system *sys, F &&f) noexcept {
+  return guard([&] {
+    const Reading reading(sys);
+    return f();
   });
 }
 
@@ -215,7 +225,7 @@ void give_struct(const T &full, T *out) {
   std::memcpy(static_cast<void *>(out), &full, size);
   out->struct_size = size;
 }
-// A verb that may be left by Cancelled before it has changed anything; the report then tells why and nothing else.
+// A verb that may be left by Cancelled before it has changed anything; the report then gives the reason alone.
 template <class Report, class F>
 jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
   return guard_verb(sys, [&]() -> Answer {

@@ -9,7 +9,7 @@ namespace {
 
 template <class F>
 jam_status with_runs(const jam_system *sys, F &&f) noexcept {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     if (!sys->runs) fail(JAM_E_STATE, "there are no runs: call jam_isoconfigurational first");
     return f(*sys->runs);
   });

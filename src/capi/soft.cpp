@@ -132,7 +132,7 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
 }
 
 jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
-  return guard_const(sys, [&]() -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
     if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: call jam_decompress first");
     if (column < 0 || column >= static_cast<int32_t>(soft_columns))
       fail(JAM_E_ARGUMENT, "column is %d, not a jam_soft_column", column);

@@ -126,7 +126,8 @@ static void run_phases(CrunchState &s) {
   }
 }
 
-// What is known before the first factorisation: the log says it, and what exceeds the memory of the call is refused.
+// What is known before the first factorisation: the log says it, and what surely exceeds the memory of the call is
+// refused.
 // Small systems fit at any density.
 static void look_ahead(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
   const bool logs = monitor.log_fn && monitor.log_level >= JAM_LOG_INFO;
@@ -137,7 +138,9 @@ static void look_ahead(const Packing &start, const jam_crunch_options &o, Monito
     monitor.log(JAM_LOG_INFO,
                 "estimate: %.3g MB, %lld pairs, %.3g flops a factorisation, about %.3g s for %.0f of them",
                 e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
-  CallScope::need_memory(e.bytes, "the linear programs of this packing, by jam_crunch_estimate,");
+  // An estimate may be too high: between this and the limit each matrix decides before it is factorised.
+  if (e.bytes > Tuning().estimate_too_high * CallScope::memory_limit())
+    CallScope::need_memory(e.bytes, "the linear programs of this packing, as jam_crunch_estimate gives it,");
 }
 
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
@@ -147,6 +150,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
   History own_history;
   const CrunchHooks no_hooks;
   CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);
+  Touching touching;
   try {
     const LeavingScope scope(CallScope::memory_limit(), &monitor);
     look_ahead(start, o, monitor);
@@ -156,6 +160,10 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
     return std::move(s.out);
   }
   try {
+    {
+      const LeavingScope scope(CallScope::memory_limit(), &monitor);
+      touching = find_touching(start, o.strain != JAM_STRAIN_NONE);
+    }
     run_phases(s);
     finish(s);
     explain(s);
@@ -171,7 +179,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
     s.stop(JAM_STOP_SOLVER, JAM_E_MEMORY);
     finish_failed(s);
   }
-  report_changes(start, s);
+  report_changes(std::move(touching), packing_fraction(start), s);
   return std::move(s.out);
 }
 

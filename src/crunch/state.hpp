@@ -1,5 +1,7 @@
 // What the phases of a crunch hand to each other.
 #pragma once
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "crunch/crunch.hpp"
@@ -103,7 +105,13 @@ Phase identify(CrunchState &s);
 Phase judge(CrunchState &s);
 void finish(CrunchState &s);
 void finish_failed(CrunchState &s);
-// changes.cpp: what the crunch did to the packing that it was given, into the report.
-void report_changes(const Packing &start, CrunchState &s);
+// changes.cpp: what the crunch did to the packing that it was given, into the report. Which pairs touched is found
+// before the work: after it the time of the call may be over.
+struct Touching {
+  std::map<std::pair<int32_t, int32_t>, int64_t> images;  // that touch, of each pair
+  int64_t total = -1;                                     // -1: not known, as the call was stopped
+};
+Touching find_touching(const Packing &start, bool own_images);
+void report_changes(Touching start, double packing_fraction_start, CrunchState &s);
 
 }  // namespace jam

@@ -41,6 +41,9 @@ struct Tuning {
   double corrector_band = 10.0, corrector_ahead = 0.3;
   double whole_step = 0.95;  // longer steps need no corrector
 
+  // ---- memory
+  double estimate_too_high = 2.0;  // estimates over what crunches took: to 1.6 in tests/bench/estimate.py, 1.8 in d = 8
+
   // ---- factors in single precision, of LPs and of the path (tests/bench/README.md, "Factors in single precision")
   // Below 150 flops a number of the factor, solves eat up what it wins. A direction may be wrong by 1e-3, and take 8
   // products.

@@ -75,18 +75,21 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys);
 int take_diameters(const char *value, options *o); /* without a message */
 
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
-int check_writable(const char *path);
 int write_report(const options *o, const outcome *result, const char *path);
 void print_summary(const options *o, const outcome *result);
 void print_warnings(const char *notes); /* those of jam_notes, on stderr */
 void complain(const char *format, ...);
 
-/* A file that appears whole or not at all. */
+/* output.c: a text that is written at its end, as a file that appears whole or not at all. path "-" is standard output,
+ * open descriptors (/dev/stdout, /dev/fd/N), pipes and devices are written in place. Each returns 0, or -1 after a
+ * message on stderr. */
 typedef struct output {
   const char *path;
-  char *beside; /* NULL when written in place: standard output, pipes, devices */
-  FILE *file;
+  FILE *file; /* collects the text */
+  char *text;
+  size_t size;
 } output;
+int check_writable(const char *path); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
 

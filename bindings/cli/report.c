@@ -1,13 +1,9 @@
-/* What jam-pack writes: JSON report, contact network, summary. Files appear whole or not at all. */
-#define _XOPEN_SOURCE 700
-#include <errno.h>
+/* What jam-pack writes: JSON report and summary. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include "jam-pack.h"
 
 void complain(const char *format, ...) {
@@ -17,76 +13,6 @@ void complain(const char *format, ...) {
   vfprintf(stderr, format, args);
   fputc('\n', stderr);
   va_end(args);
-}
-
-static int cannot(const char *path) {
-  complain("cannot write %s: %s", path, strerror(errno));
-  return -1;
-}
-
-/* Told before hours of work, not after: the folder must take files, and the name must not be a folder's. */
-int check_writable(const char *path) {
-  struct stat there;
-  char folder[4096];
-  const char *slash;
-  if (!path || !strcmp(path, "-")) return 0;
-  if (stat(path, &there) == 0) {
-    if (S_ISDIR(there.st_mode)) errno = EISDIR;
-    if (S_ISDIR(there.st_mode) || access(path, W_OK)) return cannot(path);
-    if (!S_ISREG(there.st_mode)) return 0;
-  }
-  slash = strrchr(path, '/');
-  snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
-  return access(folder, W_OK | X_OK) ? cannot(path) : 0;
-}
-
-int open_output(output *out, const char *path) {
-  struct stat there;
-  char *resolved = NULL;
-  out->path = path;
-  out->beside = NULL;
-  if (!strcmp(path, "-")) {
-    out->file = stdout;
-    return 0;
-  }
-  if (stat(path, &there) || S_ISREG(there.st_mode)) {
-    resolved = realpath(path, NULL); /* a link stays a link */
-    if (!resolved) resolved = strdup(path);
-    out->beside = resolved ? malloc(strlen(resolved) + 32) : NULL;
-    if (!out->beside) {
-      free(resolved);
-      return cannot(path);
-    }
-    sprintf(out->beside, "%s.part-%ld", resolved, (long)getpid());
-    free(resolved);
-  }
-  out->file = fopen(out->beside ? out->beside : path, "w");
-  if (out->file) return 0;
-  free(out->beside);
-  return cannot(path);
-}
-
-int close_output(output *out) {
-  char *end;
-  int bad = ferror(out->file) | fflush(out->file);
-  if (out->file != stdout) bad |= fclose(out->file);
-  if (bad) cannot(out->path);
-  if (!out->beside) return bad ? -1 : 0;
-  if (bad) {
-    remove(out->beside);
-  } else {
-    char *target = strdup(out->beside);
-    end = target ? strrchr(target, '.') : NULL;
-    if (end) *end = '\0';
-    bad = !target || rename(out->beside, target);
-    if (bad) {
-      cannot(out->path);
-      remove(out->beside);
-    }
-    free(target);
-  }
-  free(out->beside);
-  return bad ? -1 : 0;
 }
 
 /* JSON has no NaN and no infinity. */
@@ -104,15 +30,41 @@ static void put_count(FILE *f, const char *key, int64_t x, int known) {
     fprintf(f, "  \"%s\": null,\n", key);
 }
 
+/* Bytes of the character of UTF-8 that begins here (RFC 3629), 0 where none does. */
+static size_t character_length(const unsigned char *c) {
+  const unsigned first = c[0], second = c[1];
+  const size_t length = first < 0x80                    ? 1
+                        : first >= 0xc2 && first < 0xe0 ? 2
+                        : (first & 0xf0u) == 0xe0       ? 3
+                        : first >= 0xf0 && first < 0xf5 ? 4
+                                                        : 0;
+  size_t k;
+  for (k = 1; k < length; ++k)
+    if ((c[k] & 0xc0u) != 0x80) return 0;
+  return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) || (first == 0xf0 && second < 0x90) ||
+                 (first == 0xf4 && second > 0x8f)
+             ? 0
+             : length;
+}
+
+/* Names of files may hold bytes that are not UTF-8, and JSON must not: they show as \xff. */
 static void put_text(FILE *f, const char *text) {
+  size_t length;
   fputc('"', f);
-  for (; *text; ++text)
-    if (*text == '"' || *text == '\\')
-      fprintf(f, "\\%c", *text);
-    else if ((unsigned char)*text < ' ')
-      fprintf(f, "\\u%04x", (unsigned)(unsigned char)*text);
-    else
-      fputc(*text, f);
+  for (; *text; text += length) {
+    const unsigned char first = (unsigned char)*text;
+    length = character_length((const unsigned char *)text);
+    if (length == 0) {
+      fprintf(f, "\\\\x%02x", first);
+      length = 1;
+    } else if (first == '"' || first == '\\') {
+      fprintf(f, "\\%c", first);
+    } else if (first < ' ') {
+      fprintf(f, "\\u%04x", first);
+    } else {
+      fwrite(text, 1, length, f);
+    }
+  }
   fputc('"', f);
 }
 

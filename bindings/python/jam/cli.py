@@ -323,7 +323,7 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
             files.write_vtk_network(system, o.vtk + "-forces.vtp")
     if o.report:
         text = json.dumps(_report(system, out), indent=2) + "\n"
-        if o.report == "-":
+        if o.report in ("-", "/dev/stdout"):
             sys.stdout.write(text)
         else:
             with replacing(o.report, "w") as file:
@@ -415,7 +415,8 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"jam: {path}: the folder cannot be written", file=sys.stderr)
             return OUTPUT
     out: dict[str, Any] = {
-        "options": list(sys.argv[1:] if arguments is None else arguments),
+        # names of files may hold bytes that are not UTF-8, and JSON must not
+        "options": [w.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace") for w in words],
         "protocol": [],
         "collisions": 0,
         "seconds_md": 0.0,

@@ -266,7 +266,7 @@ def read_header(header, swig="swig"):
     ]
     twice = {n for n in lower if lower.count(n) > 1}
     if twice:
-        raise HeaderError(f"names that Fortran cannot tell apart: {sorted(twice)}")
+        raise HeaderError(f"names that Fortran cannot distinguish: {sorted(twice)}")
     return api
 
 

@@ -32,7 +32,9 @@ Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
     add(sentence("%lld contacts were taken, but beyond them gaps rise only by a factor of %.3g, from %.2g to %.2g",
                  n(r.contacts), r.jump, r.gap_below, r.gap_above));
   if (r.self_stresses > 1)
-    add(sentence("%lld states of self-stress, so forces are not unique: the centre of the non-negative ones was taken",
+    add(
+        sentence("%lld states of self-stress, so forces are not unique: their analytic centre was taken, where the "
+                 "product of the forces is largest",
                  n(r.self_stresses)));
   if (found.verdict.result.jammed != Verdict::yes)
     add(sentence("contacts have gaps of up to %.1e, so jam_rigidity cannot decide: jam_crunch closes the gaps",
@@ -105,8 +107,11 @@ jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, d
               sentence("%lld states of self-stress, and no combination of them has forces of one sign on all contacts",
                        states)};
     if (states > 1)
-      return {JAM_AMBIGUOUS,
-              sentence("%lld states of self-stress: force is the centre of the non-negative ones", states)};
+      return {
+          JAM_AMBIGUOUS,
+          sentence(
+              "%lld states of self-stress: force is their analytic centre, where the product of the forces is largest",
+              states)};
     return JAM_OK;
   });
 }

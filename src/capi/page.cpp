@@ -27,7 +27,7 @@ void take_columns(const jam_system *sys, const char *names, const double *values
   for (size_t k = 0; k < name.size(); ++k) content.columns.emplace_back(name[k], values + k * n);
 }
 
-// What the slider tells of the step that led to a state: the start has no row.
+// What the slider shows of the step that led to a state: the start has no row.
 PageStep make_step(int64_t number, const HistoryRow *row) {
   PageStep step;
   step.number = number;

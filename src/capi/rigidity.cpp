@@ -15,19 +15,20 @@ Jamming take_kind(int32_t kind) {
 
 // Why a packing is not known to be jammed.
 Answer answer_of(const jam_rigidity_report &r) {
-  const char *kind = r.kind == JAM_RIGIDITY_STRICT ? "strictly" : "collectively";
+  const bool strict = r.kind == JAM_RIGIDITY_STRICT;
+  const char *kind = strict ? "strictly" : "collectively", *stress = strict ? " with an isotropic stress" : "";
   const auto n = [](int64_t x) { return static_cast<long long>(x); };
   if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
   if (r.jammed == JAM_VERDICT_NO && r.contacts == 0)
     return {JAM_NOT_JAMMED,
-            sentence("not %s jammed: no set of non-negative contact forces is in balance; jam_flex gives a "
+            sentence("not %s jammed: no set of non-negative contact forces is in balance%s; jam_flex gives a "
                      "motion, jam_crunch makes a jammed packing",
-                     kind)};
+                     kind, stress)};
   if (r.jammed == JAM_VERDICT_NO)
     return {JAM_NOT_JAMMED,
-            sentence("not %s jammed: forces on %lld contacts balance, at least %lld contacts are needed, "
+            sentence("not %s jammed: forces on %lld contacts balance%s, at least %lld contacts are needed, "
                      "and %lld motions keep all contacts closed; jam_flex gives one",
-                     kind, n(r.contacts), n(r.contacts_needed), n(r.flexes))};
+                     kind, n(r.contacts), stress, n(r.contacts_needed), n(r.flexes))};
   return {JAM_AMBIGUOUS,
           sentence("undecided whether the packing is %s jammed: %lld pairs are nearly closed, and the rigidity margin "
                    "is %.1e; jam_crunch closes contacts",

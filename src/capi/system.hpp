@@ -78,7 +78,7 @@ struct jam_system : jam::SystemState {
 
   // Copies positions, diameters and velocities into the view buffers, whose addresses stay. Never throws.
   void show(const jam::Packing &state) noexcept;
-  // What jam_info tells of the diameters, once for each change of them.
+  // What jam_info gives of the diameters, once for each change of them.
   void note_diameters() noexcept;
   // The end of every move: shows its packing with what is known of it. A stage that waits has lost its packing, and all
   // earlier results are of other positions.

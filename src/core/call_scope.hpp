@@ -18,7 +18,7 @@ inline double default_memory_limit() {
 // Made at the boundary for each call; calls that callbacks make nest. look() is how work learns that it must stop.
 class CallScope {
  public:
-  // With a monitor look() tells its callback, so that Ctrl-C is heard; the work goes on until it asks the monitor.
+  // With a monitor look() calls its callback, so that Ctrl-C is heard; the work goes on until it asks the monitor.
   // quiet: held while the callback runs, where other threads work for the same call.
   explicit CallScope(double memory_limit, Monitor *monitor = nullptr, std::mutex *quiet = nullptr)
       : CallScope(memory_limit, monitor, quiet, false) {}

@@ -105,7 +105,7 @@ class Reduction {
   bool odd_ = false;
 };
 
-// By elimination with pivots; the sign tells a left-handed cell.
+// By elimination with pivots; a left-handed cell has a negative sign.
 double determinant(int d, std::vector<double> m) {
   double product = 1.0;
   for (int k = 0; k < d; ++k) {

@@ -14,13 +14,13 @@ void check_create_limits(const jam_create_options &o);
 // Of a random start, where the options leave it open: below saturation, which falls with d (create.cpp), in time.
 double default_packing_fraction(int dim);
 // Checks everything jam_create documents; positions_len == 0 means a random sequential start.
-// cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box. notes: NULL, or where changes are told.
+// cell: rows of the cell vectors (dim, dim), or NULL for the cube of o.box. notes: NULL, or where changes are noted.
 Packing make_packing(const jam_create_options &o, const double *positions, size_t positions_len,
                      const double *diameters, size_t diameters_len, const double *cell = nullptr,
                      Notes *notes = nullptr);
 // Throws JAM_E_OVERLAP naming the worst pair, or allows overlaps, as `policy` says.
 void settle_overlaps(Packing &p, int32_t policy);
-// JAM_OVERLAP_SHRINK: multiplies all diameters by the factor that brings the worst pair to contact, and tells it.
+// JAM_OVERLAP_SHRINK: multiplies all diameters by the factor that brings the worst pair to contact, and notes it.
 // JAM_E_OVERLAP where the factor is below `least`, or no factor helps.
 void shrink_to_contact(Packing &p, double least, Notes *notes);
 // Throws JAM_E_OVERLAP naming the worst pair, and how to mend it, where one overlaps by more than the tolerance.

@@ -38,7 +38,7 @@ class Monitor {
   // Called by capi at the end of a verb.
   void end() { answered_.store(asked(), std::memory_order_relaxed); }
   // The same for a short call on `handle`, several of which may run at once. It hears the cancels that come while it
-  // runs; one that came before waits for the next verb. calls_back: the handle's callback is told.
+  // runs; one that came before waits for the next verb. calls_back: the handle's callback is called.
   void begin_beside(const Monitor &handle, bool calls_back) {
     begin();
     of_ = &handle;
@@ -76,14 +76,14 @@ class Monitor {
   // In a long loop between reports: repeats the last one after a silence, so that Ctrl-C is heard. Returns true when
   // the call must stop.
   bool look() {
-    constexpr double longest_silence = 0.1;  // seconds; callers are told one of 0.2 at most, between two looks
+    constexpr double longest_silence = 0.1;  // seconds; callers are promised one of 0.2 at most, between two looks
     if (interrupted()) return true;
     if (now_seconds() - std::max(last_, start_) < longest_silence) return false;
     jam_progress again = last_report_;
     again.snapshot = 0;
     return report(again);
   }
-  // What look() tells before the first report, and how far a long LP is.
+  // What look() reports before the first report, and how far a long LP is.
   void expect(const jam_progress &p) { last_report_ = p; }
   void expect_factorisations(int64_t so_far) { last_report_.factorisations = so_far; }
   __attribute__((format(printf, 3, 4))) void log(int level, const char *format, ...) const {

@@ -30,7 +30,7 @@ class History {
   // From here on displacements count. details: fill step() too. keep: states to keep at most.
   void begin(const Packing &start, bool details, int64_t keep = 0);
   // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no
-  // sphere moved by half a box: then nearest images tell it. seconds, factorisations: totals so far. Unknown columns
+  // sphere moved by half a box: then nearest images give it. seconds, factorisations: totals so far. Unknown columns
   // are NaN.
   HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                     const double *displacement = nullptr);

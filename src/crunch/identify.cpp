@@ -128,7 +128,7 @@ Phase judge_strictly(CrunchState &s) {
     take_forces_of(s, strict);
   } else if (s.o.strain == JAM_STRAIN_FREE) {
     if (leave_strained_saddle(s, strict)) return s.stop(JAM_STOP_NONE, JAM_OK), Phase::approach;
-    s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict);
+    s.out.text = "collectively jammed; strictly: " + why_not_jammed(strict, Jamming::strict);
     s.stop(strict.result.jammed == Verdict::no ? JAM_STOP_SADDLE : JAM_STOP_PRECISION, JAM_NOT_CONVERGED);
   }
   return Phase::done;

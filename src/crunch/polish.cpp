@@ -25,7 +25,7 @@ class Polish {
   Polish(NewtonSystem &system, int threads, const Tuning &tuning, double allowed_overlap, Monitor *monitor)
       : system_(system), threads_(threads), t_(tuning), allowed_(allowed_overlap), monitor_(monitor) {}
 
-  // A contact too many can be a gap that the LP could not tell from a force. Then the rest closes without it.
+  // A contact too many can be a gap that the LP could not distinguish from a force. Then the rest closes without it.
   PolishEnd close_and_balance(Packing &p, ContactNetwork &net) {
     PolishEnd end = try_contacts(p, net);
     while (drops_gap(p, net, end)) end = try_contacts(p, net);

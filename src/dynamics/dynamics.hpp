@@ -24,7 +24,7 @@ struct Limits {
   double wall_time = no_limit;     // seconds, of this call
 };
 
-// Whom a run tells while it goes on; observer and show may be empty.
+// Whom a run reports to while it goes on; observer and show may be empty.
 struct Listeners {
   Monitor *monitor = nullptr;  // cancellation, progress, log
   Observer *observer = nullptr;

@@ -30,7 +30,7 @@ struct ReadOptions {
   int64_t frame = -1;  // which of several packings, from 0, or from the end where it is negative
 };
 
-// Tells the format by its content (recognise.hpp). Memory grows with the data read, never with the count in the header.
+// Goes by the content (recognise.hpp). Memory grows with the data read, never with the count in the header.
 FileContent read_file(const char *path, const ReadOptions &options = {});
 
 // format: a jam_format. coordination (n) becomes the contacts column of XYZ; NULL leaves that column out.

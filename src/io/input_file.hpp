@@ -18,7 +18,7 @@ class InputFile {
   const std::string &path() const { return path_; }
   // Up to `size` bytes as they are in the file; 0 at its end.
   size_t read(char *to, size_t size);
-  // The same of what is packed where the file is one of gzip's, which its first bytes tell. Use one of both.
+  // The same of what is packed where the file is one of gzip's, as its first bytes show. Use one of both.
   size_t read_unpacked(char *to, size_t size);
   bool packed() const { return gzip_ != nullptr; }  // after a first read_unpacked()
 

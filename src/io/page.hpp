@@ -18,7 +18,7 @@ struct PageStep {
   int64_t number = 0;  // of the step that led here; 0: the start
   const char *kind = "";
   double packing_fraction = 0.0;
-  std::vector<std::pair<const char *, double>> numbers{};  // what is told of the step
+  std::vector<std::pair<const char *, double>> numbers{};  // what is shown of the step
   // Of the last step they are those of the packing.
   double growth = 1.0;  // diameters over those of the packing
   const Cell *cell = nullptr;

@@ -50,7 +50,7 @@ void write_cell(const Packing &p, int width, std::string &out) {
     }
 }
 
-// d = 2 gets a third coordinate 0, because OVITO and ASE expect three. `dim` tells readers.
+// d = 2 gets a third coordinate 0, because OVITO and ASE expect three. Readers go by `dim`.
 void write_xyz(const Packing &p, const std::vector<int32_t> *coordination, OutputFile &file) {
   std::string &out = file.text();
   const int columns = p.dim == 2 ? 3 : p.dim;

@@ -24,7 +24,7 @@ constexpr int narrow = 48;  // columns that are factored without splitting them
 // Fewer multiplications than this are done before a second thread has started; a product of a vector is as slow as
 // memory.
 constexpr double worth_a_thread = 1e7, worth_a_reader = 1e6;
-// Longer products, in multiplications, take some 0.1 s: callbacks are told meanwhile.
+// Longer products, in multiplications, take some 0.1 s: callbacks are called meanwhile.
 constexpr double worth_telling = 2e9;
 
 // Unblocked Cholesky of the leading columns of a small block; returns the number of replaced pivots.

@@ -1,4 +1,4 @@
-// Work in two parts, side by side when the host allowed two threads; and long work during which a callback is told.
+// Work in two parts, side by side when the host allowed two threads; and long work during which a callback is called.
 #pragma once
 #include <chrono>
 #include <future>
@@ -33,7 +33,7 @@ void on_two_threads(const Work &work) {
   work(0);
 }
 
-// Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one tells the
+// Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one calls the
 // callback. The work is the same, so are the bits. A call that is cancelled is left when the work has ended.
 template <class Work>
 void while_telling(const Work &work) {

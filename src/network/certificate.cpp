@@ -17,7 +17,9 @@ void scan_gaps(const Packing &p, const ContactNetwork &net, bool own_images, jam
   double r[JAM_MAX_DIM];
   report.min_gap = std::numeric_limits<double>::infinity();
   report.max_overlap = 0.0;
-  for (const double slope : {1.2, 2.0}) {
+  const bool stable = std::any_of(net.coordination.begin(), net.coordination.end(), [](int32_t z) { return z > 0; });
+  const std::vector<double> slopes = stable ? std::vector<double>{1.2, 2.0} : std::vector<double>{1.0};  // overlaps
+  for (const double slope : slopes) {
     const PairList pairs = find_pairs(p, 0.0, slope);
     ContactLookup contacts(p, net);
     for (size_t k = 0; k < pairs.size(); ++k) {
@@ -94,14 +96,14 @@ std::string why_undecided(const PackingVerdict &v) {
   else if (v.result.contacts == 0)
     std::snprintf(
         line, sizeof line,
-        "undecided: doubles do not tell which of the %zu closed pairs carry force, as some forces are too weak; "
+        "undecided: doubles do not resolve which of the %zu closed pairs carry force, as some forces are too weak; "
         "the network is left empty",
         v.contacts.size());
   else if (v.result.spheres == 1)
     std::snprintf(line, sizeof line, "undecided: only own images hold sphere and cell, and not in every strain");
   else
     std::snprintf(line, sizeof line,
-                  "undecided: doubles do not tell a flex from a soft mode here, or a weak force from none (smallest "
+                  "undecided: doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest "
                   "eigenvalue %.1e, force residual %.1e)",
                   v.result.margin, v.result.force_residual);
   return line;
@@ -109,17 +111,21 @@ std::string why_undecided(const PackingVerdict &v) {
 
 }  // namespace
 
-std::string why_not_jammed(const PackingVerdict &v) {
-  char line[240];
+std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
+  char line[280];
+  const bool strict = kind == Jamming::strict;
   const auto number = [](int64_t x) { return static_cast<long long>(x); };
   if (v.result.jammed == Verdict::yes) return "";
   if (v.result.jammed == Verdict::undecided) return why_undecided(v);
   if (v.result.flexes > 0)
-    std::snprintf(line, sizeof line, "a saddle: forces balance on %lld contacts, and yet %lld motions keep them closed",
-                  number(v.result.contacts), number(v.result.flexes));
+    std::snprintf(line, sizeof line,
+                  "a saddle: forces balance on %lld contacts%s, and yet %lld motions%s keep them closed",
+                  number(v.result.contacts), strict ? " with an isotropic stress" : "", number(v.result.flexes),
+                  strict ? " of spheres and cell" : "");
   else
-    std::snprintf(line, sizeof line, "no non-negative forces on the %zu closed pairs balance, so a motion opens them",
-                  v.contacts.size());
+    std::snprintf(line, sizeof line,
+                  "no non-negative forces on the %zu closed pairs balance%s, so a motion%s opens them",
+                  v.contacts.size(), strict ? " with an isotropic stress" : "", strict ? " of spheres and cell" : "");
   return line;
 }
 

@@ -17,7 +17,8 @@ int32_t verdict_code(Verdict verdict);
 // What the test of collective jamming says, put into the report; strictly_jammed stays untested.
 void report_verdict(const PackingVerdict &verdict, int dim, jam_crunch_report &report);
 // Why the test does not say that the packing is jammed: one sentence with its figures. Empty where it does.
-std::string why_not_jammed(const PackingVerdict &verdict);
+// Strict: forces must balance on the cell too, up to a pressure.
+std::string why_not_jammed(const PackingVerdict &verdict, Jamming kind = Jamming::collective);
 // Both in one: tests the packing with these contacts and puts the answer into the report.
 void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,
                      const CancellationPoint &cancel_point = CancellationPoint());

@@ -49,7 +49,7 @@ void add_proof(const Report &r, std::string &out) {
       "closed (flexes 0, smallest eigenvalue %.1e).",
       r.force_residual, r.rigidity_margin);
   if (r.strictly_jammed == JAM_VERDICT_NO && r.strict_flexes == 0)
-    add(out, "In a cell that changes its shape no forces balance.");
+    add(out, "In a cell that changes its shape no forces balance with an isotropic stress.");
   else if (r.strictly_jammed == JAM_VERDICT_NO)
     add(out, "With a cell that changes its shape there %s %lld flex%s.", r.strict_flexes == 1 ? "is" : "are",
         wide(r.strict_flexes), r.strict_flexes == 1 ? "" : "es");
@@ -90,11 +90,12 @@ void add_resolution(const Report &r, std::string &out) {
 void add_undecided(const Report &r, std::string &out) {
   if (std::isfinite(r.nearest_gap)) add(out, "The nearest pair has a gap of %.2e.", r.nearest_gap);
   if (r.reason == JAM_CHECK_MARGIN && r.contacts == 0)
-    add(out, "Doubles do not tell which of the %lld closed pairs carry force, as some forces are too weak.",
+    add(out, "Doubles do not resolve which of the %lld closed pairs carry force, as some forces are too weak.",
         wide(r.closed_pairs));
   else if (r.reason == JAM_CHECK_MARGIN)
     add(out,
-        "Doubles do not tell a flex from a soft mode here, or a weak force from none (smallest eigenvalue %.1e, force "
+        "Doubles do not resolve a flex from a soft mode here, or a weak force from none (smallest eigenvalue %.1e, "
+        "force "
         "residual %.1e).",
         r.rigidity_margin, r.force_residual);
   else

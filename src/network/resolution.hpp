@@ -10,7 +10,7 @@
 
 namespace jam {
 
-// Relative gaps |h| of a contact, and of a pair that doubles cannot tell from one.
+// Relative gaps |h| of a contact, and of a pair that doubles cannot distinguish from one.
 constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7, listed_gap_limit = 1e-5;
 
 struct GapResolution {

@@ -52,7 +52,7 @@ RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
 
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
 // below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
-// listed_gap_limit, and pairs that the digits of the coordinates cannot tell from contacts. They are taken as closed,
+// listed_gap_limit, and pairs that digits of coordinates cannot distinguish from contacts. They are taken as closed,
 // then as open; where the two verdicts differ, the packing is undecided. Where both are jammed, contacts and
 // forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
 // their sign: then only spheres with too few pairs near them make a no.

@@ -29,7 +29,7 @@ class NullSpace {
 struct StressStates {
   int64_t dimension = 0;
   int64_t zero_modes = 0;
-  std::vector<double> force;  // mean 1; the centre of the non-negative ones when dimension > 1
+  std::vector<double> force;  // mean 1; the analytic centre of the non-negative ones when dimension > 1
   std::vector<double> basis;  // (dimension, contacts) orthonormal, when asked for
   double residual = 0.0;      // largest |sum_j f_ij n_ij| over mean force
   double min_force = 0.0;     // over the mean

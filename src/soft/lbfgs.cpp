@@ -1,5 +1,5 @@
 // Limited-memory BFGS with a line search on the slope alone: near the minimum the energy keeps half the digits of the
-// forces and can no longer tell which of two points is lower.
+// forces and can no longer show which of two points is lower.
 #include <algorithm>
 #include <cmath>
 #include <deque>

@@ -28,33 +28,23 @@ static jam_status crunch(jam_system *sys, int32_t strain, int64_t max_lps, doubl
   return jam_crunch(sys, &o, NULL);
 }
 
-typedef jam_status (*getter)(const jam_system *, double *, size_t, size_t *);
-typedef jam_status (*getter32)(const jam_system *, int32_t *, size_t, size_t *);
-
-static void same_array(getter get, const jam_system *a, const jam_system *b) {
-  size_t m = 0, k = 0;
-  double *x, *y;
-  assert_int_equal(get(a, NULL, 0, &m), JAM_OK);
-  assert_int_equal(get(b, NULL, 0, &k), JAM_OK);
-  assert_int_equal(m, k);
-  x = malloc((m + 1) * sizeof *x), y = malloc((m + 1) * sizeof *y);
-  assert_int_equal(get(a, x, m, &m), JAM_OK);
-  assert_int_equal(get(b, y, m, &m), JAM_OK);
-  assert_memory_equal(x, y, m * sizeof *x);
-  free(x), free(y);
-}
-static void same_array32(getter32 get, const jam_system *a, const jam_system *b) {
-  size_t m = 0, k = 0;
-  int32_t *x, *y;
-  assert_int_equal(get(a, NULL, 0, &m), JAM_OK);
-  assert_int_equal(get(b, NULL, 0, &k), JAM_OK);
-  assert_int_equal(m, k);
-  x = malloc((m + 1) * sizeof *x), y = malloc((m + 1) * sizeof *y);
-  assert_int_equal(get(a, x, m, &m), JAM_OK);
-  assert_int_equal(get(b, y, m, &m), JAM_OK);
-  assert_memory_equal(x, y, m * sizeof *x);
-  free(x), free(y);
-}
+/* The array that a call gives is the same, bit for bit, of both. */
+#define DEFINE_SAME(NAME, T)                                                                          \
+  static void NAME(jam_status (*get)(const jam_system *, T *, size_t, size_t *), const jam_system *a, \
+                   const jam_system *b) {                                                             \
+    size_t m = 0, k = 0;                                                                              \
+    T *x, *y;                                                                                         \
+    assert_int_equal(get(a, NULL, 0, &m), JAM_OK);                                                    \
+    assert_int_equal(get(b, NULL, 0, &k), JAM_OK);                                                    \
+    assert_int_equal(m, k);                                                                           \
+    x = malloc((m + 1) * sizeof *x), y = malloc((m + 1) * sizeof *y);                                 \
+    assert_int_equal(get(a, x, m, &m), JAM_OK);                                                       \
+    assert_int_equal(get(b, y, m, &m), JAM_OK);                                                       \
+    assert_memory_equal(x, y, m * sizeof *x);                                                         \
+    free(x), free(y);                                                                                 \
+  }
+DEFINE_SAME(same_array, double)
+DEFINE_SAME(same_array32, int32_t)
 static jam_status gains(const jam_system *s, double *out, size_t len, size_t *needed) {
   return jam_crunch_history(s, JAM_HISTORY_GAIN, out, len, needed);
 }

@@ -71,7 +71,7 @@ class EngineBase {
   virtual double elapsed() const = 0;            // since construction
   virtual bool with_images() const = 0;
   virtual bool cells_alone() const = 0;  // no lists now
-  // From now on (or, with nullptr, no more) collisions and places of lists are told to it. Not part of the archive.
+  // From now on (or, with nullptr, no more) collisions and places of lists are reported to it. Not part of the archive.
   virtual void observe(Observer *observer) = 0;
   virtual void displacements(std::vector<double> &out) const = 0;  // user's order, unit box, since observe()
   virtual void archive(Archive &a) = 0;                            // everything: the run goes on to the same bits

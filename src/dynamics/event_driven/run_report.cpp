@@ -1,4 +1,4 @@
-// What a stage tells while it runs and at its end: observers, progress, report.
+// What a stage reports while it runs and at its end: observers, progress, report.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -103,7 +103,7 @@ class MonteCarloStage final : public Dynamics {
   jam_monte_carlo_options options_;
   std::unique_ptr<MonteCarlo> engine_;  // made by the first run, which may be stopped meanwhile
   MonteCarloMeans means_;
-  std::vector<double> seen_;  // displacement that observers were told
+  std::vector<double> seen_;  // displacement that observers were given
   int64_t done_ = 0;
   int32_t stop_reason_ = JAM_STOP_NONE;
   double seconds_ = 0.0, trials_ = 0.0;  // of the last call

@@ -82,7 +82,7 @@ function instanceAt(u, v, view) {
   return found;
 }
 
-// Letters or numbers on the spheres in front, for those who cannot tell the colours; a ring on the chosen sphere.
+// Letters or numbers on the spheres in front, for those who cannot distinguish the colours; a ring on the chosen sphere.
 function drawLabels(view) {
   const paper = labels.getContext("2d"), ratio = window.devicePixelRatio || 1;
   paper.clearRect(0, 0, labels.width, labels.height);

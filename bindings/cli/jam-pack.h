@@ -19,11 +19,13 @@ typedef struct stage {
 typedef struct given {
   stage stages[MAX_STAGES];
   int stage_count;
-  double lognormal; /* 0: not asked for */
-  const char *diameters_file;
-  int n;          /* whether --n was given */
-  uint64_t named; /* a bit a row of the table: options on the command line */
-  char **words;   /* the command line, for the report */
+  const char *sizes, *diameters_file;     /* of --sizes: the text of a law, or a file of diameters */
+  double cell[JAM_MAX_DIM * JAM_MAX_DIM]; /* of --cell: sides or vectors */
+  int cell_count;                         /* of its numbers */
+  double density;                         /* of --packing-fraction or --porosity, 0: not given */
+  int n;                                  /* whether --n was given */
+  uint64_t named;                         /* a bit a row of the table: options on the command line */
+  char **words;                           /* the command line, for the report */
   int word_count;
 } given;
 
@@ -72,7 +74,12 @@ int check_formats(const options *o, const jam_system *sys);
 
 /* start.c: start returns 0 or an exit code after a message on stderr. */
 int start(const options *o, jam_progress_fn stop, jam_system **sys);
-int take_diameters(const char *value, options *o); /* without a message */
+
+/* sizes.c: each int is 0, or -1 after a message on stderr. */
+int take_sizes(const char *value, options *o);
+int take_cell(const char *value, options *o);
+int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */
+void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell, or of the cube of --box */
 
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
 int write_report(const options *o, const outcome *result, const char *path);

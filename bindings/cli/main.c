@@ -73,6 +73,7 @@ static jam_status run_stage(jam_system *sys, const options *o, const stage *s, d
   if (s) {
     compress.growth_rate = s->growth;
     compress.pressure = s->pressure;
+    if (o->given.density > 0) compress.packing_fraction = o->given.density;
   }
   do {
     compress.wall_time = slice(o, deadline);
@@ -152,10 +153,15 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   t->stage = name;
   for (k = 0; k < stages_left && !ends_job(status); ++k) {
     if (o->resume && o->given.stages[k].pressure <= result->pressure) continue;
-    snprintf(name, sizeof name, "growth %g", o->given.stages[k].growth);
+    if (o->given.density > 0 && result->has_md && result->md_stop == JAM_STOP_PACKING_FRACTION) break;
+    snprintf(name, sizeof name, o->given.stages[k].growth > 0 ? "growth %g" : "growth", o->given.stages[k].growth);
     status = run_stage(sys, o, &o->given.stages[k], deadline, result);
     if (status >= 0) result->stage_stop[k] = result->md_stop;
     warn(t, status, result);
+  }
+  if (o->given.density > 0 && !ends_job(status) && !(result->has_md && result->md_stop == JAM_STOP_PACKING_FRACTION)) {
+    complain("warning: growth ended at p = %.4g, before the packing fraction %.6g", result->pressure, o->given.density);
+    result->fell_short = 1;
   }
   if (o->no_crunch || ends_job(status)) return status;
   if (result->has_md) keep(sys, o->output);
@@ -210,13 +216,18 @@ int main(int argc, char **argv) {
   signal(SIGTERM, on_signal);
   code = start(&o, stop_if_asked, &sys);
   if (code) return code;
-  if ((o.input || o.resume || o.dim > 3) && check_formats(&o, sys)) return EXIT_USAGE;
+  if ((o.input || o.resume || o.dim > 3 || o.given.cell_count) && check_formats(&o, sys)) return EXIT_USAGE;
   print_warnings(jam_notes(sys));
   running = sys;
   if (start_progress(&t, &o, sys)) return EXIT_OUTPUT;
   if (!interrupted) status = work(sys, &o, &t, &result);
   running = NULL;
   bad = end_progress(&t, &o);
+  if (status == JAM_E_UNPLACEABLE) { /* the density lies beyond reach: nothing was done that is worth a file */
+    complain("%s", jam_last_error());
+    jam_destroy(sys);
+    return EXIT_FAILED;
+  }
   if (status < 0)
     complain("%s", jam_last_error());
   else if (interrupted)

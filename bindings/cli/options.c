@@ -95,9 +95,13 @@ static int take_value(const option_row *row, const char *value, options *o) {
       return take_choice(row, value, place);
     case TAKE_STAGE:
       return take_stage(value, o);
-    case TAKE_DIAMETERS:
-      if (*value && !take_diameters(value, o)) return 0;
-      return bad_value(row->name, value, "lognormal:S or bidisperse:R with a finite number > 0, or a file");
+    case TAKE_SIZES:
+      return take_sizes(value, o);
+    case TAKE_CELL:
+      return take_cell(value, o);
+    case TAKE_FRACTION:
+      if (take_number(row->name, value, place, 0)) return -1;
+      return *(double *)place < 1 ? 0 : bad_value(row->name, value, "above 0 and below 1");
     default:
       *(const char **)place = value;
       return *value ? 0 : bad_value(row->name, value, "the name of a file");

@@ -121,7 +121,10 @@ static void put_protocol(FILE *f, const options *o, const outcome *result) {
   if (o->nve > 0 && !o->resume)
     fprintf(f, "%s{\"stage\": \"nve\", \"collisions_per_particle\": %.17g}", next(&first), o->nve);
   for (k = 0; k < o->given.stage_count; ++k)
-    if (result->stage_stop[k])
+    if (result->stage_stop[k] && !(o->given.stages[k].growth > 0))
+      fprintf(f, "%s{\"stage\": \"growth\", \"packing_fraction\": %.17g, \"stop_reason\": \"%s\"}", next(&first),
+              o->given.density, jam_stop_string(result->stage_stop[k]));
+    else if (result->stage_stop[k])
       fprintf(f, "%s{\"stage\": \"growth\", \"growth_rate\": %.17g, \"pressure\": %.17g, \"stop_reason\": \"%s\"}",
               next(&first), o->given.stages[k].growth, o->given.stages[k].pressure,
               jam_stop_string(result->stage_stop[k]));

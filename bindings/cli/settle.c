@@ -79,7 +79,10 @@ static int settle_files(const options *o) {
       return -1;
     }
     if (o->no_crunch && a->flags & AFTER_CRUNCH) {
-      complain("%s needs the crunch that --no-crunch leaves out", a->name);
+      complain("%s needs the crunch that %s leaves out", a->name,
+               isfinite(o->porosity)           ? "--porosity"
+               : isfinite(o->packing_fraction) ? "--packing-fraction"
+                                               : "--no-crunch");
       return -1;
     }
   }
@@ -94,6 +97,32 @@ void ending_of(const char *path, char ending[8]) {
   snprintf(bare, sizeof bare, "%.*s", (int)length, name);
   dot = strrchr(bare, '.');
   snprintf(ending, 8, "%.7s", dot && dot != bare ? dot + 1 : "");
+}
+
+/* The density to grow to leaves the crunch out, and the stages of growth are those of the library unless given. */
+static int settle_density(options *o) {
+  given *const g = &o->given;
+  if (isfinite(o->packing_fraction)) g->density = o->packing_fraction;
+  if (isfinite(o->porosity)) g->density = 1 - o->porosity;
+  if (!(g->density > 0)) return 0;
+  o->no_crunch = 1;
+  if (isfinite(o->phi0) && o->phi0 > g->density) {
+    complain("--phi0 %g lies above the packing fraction %g to grow to", o->phi0, g->density);
+    return -1;
+  }
+  if (!g->stage_count) {
+    g->stages[0].growth = 0;
+    g->stages[0].pressure = 0; /* that of --pressure */
+    g->stage_count = 1;
+  }
+  return 0;
+}
+
+static int settle_cell(const options *o) {
+  const int d = (int)o->dim, count = o->given.cell_count;
+  if (!count || count == d || count == d * d) return 0;
+  complain("--cell has %d numbers, in d = %d it needs %d sides or %d components of vectors", count, d, d, d * d);
+  return -1;
 }
 
 /* The first option of a list of names that is on the command line; NULL when none is. */
@@ -184,9 +213,10 @@ static int settle_formats(const options *o) {
 
 int settle(options *o) {
   given *const g = &o->given;
-  if (settle_files(o) || settle_formats(o)) return -1;
-  if (o->no_md && (g->stage_count || o->nve > 0)) {
-    complain("--no-md contradicts %s", g->stage_count ? "--growth" : "--nve");
+  const int stages_given = g->stage_count;
+  if (settle_density(o) || settle_files(o) || settle_formats(o)) return -1;
+  if (o->no_md && (stages_given || o->nve > 0)) {
+    complain("--no-md contradicts %s", stages_given ? "--growth" : "--nve");
     return -1;
   }
   if (o->resume && o->input) {
@@ -197,7 +227,7 @@ int settle(options *o) {
     complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
     return -1;
   }
-  if (settle_effects(o)) return -1;
+  if (settle_effects(o) || settle_cell(o)) return -1;
   g->n = o->n != NOT_GIVEN;
   if (!g->n) o->n = 1024;
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;

@@ -1,81 +1,13 @@
 /* How jam-pack begins: a random start of one of the models, a file, or a checkpoint. */
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
 
-/* Uniform in (0, 1): the k-th number of a seed, by the finaliser of splitmix64 (Steele, Lea and Flood 2014). */
-static double uniform(int64_t seed, int64_t k) {
-  uint64_t x = (uint64_t)seed * 0x9e3779b97f4a7c15u + (uint64_t)k;
-  int round;
-  for (round = 0; round < 2; ++round) {
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
-  }
-  return ((double)(x >> 11) + 0.5) * 0x1.0p-53;
-}
-
-static int read_diameters(const char *path, double **out, int64_t *count) {
-  FILE *file = fopen(path, "r");
-  double *list = NULL, x;
-  int64_t n = 0, room = 0;
-  int got = 1;
-  if (!file) {
-    complain("cannot open %s: %s", path, strerror(errno));
-    return -1;
-  }
-  while ((got = fscanf(file, "%lf", &x)) == 1 && isfinite(x) && x > 0) {
-    if (n == room) {
-      double *wider = realloc(list, (size_t)(room = 2 * room + 1024) * sizeof *list);
-      if (!wider) break;
-      list = wider;
-    }
-    list[n++] = x;
-  }
-  fclose(file);
-  if (got != EOF || n == 0) {
-    complain("%s: number %lld is no diameter, a finite number > 0", path, (long long)n + 1);
-    free(list);
-    return -1;
-  }
-  *out = list;
-  *count = n;
-  return 0;
-}
-
-/* Ratios of diameters as --diameters asks; NULL when all are equal. */
-static int make_diameters(const options *o, double **out, int64_t *n) {
-  const double width = o->given.lognormal > 0 ? sqrt(log1p(o->given.lognormal * o->given.lognormal)) : 0;
-  int64_t k;
-  *out = NULL;
-  if (o->given.diameters_file) {
-    if (read_diameters(o->given.diameters_file, out, &k)) return -1;
-    if (o->given.n && k != *n) {
-      complain("%s holds %lld diameters, --n is %lld", o->given.diameters_file, (long long)k, (long long)*n);
-      free(*out);
-      return -1;
-    }
-    *n = k;
-    return 0;
-  }
-  if (o->diameters_ratio == 1 && width == 0) return 0;
-  *out = malloc((size_t)*n * sizeof **out);
-  if (!*out) {
-    complain("out of memory");
-    return -1;
-  }
-  for (k = 0; k < *n; ++k) {
-    if (width > 0)
-      (*out)[k] =
-          exp(width * sqrt(-2 * log(uniform(o->seed, 2 * k))) * cos(6.283185307179586 * uniform(o->seed, 2 * k + 1)));
-    else
-      (*out)[k] = k < *n / 2 ? 1 : o->diameters_ratio;
-  }
-  return 0;
+/* A start below the density that it is to grow to. */
+static double start_fraction(const options *o) {
+  const double usual = ldexp(0.2, o->dim > 3 ? 3 - (int)o->dim : 0);
+  return o->phi0 > 0 || !(o->given.density > 0 && o->given.density < usual) ? o->phi0 : o->given.density;
 }
 
 /* The options of a killed job are given again: those that the checkpoint holds must be the same. */
@@ -108,7 +40,7 @@ static int refused_start(const options *o, jam_status status) {
 
 int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   jam_create_options create;
-  double *diameters = NULL;
+  double *diameters = NULL, cell[JAM_MAX_DIM * JAM_MAX_DIM];
   jam_status status = jam_create_options_init(&create, sizeof create);
   create.seed = o->seed;
   create.box = o->box;
@@ -124,10 +56,18 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
     status = jam_read_watched(o->input, &create, stop, NULL, sys);
   else {
     create.n = o->n;
-    if (make_diameters(o, &diameters, &create.n)) return EXIT_FAILED;
+    if (make_diameters(o, &diameters, &create.n)) {
+      free(diameters);
+      return EXIT_FAILED;
+    }
     create.dim = (int32_t)o->dim;
-    create.packing_fraction = o->phi0;
-    status = jam_create_watched(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, stop, NULL, sys);
+    create.packing_fraction = start_fraction(o);
+    if (o->given.cell_count) {
+      fill_cell(o, cell);
+      status = jam_create_in_cell_watched(&create, cell, (size_t)(o->dim * o->dim), NULL, 0, diameters,
+                                          diameters ? (size_t)create.n : 0, stop, NULL, sys);
+    } else
+      status = jam_create_watched(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, stop, NULL, sys);
     free(diameters);
   }
   if (status < 0) return refused_start(o, status);
@@ -136,22 +76,4 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
     return EXIT_FAILED;
   }
   return o->resume ? check_resumed(o, *sys) : 0;
-}
-
-/* The value of --diameters: lognormal:S, bidisperse:RATIO, or the name of a file. */
-int take_diameters(const char *value, options *o) {
-  const char *colon = strchr(value, ':');
-  char *end = NULL;
-  double x;
-  if (!colon || (strncmp(value, "lognormal:", 10) && strncmp(value, "bidisperse:", 11))) {
-    o->given.diameters_file = value;
-    return 0;
-  }
-  x = strtod(colon + 1, &end);
-  if (end == colon + 1 || *end || !isfinite(x) || x <= 0) return -1;
-  if (value[0] == 'l')
-    o->given.lognormal = x;
-  else
-    o->diameters_ratio = x;
-  return 0;
 }

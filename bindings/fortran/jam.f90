@@ -69,6 +69,30 @@ module jam
   integer(c_int32_t), parameter :: JAM_MASSES_EQUAL = 0
   integer(c_int32_t), parameter :: JAM_MASSES_VOLUME = 1
 
+  ! jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
+  integer(c_int32_t), parameter :: JAM_SIZES_EQUAL = 0
+  integer(c_int32_t), parameter :: JAM_SIZES_LIST = 1
+  integer(c_int32_t), parameter :: JAM_SIZES_UNIFORM = 2
+  integer(c_int32_t), parameter :: JAM_SIZES_NORMAL = 3
+  integer(c_int32_t), parameter :: JAM_SIZES_LOGNORMAL = 4
+  integer(c_int32_t), parameter :: JAM_SIZES_POWER = 5
+  integer(c_int32_t), parameter :: JAM_SIZES_WEIBULL = 6
+  integer(c_int32_t), parameter :: JAM_SIZES_SIEVE = 7
+
+  ! jam_size_share: What the shares of a law count.
+  integer(c_int32_t), parameter :: JAM_SHARE_USUAL = 0
+  integer(c_int32_t), parameter :: JAM_SHARE_NUMBER = 1
+  integer(c_int32_t), parameter :: JAM_SHARE_VOLUME = 2
+
+  ! jam_size_draw: How diameters are drawn from a law.
+  integer(c_int32_t), parameter :: JAM_DRAW_QUANTILES = 0
+  integer(c_int32_t), parameter :: JAM_DRAW_RANDOM = 1
+
+  ! jam_reach_source: Where jam_size_report.jammed_fraction comes from.
+  integer(c_int32_t), parameter :: JAM_REACH_FARR_GROOT = 1
+  integer(c_int32_t), parameter :: JAM_REACH_MEASURED = 2
+  integer(c_int32_t), parameter :: JAM_REACH_CRYSTAL = 3
+
   ! jam_phase: Which part reports progress.
   integer(c_int32_t), parameter :: JAM_PHASE_RUN = 1
   integer(c_int32_t), parameter :: JAM_PHASE_COMPRESS = 2
@@ -371,6 +395,78 @@ module jam
     ! Delta of a non-additive mixture, 0 for additive diameters
     real(c_double) :: non_additivity = 0
   end type jam_info
+
+  ! Options of jam_diameters. Lengths are in the user's unit.
+  type, bind(c) :: jam_diameters_options
+    ! sizeof(jam_diameters_options)
+    integer(c_int32_t) :: struct_size = 0
+    ! default EQUAL. jam_size_law
+    integer(c_int32_t) :: law = 0
+    ! default USUAL. jam_size_share
+    integer(c_int32_t) :: share = 0
+    ! default QUANTILES. jam_size_draw
+    integer(c_int32_t) :: draw = 0
+    ! 2..8, default 3: of volumes
+    integer(c_int32_t) :: dim = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! number of spheres; default 0: it follows from packing_fraction
+    integer(c_int64_t) :: n = 0
+    ! of RANDOM, default 1
+    integer(c_int64_t) :: seed = 0
+    ! diameter, > 0, default 1
+    real(c_double) :: mean = 0
+    ! standard deviation of the diameter, > 0; default NaN: not given
+    real(c_double) :: deviation = 0
+    ! smallest diameter, default 0: not given
+    real(c_double) :: low = 0
+    ! largest diameter, default infinity: not given
+    real(c_double) :: high = 0
+    ! default NaN: not given
+    real(c_double) :: exponent = 0
+    ! > 0, default 1
+    real(c_double) :: scale = 0
+    ! > 0, default NaN: not given
+    real(c_double) :: shape = 0
+    ! default 0: not given. Spheres of more volume are refused
+    real(c_double) :: cell_volume = 0
+    ! of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes reach in disorder is refused
+    real(c_double) :: packing_fraction = 0
+  end type jam_diameters_options
+
+  ! What a set of diameters is.
+  type, bind(c) :: jam_size_report
+    ! set by the caller: sizeof(jam_size_report)
+    integer(c_int32_t) :: struct_size = 112
+    ! jam_reach_source
+    integer(c_int32_t) :: source = 0
+    ! number of spheres
+    integer(c_int64_t) :: n = 0
+    ! diameter, by number
+    real(c_double) :: mean = 0
+    ! standard deviation, by number
+    real(c_double) :: deviation = 0
+    ! deviation / mean
+    real(c_double) :: polydispersity = 0
+    ! diameter
+    real(c_double) :: least = 0
+    ! diameter
+    real(c_double) :: largest = 0
+    ! diameter below which 10 % of the volume lies
+    real(c_double) :: d10 = 0
+    ! 50 %
+    real(c_double) :: d50 = 0
+    ! 90 %
+    real(c_double) :: d90 = 0
+    ! of all spheres, unit^d
+    real(c_double) :: volume = 0
+    ! of the volume, of the largest sphere: how closely a curve can be followed
+    real(c_double) :: largest_share = 0
+    ! where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
+    real(c_double) :: sequential_fraction = 0
+    ! estimate of the packing fraction at which these sizes jam in disorder
+    real(c_double) :: jammed_fraction = 0
+  end type jam_size_report
 
   ! Given to the progress callback; valid during the call only.
   type, bind(c) :: jam_progress
@@ -1254,11 +1350,11 @@ module jam
 
   ! call jam_defaults(o) fills any option type with the defaults of the library.
   interface jam_defaults
-    module procedure default_create_options, default_run_options, default_compress_options, &
-      default_observe_options, default_monte_carlo_options, default_isoconf_options, &
-      default_crunch_options, default_relax_options, default_decompress_options, &
-      default_hessian_options, default_modes_options, default_geometry_options, &
-      default_check_options, default_dos_options
+    module procedure default_create_options, default_diameters_options, default_run_options, &
+      default_compress_options, default_observe_options, default_monte_carlo_options, &
+      default_isoconf_options, default_crunch_options, default_relax_options, &
+      default_decompress_options, default_hessian_options, default_modes_options, &
+      default_geometry_options, default_check_options, default_dos_options
   end interface jam_defaults
 
   abstract interface
@@ -1415,6 +1511,15 @@ module jam
       integer(c_int32_t) :: status
     end function jam_scale_diameters
 
+    ! Fills *o with the defaults.
+    function jam_diameters_options_init(o, size) &
+        bind(c, name="jam_diameters_options_init") result(status)
+      import
+      type(jam_diameters_options), intent(inout), optional :: o
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: status
+    end function jam_diameters_options_init
+
     ! Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
     ! too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
     ! its handle does not call it again.
@@ -1505,13 +1610,13 @@ module jam
 
     ! Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
     ! the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-    ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
-    ! Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
-    ! velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
-    ! report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
-    ! between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
-    ! equal spheres in d = 3) order under this protocol.
-    ! Errors: JAM_E_OVERLAP.
+    ! default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+    ! thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+    ! (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
+    ! a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
+    ! with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
+    ! packing fraction alone, one that these sizes do not reach in disorder is refused.
+    ! Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
     function jam_compress(sys, o, report) &
         bind(c, name="jam_compress") result(status)
       import
@@ -1894,6 +1999,45 @@ module jam
       integer(c_size_t), value :: strain_len
       integer(c_int32_t) :: status
     end function c_jam_strain
+    function c_jam_diameters(o, curve, curve_len, out, out_len, needed) &
+        bind(c, name="jam_diameters") result(status)
+      import
+      type(jam_diameters_options), intent(in), optional :: o
+      type(c_ptr), value :: curve
+      integer(c_size_t), value :: curve_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_diameters
+    function c_jam_diameters_parse(text, o, curve, curve_len, needed) &
+        bind(c, name="jam_diameters_parse") result(status)
+      import
+      character(kind=c_char), intent(in) :: text(*)
+      type(jam_diameters_options), intent(inout), optional :: o
+      type(c_ptr), value :: curve
+      integer(c_size_t), value :: curve_len
+      integer(c_size_t), intent(out), optional :: needed
+      integer(c_int32_t) :: status
+    end function c_jam_diameters_parse
+    function c_jam_cell_volume(dim, cell, cell_len, volume) &
+        bind(c, name="jam_cell_volume") result(status)
+      import
+      integer(c_int32_t), value :: dim
+      type(c_ptr), value :: cell
+      integer(c_size_t), value :: cell_len
+      real(c_double), intent(out), optional :: volume
+      integer(c_int32_t) :: status
+    end function c_jam_cell_volume
+    function c_jam_size_report_get(dim, diameters, diameters_len, report) &
+        bind(c, name="jam_size_report_get") result(status)
+      import
+      integer(c_int32_t), value :: dim
+      type(c_ptr), value :: diameters
+      integer(c_size_t), value :: diameters_len
+      type(jam_size_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function c_jam_size_report_get
     function c_jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out) &
         bind(c, name="jam_create_watched") result(status)
       import
@@ -2545,6 +2689,17 @@ module jam
     module procedure l_jam_cell_set
   end interface jam_cell_set
 
+  ! Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
+  ! last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
+  ! sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
+  ! Example: examples/c/sieve.c
+  ! Shapes: curve (rows, 2), out (m).
+  ! Errors: JAM_E_DIMENSION, JAM_E_UNPLACEABLE (packing_fraction).
+  interface jam_diameters
+    module procedure f_jam_diameters
+    module procedure l_jam_diameters
+  end interface jam_diameters
+
   ! jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
   ! A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
   ! Shapes: positions (n, d), diameters (n).
@@ -2745,6 +2900,10 @@ module jam
   private :: c_jam_cell_get
   private :: c_jam_cell_set
   private :: c_jam_strain
+  private :: c_jam_diameters
+  private :: c_jam_diameters_parse
+  private :: c_jam_cell_volume
+  private :: c_jam_size_report_get
   private :: c_jam_create_watched
   private :: c_jam_create_in_cell_watched
   private :: c_jam_read_watched
@@ -2808,6 +2967,8 @@ module jam
   private :: l_jam_create_in_cell
   private :: f_jam_cell_set
   private :: l_jam_cell_set
+  private :: f_jam_diameters
+  private :: l_jam_diameters
   private :: f_jam_create_watched
   private :: l_jam_create_watched
   private :: f_jam_create_in_cell_watched
@@ -3332,6 +3493,154 @@ contains
     end if
     status = c_jam_strain(sys, at_strain, count_strain)
   end function jam_strain
+
+  function f_jam_diameters(o, curve, out, needed) result(status)
+    type(jam_diameters_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: curve(..)
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_curve
+    integer(c_size_t) :: count_curve
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_curve = c_null_ptr
+    count_curve = 0
+    if (present(curve)) then
+      at_curve = c_loc(curve)
+      count_curve = size(curve, kind=c_size_t)
+    end if
+    if (present(curve)) then
+      status = checked('curve', shape(curve, kind=c_size_t), 2_c_size_t, count_curve)
+      if (status /= JAM_OK) return
+    end if
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_diameters(o, at_curve, count_curve, at_out, count_out, needed)
+  end function f_jam_diameters
+
+  function l_jam_diameters(o, curve, curve_len, out, out_len, needed) result(status)
+    type(jam_diameters_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: curve(..)
+    integer(c_size_t), intent(in) :: curve_len
+    real(c_double), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in) :: out_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_curve
+    integer(c_size_t) :: count_curve
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_curve = c_null_ptr
+    count_curve = 0
+    if (present(curve)) then
+      at_curve = c_loc(curve)
+      count_curve = size(curve, kind=c_size_t)
+    end if
+    count_curve = curve_len
+    if (present(curve)) then
+      status = checked('curve', shape(curve, kind=c_size_t), 2_c_size_t, count_curve)
+      if (status /= JAM_OK) return
+    end if
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
+    end if
+    count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_diameters(o, at_curve, count_curve, at_out, count_out, needed)
+  end function l_jam_diameters
+
+  ! Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
+  ! `LAW:item,item...`. An item is a field (`deviation=0.3`, `share=volume`, `draw=random`), a row of the curve
+  ! (`0.5=0.12`), or a file of two columns, with comments behind #.
+  ! Shapes: curve (rows, 2).
+  ! Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line).
+  function jam_diameters_parse(text, o, curve, curve_len, needed) result(status)
+    character(*), intent(in) :: text
+    type(jam_diameters_options), intent(inout), optional :: o
+    real(c_double), intent(inout), target, contiguous, optional :: curve(..)
+    integer(c_size_t), intent(in), optional :: curve_len
+    integer(c_size_t), intent(out), optional :: needed
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_curve
+    integer(c_size_t) :: count_curve
+    at_curve = c_null_ptr
+    count_curve = 0
+    if (present(curve)) then
+      at_curve = c_loc(curve)
+      count_curve = size(curve, kind=c_size_t)
+    end if
+    if (present(curve_len)) count_curve = curve_len
+    if (present(curve)) then
+      status = checked('curve', shape(curve, kind=c_size_t), 2_c_size_t, count_curve)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_diameters_parse(jam_c_string(text), o, at_curve, count_curve, needed)
+  end function jam_diameters_parse
+
+  ! volume of a cell of d = dim vectors, row after row, with a positive determinant.
+  ! Shapes: cell (m).
+  ! Errors: JAM_E_DIMENSION.
+  function jam_cell_volume(dim, cell, cell_len, volume) result(status)
+    integer(c_int32_t), intent(in) :: dim
+    real(c_double), intent(in), target, contiguous, optional :: cell(..)
+    integer(c_size_t), intent(in), optional :: cell_len
+    real(c_double), intent(out), optional :: volume
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_cell
+    integer(c_size_t) :: count_cell
+    at_cell = c_null_ptr
+    count_cell = 0
+    if (present(cell)) then
+      at_cell = c_loc(cell)
+      count_cell = size(cell, kind=c_size_t)
+    end if
+    if (present(cell_len)) count_cell = cell_len
+    if (present(cell)) then
+      status = checked('cell', shape(cell, kind=c_size_t), 0_c_size_t, count_cell)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_cell_volume(dim, at_cell, count_cell, volume)
+  end function jam_cell_volume
+
+  ! Describes diameters > 0 in dimension dim.
+  ! Shapes: diameters (n).
+  ! Errors: JAM_E_DIMENSION.
+  function jam_size_report_get(dim, diameters, diameters_len, report) result(status)
+    integer(c_int32_t), intent(in) :: dim
+    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
+    integer(c_size_t), intent(in), optional :: diameters_len
+    type(jam_size_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    type(c_ptr) :: at_diameters
+    integer(c_size_t) :: count_diameters
+    at_diameters = c_null_ptr
+    count_diameters = 0
+    if (present(diameters)) then
+      at_diameters = c_loc(diameters)
+      count_diameters = size(diameters, kind=c_size_t)
+    end if
+    if (present(diameters_len)) count_diameters = diameters_len
+    if (present(diameters)) then
+      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_size_report_get(dim, at_diameters, count_diameters, report)
+  end function jam_size_report_get
 
   function f_jam_create_watched(o, positions, diameters, callback, user, out) result(status)
     type(jam_create_options), intent(in), optional :: o
@@ -6043,6 +6352,12 @@ contains
     integer(c_int32_t) :: status
     status = jam_create_options_init(o, c_sizeof(o))
   end subroutine default_create_options
+
+  subroutine default_diameters_options(o)
+    type(jam_diameters_options), intent(out) :: o
+    integer(c_int32_t) :: status
+    status = jam_diameters_options_init(o, c_sizeof(o))
+  end subroutine default_diameters_options
 
   subroutine default_run_options(o)
     type(jam_run_options), intent(out) :: o

@@ -51,7 +51,8 @@ SHOWN = "\n\n    def __repr__(self) -> str:\n        return _by_shapes(self)"
 SKIP = {"jam_destroy", "jam_copy", "jam_set_progress", "jam_set_log", "jam_set_positions", "jam_set_velocities", "jam_info_get",
         "jam_crunch_report_get", "jam_positions_view", "jam_velocities_view", "jam_diameters_view", "jam_run", "jam_compress", "jam_crunch", "jam_relax", "jam_decompress",
         "jam_scale_diameters", "jam_cell_get", "jam_cell_set", "jam_strain", "jam_cancel", "jam_write", "jam_write_page", "jam_write_contacts", "jam_contacts", "jam_forces", "jam_coordination", "jam_hessian",
-        "jam_modes", "jam_notes", "jam_check_packing", "jam_pair_correlation", "jam_isoconfigurational"}  # written by hand
+        "jam_modes", "jam_notes", "jam_check_packing", "jam_pair_correlation", "jam_isoconfigurational",
+        "jam_diameters", "jam_diameters_parse", "jam_size_report_get"}  # written by hand
 PLAIN = ("scalar", "string", "array_in", "handle")
 
 

@@ -6,6 +6,7 @@ import textwrap
 from options import ABOUT, EXAMPLE, NOTES, PACK, PYTHON, STAGES, options, usage
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
+OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their own
 COLUMN = 25  # where the help begins what it says of an option
 
 
@@ -41,7 +42,7 @@ def _c_default(o):
         return str(o.words.index(o.default))
     if o.kind == "integer":
         return "NOT_GIVEN" if o.default is None else str(o.default)
-    if o.kind in ("positive", "not_negative", "pressure", "delta"):
+    if o.kind in ("positive", "not_negative", "pressure", "delta", "fraction"):
         return "INFINITY" if o.default is None else repr(o.default)
     return None
 
@@ -51,11 +52,11 @@ def emit_c(_api):
     fields = "\n".join(
         f"  {C_TYPES.get(o.kind, 'double')}{'' if 'char' in C_TYPES.get(o.kind, '') else ' '}{o.field};"
         for o in rows
-        if o.kind not in ("stage", "diameters")
+        if o.kind not in OWN_FORM
     )
     table, defaults = [], []
     for o in rows:
-        place = "0" if o.kind in ("stage", "diameters") else f"offsetof(options, {o.field})"
+        place = "0" if o.kind in OWN_FORM else f"offsetof(options, {o.field})"
         low, high = (o.low, o.high) if o.kind == "integer" else (0, 0)
         words = '"' + " ".join(o.words) + '"' if o.words else "NULL"
         flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout)) if on]) or "0"
@@ -161,9 +162,9 @@ def emit_bash(_api):
         for o in rows
         if o.words
     )
-    files = "|".join("--" + o.name for o in rows if o.kind in ("input", "output", "diameters"))
+    files = "|".join("--" + o.name for o in rows if o.kind in ("input", "output", "sizes"))
     others = "|".join(
-        "--" + o.name for o in rows if o.kind not in ("switch", "help", "choice", "input", "output", "diameters")
+        "--" + o.name for o in rows if o.kind not in ("switch", "help", "choice", "input", "output", "sizes")
     )
     return f"""# Completion of jam-pack for bash: {MADE}.
 _jam_pack() {{
@@ -186,7 +187,7 @@ def emit_zsh(_api):
         value = ""
         if o.words:
             value = f":{o.name}:({' '.join(o.words)})"
-        elif o.kind in ("input", "output", "diameters"):
+        elif o.kind in ("input", "output", "sizes"):
             value = f":{o.name}:_files"
         elif o.kind not in ("switch", "help"):
             value = f":{o.metavar.replace(':', ' ').replace('[', '').replace(']', '')}: "

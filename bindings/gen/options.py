@@ -13,7 +13,9 @@ Kinds: what a value may be and where it goes.
     input         the name of a file that is read
     output        the name of a file that is written; `after_crunch` marks those that show its network
     stage         RATE[:P], repeatable
-    diameters     lognormal:S, bidisperse:R or a file
+    fraction      a number above 0 and below 1
+    sizes         a law of jam_diameters_parse, or a file of diameters
+    cell          d or d d numbers, parted by commas
 """
 from dataclasses import dataclass
 
@@ -46,6 +48,8 @@ INT32_MAX, INT64_MAX = 2**31 - 1, 2**63 - 1
 # Growth of the programs and of ensembles by default: rate and pressure of the stages; that of jam_compress(sys, NULL, ..).
 STAGES = ((1e-2, 500.0), (3e-3, 1e7))
 
+NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
+
 TABLE = {
     "Start": (
         Option("n", "integer", "N", "spheres (1024)", None, 1, INT32_MAX, without=("input",)),
@@ -63,14 +67,15 @@ TABLE = {
             "R",
             "half of the spheres are R times as large (1)",
             1.0,
-            without=("input", "diameters"),
+            without=("input", "sizes"),
         ),
         Option(
-            "diameters",
-            "diameters",
-            "WHAT",
-            "bidisperse:R as above; lognormal:S with S the standard deviation over the mean; or a file of diameters, of which "
-            "the ratios count",
+            "sizes",
+            "sizes",
+            "LAW",
+            "diameters by a law: equal, list, uniform, normal, lognormal, power, weibull or sieve. Examples: "
+            "lognormal:deviation=0.3,draw=random, list:1=0.5,1.4=0.5, sieve:FILE with a cumulative curve. Or a file of diameters. Only "
+            "ratios count, unless a density gives the number of spheres",
             without=("input",),
         ),
         Option(
@@ -79,7 +84,7 @@ TABLE = {
             "D",
             "spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)",
             0.0,
-            needs=("diameters", "diameters-ratio", "input", "resume"),
+            needs=("sizes", "diameters-ratio", "input", "resume"),
         ),
         Option(
             "model", "choice", "", "distance: Euclidean (default) or Mari-Kurchan", "euclid", words=("euclid", "mk")
@@ -106,6 +111,13 @@ TABLE = {
         ),
         Option("box", "positive", "L", "side of the box, for a random start or a file that gives no box (1)", 1.0),
         Option(
+            "cell",
+            "cell",
+            "LX,LY,..",
+            "sides of a periodic brick for a random start, or all components of its cell vectors, one vector after the other",
+            without=("input", "resume", "box"),
+        ),
+        Option(
             "shrink",
             "switch",
             "",
@@ -131,6 +143,21 @@ TABLE = {
             "Default: 1e-2:500, then 3e-3 up to --pressure",
         ),
         Option("pressure", "pressure", "P", "target of stages without :P (1e7)", STAGES[-1][1]),
+        Option(
+            "packing-fraction",
+            "fraction",
+            "F",
+            "grow to exactly this packing fraction, without a crunch, which would change it. With --sizes in the unit of --cell or "
+            "--box, and without --n, the number of spheres follows and the diameters end as the law says",
+            without=("no-md", "porosity", "plant", "zeta"),
+        ),
+        Option(
+            "porosity",
+            "fraction",
+            "E",
+            "the same by the void fraction, 1 - F",
+            without=("no-md", "plant", "zeta"),
+        ),
         Option("no-md", "switch", "", "none"),
     ),
     "A job that may be killed": (
@@ -157,7 +184,7 @@ TABLE = {
             "the quench: barrier path (default), or the published sequence of linear programs alone",
             "barrier",
             words=("barrier", "sequential-lp"),
-            without=("no-crunch",),
+            without=NO_CRUNCH,
         ),
         Option(
             "strain",
@@ -167,7 +194,7 @@ TABLE = {
             "(none)",
             "none",
             words=("none", "edges", "tilts", "free"),
-            without=("no-crunch",),
+            without=NO_CRUNCH,
         ),
         Option(
             "lp",
@@ -176,7 +203,7 @@ TABLE = {
             "linear programs by interior point (default) or Clp's simplex",
             "ipm",
             words=("ipm", "clp"),
-            without=("no-crunch",),
+            without=NO_CRUNCH,
         ),
         Option(
             "duality-gap",
@@ -185,7 +212,7 @@ TABLE = {
             "end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts from an LP there: for packings too large "
             "for the jamming point (0: the jamming point)",
             0.0,
-            without=("no-crunch",),
+            without=NO_CRUNCH,
         ),
         Option(
             "threads",
@@ -195,7 +222,7 @@ TABLE = {
             1,
             1,
             2,
-            without=("no-crunch",),
+            without=NO_CRUNCH,
         ),
         Option("no-crunch", "switch", "", "stop after molecular dynamics"),
     ),
@@ -221,7 +248,7 @@ TABLE = {
             0,
             0,
             1000,
-            without=("no-crunch",),
+            without=NO_CRUNCH,
             needs=("page",),
         ),
         Option(

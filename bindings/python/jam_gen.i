@@ -10,6 +10,9 @@
 %apply (double *FILL, size_t FILL_LEN) {(double *rotation, size_t rotation_len)};
 %apply size_t *RESULT {size_t *rows};
 %apply (const double *IN, size_t IN_LEN) {(const double *strain, size_t strain_len)};
+%apply (const double *IN, size_t IN_LEN) {(const double *curve, size_t curve_len)};
+%apply (double *FILL, size_t FILL_LEN) {(double *curve, size_t curve_len)};
+%apply double *RESULT {double *volume};
 %apply (const double *IN, size_t IN_LEN) {(const double *values, size_t values_len)};
 %apply (double *FILL, size_t FILL_LEN) {(double *table, size_t table_len)};
 %apply (int64_t *FILL, size_t FILL_LEN) {(int64_t *collisions, size_t collisions_len)};
@@ -76,6 +79,24 @@
   ~jam_info() { free($self); }
 }
 %feature("docstring") jam_info "What the system is now."
+%extend jam_diameters_options {
+  jam_diameters_options() {
+    jam_diameters_options *made = (jam_diameters_options *)calloc(1, sizeof *made);
+    if (made) { jam_diameters_options_init(made, sizeof *made); }
+    return made;
+  }
+  ~jam_diameters_options() { free($self); }
+}
+%feature("docstring") jam_diameters_options "Options of jam_diameters. Lengths are in the user's unit."
+%extend jam_size_report {
+  jam_size_report() {
+    jam_size_report *made = (jam_size_report *)calloc(1, sizeof *made);
+    if (made) { made->struct_size = sizeof *made; }
+    return made;
+  }
+  ~jam_size_report() { free($self); }
+}
+%feature("docstring") jam_size_report "What a set of diameters is."
 %extend jam_progress {
   jam_progress() {
     jam_progress *made = (jam_progress *)calloc(1, sizeof *made);
@@ -390,6 +411,24 @@ Errors: JAM_E_OVERLAP."
 reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
 Shapes: strain (d, d).
 Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors)."
+%feature("docstring") jam_diameters_options_init "Fills *o with the defaults."
+%feature("docstring") jam_diameters "Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
+last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
+sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
+Example: examples/c/sieve.c
+Shapes: curve (rows, 2), out (m).
+Errors: JAM_E_DIMENSION, JAM_E_UNPLACEABLE (packing_fraction)."
+%feature("docstring") jam_diameters_parse "Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
+`LAW:item,item...`. An item is a field (`deviation=0.3`, `share=volume`, `draw=random`), a row of the curve
+(`0.5=0.12`), or a file of two columns, with comments behind #.
+Shapes: curve (rows, 2).
+Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line)."
+%feature("docstring") jam_cell_volume "volume of a cell of d = dim vectors, row after row, with a positive determinant.
+Shapes: cell (m).
+Errors: JAM_E_DIMENSION."
+%feature("docstring") jam_size_report_get "Describes diameters > 0 in dimension dim.
+Shapes: diameters (n).
+Errors: JAM_E_DIMENSION."
 %feature("docstring") jam_set_progress "Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
 too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
 its handle does not call it again."
@@ -451,13 +490,13 @@ paths that never meet). The log gives the reason of the last two.
 Errors: JAM_E_OVERLAP."
 %feature("docstring") jam_compress "Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
-Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
-velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
-report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
-between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
-equal spheres in d = 3) order under this protocol.
-Errors: JAM_E_OVERLAP."
+default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+(a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
+a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
+with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
+packing fraction alone, one that these sizes do not reach in disorder is refused.
+Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_checkpoint_write "Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a

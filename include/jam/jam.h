@@ -321,6 +321,113 @@ JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell
  * (d, d) @errors OVERLAP, UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors) */
 JAM_API jam_status jam_strain(jam_system *sys, const double *strain, size_t strain_len);
 
+/* ------------------------------------------------------------------ sizes */
+
+/* Laws of diameters s. Each takes the fields named here, and no others. */
+typedef enum jam_size_law {
+  JAM_SIZES_EQUAL = 0,     /* mean */
+  JAM_SIZES_LIST = 1,      /* curve: rows (diameter, share) */
+  JAM_SIZES_UNIFORM = 2,   /* low, high: constant density between them */
+  JAM_SIZES_NORMAL = 3,    /* mean, deviation; cut at 0, or by low and high */
+  JAM_SIZES_LOGNORMAL = 4, /* mean, deviation, both of s, not of its logarithm; may be cut by low and high */
+  JAM_SIZES_POWER = 5,     /* exponent, low, high: density s^exponent between them */
+  JAM_SIZES_WEIBULL = 6,   /* scale, shape (Rosin-Rammler): share above s is exp(-(s / scale)^shape); may be cut */
+  JAM_SIZES_SIEVE = 7      /* curve: rows (size, share that passes it), from 0 to 1 or to 100 per cent; straight in the
+                            * logarithm of the size between two rows */
+} jam_size_law;
+
+/* What the shares of a law count. */
+typedef enum jam_size_share {
+  JAM_SHARE_USUAL = 0,  /* volume for WEIBULL and SIEVE, number for the others */
+  JAM_SHARE_NUMBER = 1, /* spheres */
+  JAM_SHARE_VOLUME = 2  /* volume: mass at one density */
+} jam_size_share;
+
+/* How diameters are drawn from a law. */
+typedef enum jam_size_draw {
+  JAM_DRAW_QUANTILES = 0, /* one sphere for each n-th of the number, so that few spheres follow the law. By number it is
+                           * the middle one, by volume the one of the mean volume */
+  JAM_DRAW_RANDOM = 1     /* independent, by the seed */
+} jam_size_draw;
+
+/* Options of jam_diameters. Lengths are in the user's unit. */
+typedef struct jam_diameters_options {
+  uint32_t struct_size;    /* sizeof(jam_diameters_options) */
+  int32_t law;             /* default EQUAL. @enum jam_size_law */
+  int32_t share;           /* default USUAL. @enum jam_size_share */
+  int32_t draw;            /* default QUANTILES. @enum jam_size_draw */
+  int32_t dim;             /* 2..8, default 3: of volumes */
+  int32_t reserved;        /* 0 */
+  int64_t n;               /* number of spheres; default 0: it follows from packing_fraction */
+  int64_t seed;            /* of RANDOM, default 1 */
+  double mean;             /* diameter, > 0, default 1 */
+  double deviation;        /* standard deviation of the diameter, > 0; default NaN: not given */
+  double low;              /* smallest diameter, default 0: not given */
+  double high;             /* largest diameter, default infinity: not given */
+  double exponent;         /* default NaN: not given */
+  double scale;            /* > 0, default 1 */
+  double shape;            /* > 0, default NaN: not given */
+  double cell_volume;      /* default 0: not given. Spheres of more volume are refused */
+  double packing_fraction; /* of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes
+                            * reach in disorder is refused */
+} jam_diameters_options;
+
+/* Fills *o with the defaults. */
+JAM_API jam_status jam_diameters_options_init(jam_diameters_options *o, size_t size);
+/* Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
+ * last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
+ * sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
+ * Example: examples/c/sieve.c
+ * @shape curve (rows, 2), out (m)
+ * @errors DIMENSION, UNPLACEABLE (packing_fraction) */
+JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *curve, size_t curve_len, double *out,
+                                 size_t out_len, size_t *needed);
+/* Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
+ * `LAW:item,item...`. An item is a field (`deviation=0.3`, `share=volume`, `draw=random`), a row of the curve
+ * (`0.5=0.12`), or a file of two columns, with comments behind #.
+ * @shape curve (rows, 2)
+ * @errors IO, FORMAT (the text names the line) */
+JAM_API jam_status jam_diameters_parse(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
+                                       size_t *needed);
+
+/* *volume of a cell of d = dim vectors, row after row, with a positive determinant. @shape cell (m) @errors DIMENSION
+ */
+JAM_API jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume);
+
+/* Where jam_size_report.jammed_fraction comes from. */
+typedef enum jam_reach_source {
+  JAM_REACH_FARR_GROOT =
+      1,                  /* d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009)) */
+  JAM_REACH_MEASURED = 2, /* other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4 */
+  JAM_REACH_CRYSTAL = 3   /* disks of nearly one size, which order: the hexagonal packing */
+} jam_reach_source;
+
+/* What a set of diameters is. */
+typedef struct jam_size_report {
+  uint32_t struct_size;       /* set by the caller: sizeof(jam_size_report) */
+  int32_t source;             /* @enum jam_reach_source */
+  int64_t n;                  /* number of spheres */
+  double mean;                /* diameter, by number */
+  double deviation;           /* standard deviation, by number */
+  double polydispersity;      /* deviation / mean */
+  double least;               /* diameter */
+  double largest;             /* diameter */
+  double d10;                 /* diameter below which 10 % of the volume lies */
+  double d50;                 /* 50 % */
+  double d90;                 /* 90 % */
+  double volume;              /* of all spheres, unit^d */
+  double largest_share;       /* of the volume, of the largest sphere: how closely a curve can be followed */
+  double sequential_fraction; /* where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev.
+                               * E 88, 053312 (2013)); mixtures go beyond */
+  double jammed_fraction;     /* estimate of the packing fraction at which these sizes jam in disorder */
+} jam_size_report;
+
+/* Describes diameters > 0 in dimension dim.
+ * @shape diameters (n)
+ * @errors DIMENSION */
+JAM_API jam_status jam_size_report_get(int32_t dim, const double *diameters, size_t diameters_len,
+                                       jam_size_report *report);
+
 /* ------------------------------------------------------------------ progress, log, cancel */
 
 /* Which part reports progress. */
@@ -537,12 +644,12 @@ JAM_API jam_status jam_compress_options_init(jam_compress_options *o, size_t siz
 JAM_API jam_status jam_run(jam_system *sys, const jam_run_options *o, jam_md_report *report);
 /* Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
  * the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
- * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
- * Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
- * velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
- * report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
- * between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
- * equal spheres in d = 3) order under this protocol. @errors OVERLAP */
+ * default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+ * thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+ * (a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
+ * a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
+ * with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
+ * packing fraction alone, one that these sizes do not reach in disorder is refused. @errors OVERLAP, UNPLACEABLE */
 JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_report *report);
 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,

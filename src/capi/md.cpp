@@ -8,6 +8,7 @@
 #include "capi/make_system.hpp"
 #include "core/create.hpp"
 #include "core/math.hpp"
+#include "core/size_laws.hpp"
 #include "dynamics/equation_of_state.hpp"
 #include "dynamics/event_driven/run.hpp"
 #include "io/checkpoint.hpp"
@@ -122,10 +123,22 @@ Answer run_stages(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &l
   }
 }
 
+// A fluid that is to grow to a density alone must be able to reach it in disorder. Crystals, and growth that may end
+// earlier by another target, go as far as they go.
+void check_aim(const jam_system *, const jam_run_options &) {}
+void check_aim(const jam_system *sys, const jam_compress_options &o) {
+  const Packing &p = sys->packing;
+  const bool density_alone = std::isfinite(o.packing_fraction) && o.pressure >= default_compress_options().pressure &&
+                             std::isinf(o.collisions_per_particle) && std::isinf(o.time);
+  if (o.resume || !density_alone || p.model == JAM_MODEL_MK || p.non_additivity != 0.0) return;
+  if (sys->packing_fraction < sequential_fraction(p.dim)) check_reach(p.dim, p.diameter, o.packing_fraction);
+}
+
 template <class Options, class Check>
 Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_md_report *report) {
   take_options(o, full);
   check(full);
+  check_aim(sys, full);
   const MdStage stage = stage_of(full);
   jam_md_report made{};
   const Answer answer = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);

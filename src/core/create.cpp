@@ -12,6 +12,7 @@
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
+#include "core/size_laws.hpp"
 
 namespace jam {
 namespace {
@@ -181,18 +182,17 @@ static void random_point(const Cell &cell, Rng &rng, double *x) {
   for (int c = 0; c < cell.dim(); ++c) x[c] = wrap(cell.edge(c) * rng.uniform(), cell.edge(c));
 }
 
-// Packing fraction of random sequential addition of equal spheres that no further sphere fits into: Zhang and Torquato,
-// Phys. Rev. E 88, 053312 (2013), for d = 2 to 8.
+// Mixtures pack more densely than equal spheres: they are tried up to the density at which they jam.
 static void check_below_saturation(const Packing &p) {
-  static constexpr double saturation[] = {0.5470735, 0.3841307, 0.2600781, 0.1707761, 0.109302, 0.068404, 0.0423};
-  const auto [least, most] = std::minmax_element(p.diameter.begin(), p.diameter.end());
-  if (*least < *most) return;  // mixtures pack more densely
+  const double wanted = packing_fraction(p), end = sequential_fraction(p.dim);
   // Finite systems differ from each other by less than 1 / sqrt(n).
-  const double limit = saturation[p.dim - 2] * (1.0 + 1.0 / std::sqrt(static_cast<double>(p.n())));
-  if (packing_fraction(p) > limit)
+  if (wanted <= end * (1.0 + 1.0 / std::sqrt(static_cast<double>(p.n())))) return;
+  const auto [least, most] = std::minmax_element(p.diameter.begin(), p.diameter.end());
+  if (*least == *most)
     fail(JAM_E_UNPLACEABLE,
          "packing fraction %g: random sequential addition ends near %g in d = %d; grow the spheres from a lower one",
-         packing_fraction(p), saturation[p.dim - 2], p.dim);
+         wanted, end, p.dim);
+  if (p.non_additivity == 0.0) check_reach(p.dim, p.diameter, wanted);
 }
 
 void check_create_limits(const jam_create_options &o) {

@@ -17,6 +17,7 @@ enum class Stream : uint64_t {
   run_velocities = 21,  // isoconfigurational runs
   monte_carlo = 22,
   coincident = 23,  // directions in which soft spheres at one centre part
+  sizes = 24,       // of jam_diameters
 };
 
 // Finaliser of splitmix64 (Steele, Lea and Flood, OOPSLA 2014): a bijective mix of 64 bits.

@@ -46,4 +46,7 @@ struct ProofScene;
 // The exact numbers of a proof: a file that jamproof.py checks.
 void write_proof(const ProofScene &scene, const char *path);
 
+// Adds the rows of a table of two columns to `curve`. Comments stand behind #; a first line of words is a heading.
+void read_curve(const char *path, std::vector<double> &curve);
+
 }  // namespace jam

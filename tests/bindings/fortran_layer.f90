@@ -56,6 +56,7 @@ program fortran_layer
   status = jam_set_positions(sys, x)
   call expect(status == JAM_OK .and. all(seen == x), 'x(d, n) goes in and comes out')
 
+  call draw_sizes()
   status = jam_crunch(sys, report=report)
   call expect(status == JAM_OK .and. report%jammed == 1, 'crunch')
   status = jam_forces(sys, out_len=0_c_size_t, needed=needed)
@@ -104,8 +105,28 @@ program fortran_layer
   deallocate (force, normal, pairs, again, wide)  ! a main program's would stay to the end, which looks like a leak
   if (failures > 0) error stop 1
   print '(a)', 'fortran layer: all as expected'
-
 contains
+  ! A sieve curve (2, rows) gives the diameters of jam_size_report; a falling one is named.
+  subroutine draw_sizes()
+    type(jam_diameters_options) :: law
+    type(jam_size_report) :: found
+    real(c_double) :: curve(2, 3)
+    real(c_double), allocatable :: drawn(:)
+    integer(c_size_t) :: count
+    curve = reshape([1.0_c_double, 0.0_c_double, 2.0_c_double, 60.0_c_double, 4.0_c_double, 100.0_c_double], [2, 3])
+    call jam_defaults(law)
+    law%law = JAM_SIZES_SIEVE
+    law%n = 300
+    call expect(jam_diameters(law, curve, needed=count) == JAM_OK .and. count == 300, 'number of diameters')
+    allocate (drawn(count))
+    call expect(jam_diameters(law, curve, drawn) == JAM_OK, 'diameters')
+    call expect(jam_size_report_get(3_c_int32_t, drawn, report=found) == JAM_OK, 'size report')
+    call expect(abs(found%d50 - 2.0_c_double**(5.0_c_double/6.0_c_double)) < 0.02_c_double, 'd50 of the curve')
+    curve(2, 2) = 120
+    call expect(jam_diameters(law, curve, needed=count) == JAM_E_ARGUMENT, 'falling curve')
+    call expect(index(jam_message(), 'row 2') > 0, 'its row is named')
+  end subroutine draw_sizes
+
 
   ! An array the wrong way round holds as many numbers, so its length says nothing.
   subroutine shapes_and_lengths()

@@ -141,7 +141,7 @@ class CommandLine(unittest.TestCase):
         for arguments in (
             ["--n", "80", "--dim", "2", "--diameters-ratio", "1.4", "--growth", "0.1:50", "--nve", "2"],
             ["--n", "64", "--no-md", "--modes", "0", "--seed", "5"],
-            ["--n", "64", "--dim", "2", "--diameters", "lognormal:0.3", "--growth", "0.1:30"],
+            ["--n", "64", "--dim", "2", "--sizes", "lognormal:deviation=0.3", "--growth", "0.1:30"],
             [
                 "--n",
                 "64",
@@ -176,6 +176,17 @@ class CommandLine(unittest.TestCase):
                     self.assertEqual(Path(folder, "a." + t).read_text(), Path(folder, "b." + t).read_text(), t)
 
     @unittest.skipUnless(PACK, "jam-pack is not built")
+    def test_both_programs_grow_to_one_density(self):
+        job = "--sizes lognormal:deviation=0.2,share=volume --porosity 0.5 --cell 5,5,6 --quiet"
+        skew = "--sizes uniform:low=0.8,high=1.2,draw=random --porosity 0.6 --cell 5,0,0,1,6,0,1,1,5 --seed 3 --quiet"
+        with tempfile.TemporaryDirectory() as folder:
+            for words in (job, skew):
+                for program, name in ([PACK], "a"), ([sys.executable, "-m", "jam"], "b"):
+                    out = ["--output", f"{folder}/{name}.xyz"]
+                    subprocess.run([*program, *words.split(), *out], check=True, timeout=120)
+                self.assertEqual(*(Path(folder, name + ".xyz").read_text() for name in "ab"))
+
+    @unittest.skipUnless(PACK, "jam-pack is not built")
     def test_either_program_resumes_what_the_other_began(self):
         programs = ([PACK], [sys.executable, "-m", "jam"])
         with tempfile.TemporaryDirectory() as folder:
@@ -201,7 +212,7 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
                 return Path(folder, name + ".dat").read_text()
 
-            begin = ["--dim", "2", "--diameters", str(sizes), "--seed", "4"]
+            begin = ["--dim", "2", "--sizes", str(sizes), "--seed", "4"]
             whole = run(programs[0], "whole", *begin)
             for first, second in (programs, programs[::-1]):
                 s = jam.System.random(60, 2, 4, diameters=[1.0, 1.5, 2.0] * 20)
@@ -215,7 +226,7 @@ class CommandLine(unittest.TestCase):
     def test_exit_status(self):
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, "bad").write_text("1 2 -3")
-            self.assertEqual(self.run_jam("--diameters", folder + "/bad", "--no-md", "--no-crunch").returncode, 3)
+            self.assertEqual(self.run_jam("--sizes", folder + "/bad", "--no-md", "--no-crunch").returncode, 3)
             self.assertEqual(self.run_jam("--resume", folder + "/bad").returncode, 3)
         self.assertEqual(self.run_jam("--resume", "a", "--input", "b").returncode, 2)
         for wrong in (

@@ -8,7 +8,7 @@ import unittest
 import jam
 
 NAMES = {
-    "jam": "Advice Contacts JamError Modes Observed Step StatusCode System advise eos errors glass_fit load raw __version__ "
+    "jam": "Advice Contacts JamError Modes Observed Step StatusCode System advise eos errors glass_fit load raw size_report sizes __version__ "
     "cli ensemble files near_jamming plot scaling statistics store",
     "jam.advice": "Advice advise",
     "jam.cli": "main",

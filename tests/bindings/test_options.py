@@ -88,7 +88,7 @@ class Options(unittest.TestCase):
         """Both programs take the rules from the one table; jam_pack.py tries them all."""
         for arguments, text in (
             (["--input", "a", "--n", "77"], "--n has no effect beside --input"),
-            (["--non-additivity", "0.1"], "--non-additivity has no effect without --diameters"),
+            (["--non-additivity", "0.1"], "--non-additivity has no effect without --sizes"),
             (["--no-crunch", "--threads", "1"], "--threads has no effect beside --no-crunch"),
             (["--input", "a", "--pressure", "1e5"], "--pressure has no effect: no stage of growth runs up to it"),
             (["--growth", "1e-2:500", "--pressure", "1e5"], "--pressure has no effect"),

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """jam_pack.py PROGRAM: the installed jam-pack as its users meet it, right and wrong."""
 import json
+import math
 import os
 import pathlib
 import pty
@@ -114,15 +115,15 @@ class JamPack(unittest.TestCase):
             (["--input", "a", "--dim", "2"], "--dim has no effect beside --input"),
             (["--input", "a", "--phi0", "0.3"], "--phi0 has no effect beside --input"),
             (["--input", "a", "--plant", "0.3"], "--plant has no effect beside --input"),
-            (["--input", "a", "--diameters", "bidisperse:1.4"], "--diameters has no effect beside --input"),
+            (["--input", "a", "--sizes", "list:1=0.5,1.4=0.5"], "--sizes has no effect beside --input"),
             (["--input", "a", "--diameters-ratio=1"], "--diameters-ratio has no effect beside --input"),
             (["--input", "a", "--pressure", "1e5"], "--pressure has no effect"),
             (["--growth", "1e-2:500", "--pressure", "1e5"], "--pressure has no effect"),
             (["--no-md", "--pressure", "1e5"], "--pressure has no effect"),
-            (["--diameters", "lognormal:0.3", "--diameters-ratio", "2"], "no effect beside --diameters"),
+            (["--sizes", "lognormal:deviation=0.3", "--diameters-ratio", "2"], "no effect beside --sizes"),
             (["--plant", "0.3", "--phi0", "0.3"], "--phi0 has no effect beside --plant"),
             (["--model", "euclid", "--zeta", "1"], "--model euclid contradicts --zeta"),
-            (["--non-additivity", "0.1"], "--non-additivity has no effect without --diameters"),
+            (["--non-additivity", "0.1"], "--non-additivity has no effect without --sizes"),
             (["--shrink"], "--shrink has no effect without --input"),
             (["--frame", "0"], "--frame has no effect without --input"),
             (["--input", "a", "--shrink-min", "0"], "--shrink-min has no effect without --shrink"),
@@ -137,10 +138,10 @@ class JamPack(unittest.TestCase):
             (["--output", ""], "--output is '', it must be the name of a file"),
             (["--report="], "--report is '', it must be the name of a file"),
             (["--input", ""], "--input is ''"),
-            (["--diameters", ""], "--diameters is ''"),
+            (["--sizes", ""], "--sizes is ''"),
             (["--output", "./a.xyz", "--page", "a.xyz"], "--output and --page must be different files"),
             (["--resume", "a", "--output", "./a"], "--output would overwrite the input"),
-            (["--diameters", "a", "--output", "./a"], "--output would overwrite the input"),
+            (["--sizes", "a", "--output", "./a"], "--output would overwrite the input"),
         ]:
             self.refuse(2, text, *args)
         (self.dir / "a.xyz").symlink_to(self.dir / "b.xyz")
@@ -395,25 +396,61 @@ class JamPack(unittest.TestCase):
 
     def test_diameters(self):
         job = ["--no-md", "--no-crunch", "--output", self.dir / "p.xyz"]
-        self.report("--n", 3000, "--diameters", "lognormal:0.3", "--phi0", 0.05, *job)
+        self.report("--n", 3000, "--sizes", "lognormal:deviation=0.3", "--phi0", 0.05, *job)
         d = [2 * float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:]]
         mean = sum(d) / len(d)
         width = (sum((x - mean) ** 2 for x in d) / len(d)) ** 0.5 / mean
         self.assertAlmostEqual(width, 0.3, delta=0.02)  # its standard error is 0.006
-        self.report("--n", 100, "--diameters", "bidisperse:1.4", *job)
+        self.report("--n", 100, "--sizes", "list:1=0.5,1.4=0.5", *job)
         d = sorted(float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:])
         self.assertAlmostEqual(d[99] / d[0], 1.4, 12)
         self.assertEqual(sum(x > d[0] * 1.1 for x in d), 50)
         sizes = self.dir / "sizes.txt"
         sizes.write_text("1 2\n3.5 1\n")
-        self.assertEqual(self.report("--diameters", sizes, *job)["n"], 4)
+        self.assertEqual(self.report("--sizes", sizes, *job)["n"], 4)
         d = [float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:]]
         self.assertAlmostEqual(d[2] / d[0], 3.5, 12)
-        self.refused(3, "--n", 5, "--diameters", sizes, *job)
+        self.refused(3, "--n", 5, "--sizes", sizes, *job)
         sizes.write_text("1 2 -3\n")
-        self.assertIn("number 3", self.refused(3, "--diameters", sizes, *job))
-        self.refused(2, "--diameters", "lognormal:-1")
-        self.refused(3, "--diameters", self.dir / "none.txt")
+        self.assertIn("number 3", self.refused(3, "--sizes", sizes, *job))
+        self.refused(2, "--sizes", "lognormal:-1")
+        self.refused(3, "--sizes", self.dir / "none.txt")
+
+    def test_a_given_density_is_exact_and_the_number_follows(self):
+        curve = self.dir / "curve.csv"
+        curve.write_text("size passing\n1 0\n2 60\n4 100\n")
+        job = ["--sizes", f"sieve:{curve}", "--porosity", 0.45, "--cell", "10,10,20", "--output", self.dir / "p.xyz"]
+        made = self.report(*job)
+        self.assertLess(abs(made["packing_fraction"] - 0.55), 1e-12)
+        self.assertEqual(made["protocol"][-1]["stop_reason"], "packing_fraction")
+        d = [2 * float(line.split()[4]) for line in (self.dir / "p.xyz").read_text().splitlines()[2:]]
+        self.assertEqual(len(d), made["n"])
+        self.assertLess(abs(math.pi / 6 * sum(x**3 for x in d) / 2000 - 0.55), 1e-12)
+        self.assertTrue(1 - 1e-9 < min(d) and max(d) < 4 + 1e-9)
+        self.assertIn("Lattice=\"10 0 0 0 10 0 0 0 20\"", (self.dir / "p.xyz").read_text())
+        self.assertLess(abs(self.report("--n", 100, "--packing-fraction", 0.5)["packing_fraction"] - 0.5), 1e-12)
+        self.assertLess(abs(self.report("--n", 50, "--packing-fraction", 0.1)["packing_fraction"] - 0.1), 1e-12)
+        short = self.refused(1, "--n", 100, "--packing-fraction", 0.63, "--pressure", 20, "--quiet")
+        self.assertIn("before the packing fraction 0.63", short)
+        self.refuse(3, "jam near 0.643", "--n", 1000, "--packing-fraction", 0.7)
+        self.refuse(3, "jam near", *job[:3], 0.2, *job[4:6])
+        curve.write_text("1 0\n2 60\n3 50\n4 100\n")
+        self.refuse(3, "row 2 (3, 50): the sieve curve falls", *job[:6])
+        curve.write_text("1 0\n2 x\n")
+        self.refuse(3, "line 2", *job[:6])
+        for args, text in (
+            (["--porosity", "1.2"], "above 0 and below 1"),
+            (["--porosity", "0.4", "--packing-fraction", "0.6"], "no effect beside"),
+            (["--porosity", "0.4", "--lp", "clp"], "--lp has no effect beside --porosity"),
+            (["--porosity", "0.4", "--contacts", "a"], "the crunch that --porosity leaves out"),
+            (["--porosity", "0.4", "--no-md"], "beside --no-md"),
+            (["--porosity", "0.8", "--phi0", "0.3"], "lies above"),
+            (["--cell", "1,2"], "--cell has 2 numbers"),
+            (["--cell", "1,x"], "--cell is '1,x'"),
+            (["--cell", "1,2,3", "--box", "2"], "no effect beside --box"),
+            (["--sizes", "gauss:mean=1"], "no law of sizes"),
+        ):
+            self.refuse(2, text, *args)
 
     def test_checkpoint_and_resume(self):
         job = ["--n", 1000, "--growth", "1e-2:500", "--growth", "3e-3:1e5", "--no-crunch"]

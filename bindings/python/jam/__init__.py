@@ -22,6 +22,7 @@ from ._api.generated import *  # noqa: F401,F403  enums and report dataclasses
 from ._api.functions import eos as eos, glass_fit as glass_fit
 from ._api.generated import JAM_ABI, StatusCode as StatusCode
 from .advice import Advice as Advice, advise as advise
+from ._api.size_laws import size_report as size_report, sizes as sizes
 from .errors import JamError as JamError
 from ._system.observe import Observed as Observed, Step as Step
 from .system import Contacts as Contacts, Modes as Modes, System as System

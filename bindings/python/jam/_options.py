@@ -28,12 +28,13 @@ OPTIONS = (
         'dimension, 2..8 (3)'),
     ('phi0', 'positive', 'F', None, (0, 0), (), False, ('input', 'plant'), (),
         'packing fraction of the random start (0.2; halved for each dimension above 3)'),
-    ('diameters-ratio', 'positive', 'R', 1.0, (0, 0), (), False, ('input', 'diameters'), (),
+    ('diameters-ratio', 'positive', 'R', 1.0, (0, 0), (), False, ('input', 'sizes'), (),
         'half of the spheres are R times as large (1)'),
-    ('diameters', 'diameters', 'WHAT', None, (0, 0), (), False, ('input',), (),
-        'bidisperse:R as above; lognormal:S with S the standard deviation over the mean; or a file of '
-        'diameters, of which the ratios count'),
-    ('non-additivity', 'delta', 'D', 0.0, (0, 0), (), False, (), ('diameters', 'diameters-ratio', 'input', 'resume'),
+    ('sizes', 'sizes', 'LAW', None, (0, 0), (), False, ('input',), (),
+        'diameters by a law: equal, list, uniform, normal, lognormal, power, weibull or sieve. Examples: '
+        'lognormal:deviation=0.3,draw=random, list:1=0.5,1.4=0.5, sieve:FILE with a cumulative curve. Or '
+        'a file of diameters. Only ratios count, unless a density gives the number of spheres'),
+    ('non-additivity', 'delta', 'D', 0.0, (0, 0), (), False, (), ('sizes', 'diameters-ratio', 'input', 'resume'),
         'spheres of unequal diameters touch at (1 + D) times their mean diameter, -1 < D <= 1 (0)'),
     ('model', 'choice', '', 'euclid', (0, 0), ('euclid', 'mk'), False, (), (),
         'distance: Euclidean (default) or Mari-Kurchan'),
@@ -50,6 +51,9 @@ OPTIONS = (
         'which packing of an --input that holds several: 0 is the first, -1 the last (-1)'),
     ('box', 'positive', 'L', 1.0, (0, 0), (), False, (), (),
         'side of the box, for a random start or a file that gives no box (1)'),
+    ('cell', 'cell', 'LX,LY,..', None, (0, 0), (), False, ('input', 'resume', 'box'), (),
+        'sides of a periodic brick for a random start, or all components of its cell vectors, one vector '
+        'after the other'),
     ('shrink', 'switch', '', None, (0, 0), (), False, (), ('input', 'resume'),
         'multiply all diameters of the file by the factor that brings the worst pair to contact; the '
         'summary gives it'),
@@ -63,6 +67,12 @@ OPTIONS = (
         'more stages. Default: 1e-2:500, then 3e-3 up to --pressure'),
     ('pressure', 'pressure', 'P', 10000000.0, (0, 0), (), False, (), (),
         'target of stages without :P (1e7)'),
+    ('packing-fraction', 'fraction', 'F', None, (0, 0), (), False, ('no-md', 'porosity', 'plant', 'zeta'), (),
+        'grow to exactly this packing fraction, without a crunch, which would change it. With --sizes in '
+        'the unit of --cell or --box, and without --n, the number of spheres follows and the diameters '
+        'end as the law says'),
+    ('porosity', 'fraction', 'E', None, (0, 0), (), False, ('no-md', 'plant', 'zeta'), (),
+        'the same by the void fraction, 1 - F'),
     ('no-md', 'switch', '', None, (0, 0), (), False, (), (),
         'none'),
     # A job that may be killed
@@ -74,17 +84,17 @@ OPTIONS = (
         'go on from a checkpoint. Dynamics: to the same bits, the stage that was cut off, then those '
         'stages whose pressure lies beyond. A crunch: from the packing of its last step'),
     # Crunch
-    ('method', 'choice', '', 'barrier', (0, 0), ('barrier', 'sequential-lp'), False, ('no-crunch',), (),
+    ('method', 'choice', '', 'barrier', (0, 0), ('barrier', 'sequential-lp'), False, ('no-crunch', 'packing-fraction', 'porosity'), (),
         'the quench: barrier path (default), or the published sequence of linear programs alone'),
-    ('strain', 'choice', '', 'none', (0, 0), ('none', 'edges', 'tilts', 'free'), False, ('no-crunch',), (),
+    ('strain', 'choice', '', 'none', (0, 0), ('none', 'edges', 'tilts', 'free'), False, ('no-crunch', 'packing-fraction', 'porosity'), (),
         'let the cell deform too, at fixed volume: its edges, its tilts, or both; free: the packing ends '
         'strictly jammed (none)'),
-    ('lp', 'choice', '', 'ipm', (0, 0), ('ipm', 'clp'), False, ('no-crunch',), (),
+    ('lp', 'choice', '', 'ipm', (0, 0), ('ipm', 'clp'), False, ('no-crunch', 'packing-fraction', 'porosity'), (),
         "linear programs by interior point (default) or Clp's simplex"),
-    ('duality-gap', 'not_negative', 'GAP', 0.0, (0, 0), (), False, ('no-crunch',), (),
+    ('duality-gap', 'not_negative', 'GAP', 0.0, (0, 0), (), False, ('no-crunch', 'packing-fraction', 'porosity'), (),
         'end the barrier path at this duality gap, 1e-12 .. 1e-2, with contacts from an LP there: for '
         'packings too large for the jamming point (0: the jamming point)'),
-    ('threads', 'integer', 'T', 1, (1, 2), (), False, ('no-crunch',), (),
+    ('threads', 'integer', 'T', 1, (1, 2), (), False, ('no-crunch', 'packing-fraction', 'porosity'), (),
         '1 or 2 (1; the same bits each time on 1)'),
     ('no-crunch', 'switch', '', None, (0, 0), (), False, (), (),
         'stop after molecular dynamics'),
@@ -95,7 +105,7 @@ OPTIONS = (
     ('page', 'output', 'FILE.html', None, (0, 0), (), False, (), (),
         'the packing to look at in a browser, with forces, certificate and distributions; needs no '
         'network'),
-    ('page-steps', 'integer', 'K', 0, (0, 1000), (), False, ('no-crunch',), ('page',),
+    ('page-steps', 'integer', 'K', 0, (0, 1000), (), False, ('no-crunch', 'packing-fraction', 'porosity'), ('page',),
         '--page gets a slider over at most K states of the crunch before its end, each 16 bytes a sphere '
         'in d = 3 (0)'),
     ('contacts', 'output', 'FILE', None, (0, 0), (), True, (), (),

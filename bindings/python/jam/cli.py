@@ -13,9 +13,9 @@ from . import files, raw
 from ._api.generated import LogLevel, Phase, StopReason, Verdict
 from ._formats.replacing import replacing
 from ._options import ABOUT, EXAMPLE, NOTES, OPTIONS, STAGES
-from ._start import start, take_diameters
+from ._start import density, start, take_cell, take_sizes
 from ._system.progress import every_ten_seconds
-from .errors import JamError
+from .errors import JamError, UnplaceableError
 from .system import System
 
 DONE, EARLY, USAGE, FAILED, OUTPUT = range(5)  # exit status, as jam-pack
@@ -55,6 +55,12 @@ def _integer(low: int, high: int) -> Callable[[str], int]:
     return take
 
 
+def _fraction(text: str) -> float:
+    if not 0 < float(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} must be above 0 and below 1")
+    return float(text)
+
+
 def _stage(text: str) -> tuple[float, float | None]:
     rate, colon, pressure = text.partition(":")
     return _positive(rate), _pressure(pressure) if colon else None
@@ -66,7 +72,9 @@ _KINDS: dict[str, Callable[[str], Any]] = {
     "pressure": _pressure,
     "delta": _delta,
     "stage": _stage,
-    "diameters": take_diameters,
+    "fraction": _fraction,
+    "sizes": take_sizes,
+    "cell": take_cell,
 }
 
 
@@ -102,8 +110,9 @@ def parser(named_only: bool = False) -> argparse.ArgumentParser:
     return p
 
 
-def _effects(p: argparse.ArgumentParser, o: argparse.Namespace, arguments: list[str] | None) -> None:
-    """Nothing is ignored in silence: an option that can have no effect beside the others is refused."""
+def _effects(p: argparse.ArgumentParser, o: argparse.Namespace, arguments: list[str] | None) -> set[str]:
+    """Nothing is ignored in silence: an option that can have no effect beside the others is refused. Returns the options that
+    the command line names."""
     named = {name.replace("_", "-") for name in vars(parser(True).parse_args(arguments))}
     for name, _, _, _, _, _, _, without, needs, _ in OPTIONS:
         if name not in named:
@@ -115,11 +124,19 @@ def _effects(p: argparse.ArgumentParser, o: argparse.Namespace, arguments: list[
             p.error(f"--{name} has no effect without --{needs[0]}")
     if o.model == "euclid" and "model" in named and (o.zeta is not None or o.plant is not None):
         p.error(f"--model euclid contradicts {'--plant' if o.zeta is None else '--zeta'}")
-    still = o.no_md or (o.input and not o.growth)
+    if o.cell and len(o.cell) not in (o.dim, o.dim * o.dim):
+        p.error(
+            f"--cell has {len(o.cell)} numbers, in d = {o.dim} it needs {o.dim} sides or {o.dim * o.dim} components of vectors"
+        )
+    aim = density(o)
+    if aim is not None and o.phi0 is not None and o.phi0 > aim:
+        p.error(f"--phi0 {o.phi0:g} lies above the packing fraction {aim:g} to grow to")
+    still = o.no_md or (o.input and not o.growth and aim is None)
     if o.checkpoint and o.no_crunch and still and not (o.resume or o.nve or o.growth):
         p.error("--checkpoint has no effect: neither dynamics nor a crunch run")
     if "pressure" in named and (still or (o.growth and all(pressure for _, pressure in o.growth))):
         p.error("--pressure has no effect: no stage of growth runs up to it")
+    return named
 
 
 def _same(a: str | None, b: str | None) -> bool:
@@ -186,7 +203,7 @@ class _Work:
             options["resume"] = 1
 
     def stages(self) -> list[tuple[str, dict[str, float]]]:
-        o = self.o
+        o, aim = self.o, density(self.o)
         steps: list[tuple[str, dict[str, Any]]] = (
             [("run", {"collisions_per_particle": o.nve})] if o.nve > 0 and not o.resume else []
         )
@@ -197,6 +214,9 @@ class _Work:
             own = zip((g for g, _ in STAGES), before, ends)
             chosen = o.growth or [(g, min(end, o.pressure)) for g, begin, end in own if o.pressure > begin]
             steps += [("compress", {"growth_rate": g, "pressure": p or o.pressure}) for g, p in chosen]
+        if aim is not None:  # without --growth the protocol of the library
+            growths = [s for s in steps if s[0] == "compress"] if o.growth else [("compress", {"pressure": o.pressure})]
+            steps = [s for s in steps if s[0] == "run"] + [(v, {**g, "packing_fraction": aim}) for v, g in growths]
         if o.resume:  # what the checkpoint was in the middle of; then the stages that lead beyond its pressure, or none
             if self.system.info.paused == Phase.CRUNCH:
                 return []
@@ -208,13 +228,18 @@ class _Work:
 
     def run(self) -> int:
         o, out, status = self.o, self.out, 0
-        reached = self.system.pressure
+        reached, aim = self.system.pressure, density(o)
         for verb, options in self.stages():
+            if aim is not None and out["md_stop_reason"] == "packing_fraction":
+                break
             if o.resume and options.get("pressure", math.inf) <= reached:
                 continue
             if not options.get("resume"):
                 stage = {"run": "nve", "compress": "growth"}[verb]
-                out["protocol"].append({"stage": stage} | {k: float(x) for k, x in options.items()})
+                shown = {k: float(x) for k, x in options.items()}
+                if aim is not None and verb == "compress":
+                    shown.pop("packing_fraction" if "growth_rate" in shown else "pressure")
+                out["protocol"].append({"stage": stage} | shown)
             status = self.stage(verb, **options)
             reached = self.system.pressure
             if not options.get("resume") and verb == "compress":
@@ -227,6 +252,10 @@ class _Work:
                 print(f"python3 -m jam: warning: {name} ended at p = {reached:.4g}: {why}", file=sys.stderr)
             if status in (CANCELLED, LIMIT):
                 return status
+        if aim is not None and out["md_stop_reason"] != "packing_fraction":
+            out["fell_short"] = True
+            said = f"growth ended at p = {reached:.4g}, before the packing fraction {aim:.6g}"
+            print(f"python3 -m jam: warning: {said}", file=sys.stderr)
         if not o.no_crunch:
             method = {"barrier": "barrier_path"}.get(o.method, o.method.replace("-", "_"))
             r = self.system.crunch(
@@ -349,7 +378,7 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
         for other in chosen:
             if other != key and _same(chosen[other], path):
                 p.error(f"--{key} and --{other} must be different files")
-        sizes = o.diameters[1] if o.diameters and o.diameters[0] == "file" else None
+        sizes = o.sizes[1] if o.sizes and o.sizes[0] == "file" else None
         if (
             (key != "output" and _same(o.input, path))
             or (key != "checkpoint" and _same(o.resume, path))
@@ -357,7 +386,8 @@ def _outputs(p: argparse.ArgumentParser, o: argparse.Namespace) -> list[str]:
         ):
             p.error(f"--{key} would overwrite the input")
         if o.no_crunch and outputs[key]:
-            p.error(f"--{key} needs the crunch that --no-crunch leaves out")
+            why = "no-crunch" if density(o) is None else "packing-fraction" if o.porosity is None else "porosity"
+            p.error(f"--{key} needs the crunch that --{why} leaves out")
     name = (o.output or "").removesuffix(".gz")
     ending = os.path.splitext(name)[1]
     if ending not in (*PACKINGS, "") and not ending[1:].isdigit():
@@ -407,8 +437,9 @@ def main(arguments: list[str] | None = None) -> int:
     o = p.parse_args(arguments)
     if o.no_md and (o.growth or o.nve):
         p.error("--no-md contradicts --growth and --nve")
+    o.no_crunch = o.no_crunch or density(o) is not None
     outputs = _outputs(p, o)
-    _effects(p, o, arguments)
+    named = _effects(p, o, arguments)
     for path in outputs:
         folder = os.path.dirname(path) or "."
         if not os.access(folder, os.W_OK):
@@ -427,7 +458,7 @@ def main(arguments: list[str] | None = None) -> int:
     }
     code = DONE
     try:
-        system = start(o)
+        system = start(o, named)
     except (JamError, ValueError, OSError) as error:
         print(f"jam: {error}", file=sys.stderr)
         return FAILED
@@ -441,6 +472,8 @@ def main(arguments: list[str] | None = None) -> int:
         code = EARLY
     except JamError as error:
         print(f"jam: {error}", file=sys.stderr)
+        if isinstance(error, UnplaceableError):  # the density lies beyond reach: nothing was done that is worth a file
+            return FAILED
         code = FAILED
     try:
         log.close(system)

@@ -13,6 +13,7 @@ from ._api.errors import METHODS
 from ._api.given import cell_of, positions_of, refuse_start_options, refuse_unnamed_box, side_of, sizes_of
 from ._api.options import option_struct
 from ._api.results import Contacts, Modes
+from ._api.size_laws import density_of
 from ._formats import gsd
 from ._system.progress import end, reporter
 from ._system.verbs import Verbs
@@ -46,11 +47,12 @@ class System(Verbs, Writing):
     @classmethod
     def random(
         cls,
-        n: int = 1024,
+        n: int | None = None,
         dim: int = 3,
         seed: int = 1,
         *,
         packing_fraction: float | None = None,
+        porosity: float | None = None,
         diameters: Any = None,
         progress: Any = None,
         **options: Any,
@@ -61,16 +63,19 @@ class System(Verbs, Writing):
 
         Parameters
         ----------
-        n : int
-            Number of spheres.
+        n : int, optional
+            Number of spheres. Default: that of the diameters, 1024 without any.
         dim : int
             Dimension, 2 to 8.
         seed : int
             Seed of every random stream of this system.
         packing_fraction : float, optional
-            Of the start. Default: 0.2, halved for each dimension above 3.
+            Of the start. Default: 0.2, halved for each dimension above 3. Denser packings than random addition makes
+            are grown by `compress`, which takes a packing_fraction or porosity too.
+        porosity : float, optional
+            Instead: the void fraction of the start, 1 - packing_fraction.
         diameters : array_like, optional
-            n values; only their ratios count. Default: all equal.
+            n values, for example of jam.sizes; only their ratios count. Default: all equal.
         progress : bool or callable, optional
             As of `compress`. A true answer of the callable ends the call with StoppedError, as wall_time does.
         **options
@@ -84,8 +89,11 @@ class System(Verbs, Writing):
         System(n=100, dim=2, packing_fraction=0.2, box=1, seed=7)
         """
         sizes = None if diameters is None else as_array(diameters, name="diameters").reshape(-1)
+        packing_fraction = density_of(packing_fraction, porosity)
         if packing_fraction is None:
             packing_fraction = 0.0  # the library's own, by dimension
+        if n is None:
+            n = 1024 if sizes is None else len(sizes)
         made = dict(options, n=n, dim=dim, seed=seed, packing_fraction=packing_fraction)
         return cls._create(made, None, sizes, progress)
 

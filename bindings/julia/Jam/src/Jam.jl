@@ -20,7 +20,7 @@ include("raw.jl")
 
 export System, JamError, run!, compress!, crunch!, cancel, info, report, positions, diameters, velocities,
        set_positions!, set_velocities!, scale_diameters!, contacts, contact_vectors, contact_gaps, forces,
-       coordination, judge, hessian_rows, modes, call_array, checkpoint, from_checkpoint
+       coordination, judge, sizes, size_report, hessian_rows, modes, call_array, checkpoint, from_checkpoint
 
 "A call failed; the system is as it was before. `status` is the code, `text` the library's."
 struct JamError <: Exception
@@ -157,6 +157,46 @@ function System(path::AbstractString; given...)
     out = Ref{Ptr{Cvoid}}(C_NULL)
     check(jam_read(path, o, out))
     return System(out[])
+end
+
+"""
+    sizes(law; n, curve, packing_fraction, porosity, cell_volume, dim, seed, draw, mean, deviation, ...)
+
+Diameters of a law given by text: its name and what it takes, as in `"lognormal:deviation=0.3"` or `"sieve:grading.csv"`.
+Keywords of `jam_diameters_options` may give fields instead, and `curve` the rows of a list or a sieve curve, a 2-by-rows
+matrix. Without `n` it follows from `cell_volume` and `packing_fraction`, or `porosity`, the void fraction.
+"""
+function sizes(law::AbstractString; curve = nothing, porosity = nothing, given...)
+    parsed, needed = options(jam_diameters_options, jam_diameters_options_init, (;)), Ref{Csize_t}(0)
+    check(jam_diameters_parse(law, parsed, nothing, 0, needed))
+    rows = Vector{Cdouble}(undef, needed[])
+    isempty(rows) || check(jam_diameters_parse(law, parsed, rows, length(rows), needed))
+    if curve !== nothing
+        isempty(rows) || throw(ArgumentError("the law's text and curve both give rows"))
+        size(curve, 1) == 2 || throw(ArgumentError("curve must be a 2-by-rows matrix, not $(size(curve))"))
+        rows = vec(dense(curve))
+    end
+    if porosity !== nothing
+        haskey(given, :packing_fraction) && throw(ArgumentError("give packing_fraction or porosity"))
+        0 < porosity < 1 || throw(ArgumentError("porosity is $porosity, it must be above 0 and below 1"))
+        given = (; given..., packing_fraction = 1 - porosity)
+    end
+    named = options(jam_diameters_options, jam_diameters_options_init, given)
+    for name in keys(given)
+        setfield!(parsed, name, getfield(named, name))
+    end
+    x = isempty(rows) ? nothing : rows
+    check(jam_diameters(parsed, x, length(rows), nothing, 0, needed))
+    out = Vector{Cdouble}(undef, needed[])
+    check(jam_diameters(parsed, x, length(rows), out, length(out), needed))
+    return out
+end
+
+"What diameters are: a jam_size_report with moments, d10, d50, d90 by volume, and the densities in reach."
+function size_report(diameters; dim = 3)
+    made, x = jam_size_report(), vec(dense(diameters))
+    check(jam_size_report_get(dim, x, length(x), made))
+    return made
 end
 
 "What was changed or assumed when the system was made, a sentence a line."
@@ -298,11 +338,16 @@ function run!(s::System; progress = nothing, given...)
 end
 
 """
-    compress!(s; growth_rate, pressure, packing_fraction, collisions_per_particle, wall_time, progress)
+    compress!(s; growth_rate, pressure, packing_fraction, porosity, collisions_per_particle, wall_time, progress)
 
-Lubachevsky-Stillinger growth; without options the two-stage protocol. Returns a jam_md_report.
+Lubachevsky-Stillinger growth; without options the two-stage protocol. With packing_fraction, or porosity = 1 minus it, it
+ends at exactly this density. Returns a jam_md_report.
 """
-function compress!(s::System; progress = nothing, given...)
+function compress!(s::System; progress = nothing, porosity = nothing, given...)
+    if porosity !== nothing
+        haskey(given, :packing_fraction) && throw(ArgumentError("give packing_fraction or porosity"))
+        given = (; given..., packing_fraction = 1 - porosity)
+    end
     o = isempty(given) ? nothing : options(jam_compress_options, jam_compress_options_init, given)
     made = jam_md_report()
     verb(h -> jam_compress(h, o, made), s, progress)

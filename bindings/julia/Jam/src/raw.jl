@@ -68,6 +68,30 @@ const JAM_MODEL_MK = Int32(1)  # Mari-Kurchan: |r_i - r_j + zeta A_ij|, quenched
 const JAM_MASSES_EQUAL = Int32(0)  # all 1
 const JAM_MASSES_VOLUME = Int32(1)  # as the volumes, sigma_i^d
 
+# jam_size_law: Laws of diameters s. Each takes the fields named here, and no others.
+const JAM_SIZES_EQUAL = Int32(0)  # mean
+const JAM_SIZES_LIST = Int32(1)  # curve: rows (diameter, share)
+const JAM_SIZES_UNIFORM = Int32(2)  # low, high: constant density between them
+const JAM_SIZES_NORMAL = Int32(3)  # mean, deviation; cut at 0, or by low and high
+const JAM_SIZES_LOGNORMAL = Int32(4)  # mean, deviation, both of s, not of its logarithm; may be cut by low and high
+const JAM_SIZES_POWER = Int32(5)  # exponent, low, high: density s^exponent between them
+const JAM_SIZES_WEIBULL = Int32(6)  # scale, shape (Rosin-Rammler): share above s is exp(-(s / scale)^shape); may be cut
+const JAM_SIZES_SIEVE = Int32(7)  # curve: rows (size, share that passes it), from 0 to 1 or to 100 per cent; straight in the logarithm of the size between two rows
+
+# jam_size_share: What the shares of a law count.
+const JAM_SHARE_USUAL = Int32(0)  # volume for WEIBULL and SIEVE, number for the others
+const JAM_SHARE_NUMBER = Int32(1)  # spheres
+const JAM_SHARE_VOLUME = Int32(2)  # volume: mass at one density
+
+# jam_size_draw: How diameters are drawn from a law.
+const JAM_DRAW_QUANTILES = Int32(0)  # one sphere for each n-th of the number, so that few spheres follow the law. By number it is the middle one, by volume the one of the mean volume
+const JAM_DRAW_RANDOM = Int32(1)  # independent, by the seed
+
+# jam_reach_source: Where jam_size_report.jammed_fraction comes from.
+const JAM_REACH_FARR_GROOT = Int32(1)  # d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009))
+const JAM_REACH_MEASURED = Int32(2)  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
+const JAM_REACH_CRYSTAL = Int32(3)  # disks of nearly one size, which order: the hexagonal packing
+
 # jam_phase: Which part reports progress.
 const JAM_PHASE_RUN = Int32(1)  # NVE molecular dynamics
 const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
@@ -345,6 +369,52 @@ mutable struct jam_info
     paused::Int32  # jam_phase of what was stopped early and can go on, or 0; JAM_PHASE_CRUNCH: by jam_crunch
     non_additivity::Cdouble  # Delta of a non-additive mixture, 0 for additive diameters
     jam_info() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Options of jam_diameters. Lengths are in the user's unit.
+"""
+mutable struct jam_diameters_options
+    struct_size::UInt32  # sizeof(jam_diameters_options)
+    law::Int32  # default EQUAL. jam_size_law
+    share::Int32  # default USUAL. jam_size_share
+    draw::Int32  # default QUANTILES. jam_size_draw
+    dim::Int32  # 2..8, default 3: of volumes
+    reserved::Int32  # 0
+    n::Int64  # number of spheres; default 0: it follows from packing_fraction
+    seed::Int64  # of RANDOM, default 1
+    mean::Cdouble  # diameter, > 0, default 1
+    deviation::Cdouble  # standard deviation of the diameter, > 0; default NaN: not given
+    low::Cdouble  # smallest diameter, default 0: not given
+    high::Cdouble  # largest diameter, default infinity: not given
+    exponent::Cdouble  # default NaN: not given
+    scale::Cdouble  # > 0, default 1
+    shape::Cdouble  # > 0, default NaN: not given
+    cell_volume::Cdouble  # default 0: not given. Spheres of more volume are refused
+    packing_fraction::Cdouble  # of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes reach in disorder is refused
+    jam_diameters_options() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+What a set of diameters is.
+"""
+mutable struct jam_size_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_size_report)
+    source::Int32  # jam_reach_source
+    n::Int64  # number of spheres
+    mean::Cdouble  # diameter, by number
+    deviation::Cdouble  # standard deviation, by number
+    polydispersity::Cdouble  # deviation / mean
+    least::Cdouble  # diameter
+    largest::Cdouble  # diameter
+    d10::Cdouble  # diameter below which 10 % of the volume lies
+    d50::Cdouble  # 50 %
+    d90::Cdouble  # 90 %
+    volume::Cdouble  # of all spheres, unit^d
+    largest_share::Cdouble  # of the volume, of the largest sphere: how closely a curve can be followed
+    sequential_fraction::Cdouble  # where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
+    jammed_fraction::Cdouble  # estimate of the packing fraction at which these sizes jam in disorder
+    jam_size_report() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1125,6 +1195,54 @@ function jam_strain(sys, strain, strain_len)
 end
 
 """
+Fills *o with the defaults.
+"""
+function jam_diameters_options_init(o, size)
+    return ccall((:jam_diameters_options_init, libjam), Int32, (Ref{jam_diameters_options}, Csize_t), _ref(jam_diameters_options, o), size)
+end
+
+"""
+Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
+last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
+sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
+Example: examples/c/sieve.c
+Shapes: curve (rows, 2), out (m).
+Errors: JAM_E_DIMENSION, JAM_E_UNPLACEABLE (packing_fraction).
+"""
+function jam_diameters(o, curve, curve_len, out, out_len, needed)
+    return ccall((:jam_diameters, libjam), Int32, (Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ptr(out), out_len, _ref(Csize_t, needed))
+end
+
+"""
+Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
+`LAW:item,item...`. An item is a field (`deviation=0.3`, `share=volume`, `draw=random`), a row of the curve
+(`0.5=0.12`), or a file of two columns, with comments behind #.
+Shapes: curve (rows, 2).
+Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line).
+"""
+function jam_diameters_parse(text, o, curve, curve_len, needed)
+    return ccall((:jam_diameters_parse, libjam), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
+end
+
+"""
+volume of a cell of d = dim vectors, row after row, with a positive determinant.
+Shapes: cell (m).
+Errors: JAM_E_DIMENSION.
+"""
+function jam_cell_volume(dim, cell, cell_len, volume)
+    return ccall((:jam_cell_volume, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), dim, _ptr(cell), cell_len, _ref(Cdouble, volume))
+end
+
+"""
+Describes diameters > 0 in dimension dim.
+Shapes: diameters (n).
+Errors: JAM_E_DIMENSION.
+"""
+function jam_size_report_get(dim, diameters, diameters_len, report)
+    return ccall((:jam_size_report_get, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{jam_size_report}), dim, _ptr(diameters), diameters_len, _ref(jam_size_report, report))
+end
+
+"""
 Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
 too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
 its handle does not call it again.
@@ -1276,13 +1394,13 @@ end
 """
 Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
-default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage.
-Collisions of growing spheres add kinetic energy. A thermostat holds sum m v^2 within 5 % of d N, and at the end the
-velocities are scaled to it exactly. Status: JAM_OK (a pressure or packing-fraction target reached, see
-report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled: a sphere touches its own image, or no time passes
-between collisions). A resumed call finishes the stage and goes on with the next. Small systems (below about 200
-equal spheres in d = 3) order under this protocol.
-Errors: JAM_E_OVERLAP.
+default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
+thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
+(a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
+a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
+with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
+packing fraction alone, one that these sizes do not reach in disorder is refused.
+Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))

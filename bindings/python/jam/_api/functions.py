@@ -11,6 +11,26 @@ def _call(name: str, *args: Any, **named: Any) -> Any:
     return invoke(None, 0, name, args, named)[1]
 
 
+def cell_volume(dim: int, cell: Any) -> float:
+    """volume of a cell of d = dim vectors, row after row, with a positive determinant.
+
+    Parameters
+    ----------
+    dim : int
+    cell : array_like, shape (m,)
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ArgumentError, NonfiniteError, DimensionError
+    """
+    answer: float = _call('cell_volume', dim, cell)
+    return answer
+
+
 def eos(form: int | str, dim: int, packing_fraction: float, jammed_fraction: float) -> float:
     """pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
 

@@ -78,6 +78,38 @@ class Masses(IntEnum):
     VOLUME = 1  # as the volumes, sigma_i^d
 
 
+class SizeLaw(IntEnum):
+    """Laws of diameters s. Each takes the fields named here, and no others."""
+    EQUAL = 0  # mean
+    LIST = 1  # curve: rows (diameter, share)
+    UNIFORM = 2  # low, high: constant density between them
+    NORMAL = 3  # mean, deviation; cut at 0, or by low and high
+    LOGNORMAL = 4  # mean, deviation, both of s, not of its logarithm; may be cut by low and high
+    POWER = 5  # exponent, low, high: density s^exponent between them
+    WEIBULL = 6  # scale, shape (Rosin-Rammler): share above s is exp(-(s / scale)^shape); may be cut
+    SIEVE = 7  # curve: rows (size, share that passes it), from 0 to 1 or to 100 per cent; straight in the logarithm of the size between two rows
+
+
+class SizeShare(IntEnum):
+    """What the shares of a law count."""
+    USUAL = 0  # volume for WEIBULL and SIEVE, number for the others
+    NUMBER = 1  # spheres
+    VOLUME = 2  # volume: mass at one density
+
+
+class SizeDraw(IntEnum):
+    """How diameters are drawn from a law."""
+    QUANTILES = 0  # one sphere for each n-th of the number, so that few spheres follow the law. By number it is the middle one, by volume the one of the mean volume
+    RANDOM = 1  # independent, by the seed
+
+
+class ReachSource(IntEnum):
+    """Where jam_size_report.jammed_fraction comes from."""
+    FARR_GROOT = 1  # d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009))
+    MEASURED = 2  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
+    CRYSTAL = 3  # disks of nearly one size, which order: the hexagonal packing
+
+
 class Phase(IntEnum):
     """Which part reports progress."""
     RUN = 1  # NVE molecular dynamics
@@ -418,6 +450,40 @@ class Info(Report):
     masses: Masses
     paused: Phase
     non_additivity: float
+
+
+@dataclass(frozen=True, repr=False)
+class SizeReport(Report):
+    """What a set of diameters is.
+
+    source: jam_reach_source
+    n: number of spheres
+    mean: diameter, by number
+    deviation: standard deviation, by number
+    polydispersity: deviation / mean
+    least: diameter
+    largest: diameter
+    d10: diameter below which 10 % of the volume lies
+    d50: 50 %
+    d90: 90 %
+    volume: of all spheres, unit^d
+    largest_share: of the volume, of the largest sphere: how closely a curve can be followed
+    sequential_fraction: where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
+    jammed_fraction: estimate of the packing fraction at which these sizes jam in disorder"""
+    source: ReachSource
+    n: int
+    mean: float
+    deviation: float
+    polydispersity: float
+    least: float
+    largest: float
+    d10: float
+    d50: float
+    d90: float
+    volume: float
+    largest_share: float
+    sequential_fraction: float
+    jammed_fraction: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -1013,6 +1079,23 @@ OPTIONS = {
         "frame": ("int", 'which packing of a file with several, from 0; negative: from the end; default -1, the last'),
         "shrink_min": ("float", "smallest factor that 'shrink' may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units"),
     },
+    "jam_diameters_options": {
+        "law": ("SizeLaw", 'default EQUAL. SizeLaw'),
+        "share": ("SizeShare", 'default USUAL. SizeShare'),
+        "draw": ("SizeDraw", 'default QUANTILES. SizeDraw'),
+        "dim": ("int", '2..8, default 3: of volumes'),
+        "n": ("int", 'number of spheres; default 0: it follows from packing_fraction'),
+        "seed": ("int", 'of RANDOM, default 1'),
+        "mean": ("float", 'diameter, > 0, default 1'),
+        "deviation": ("float", 'standard deviation of the diameter, > 0; default NaN: not given'),
+        "low": ("float", 'smallest diameter, default 0: not given'),
+        "high": ("float", 'largest diameter, default infinity: not given'),
+        "exponent": ("float", 'default NaN: not given'),
+        "scale": ("float", '> 0, default 1'),
+        "shape": ("float", '> 0, default NaN: not given'),
+        "cell_volume": ("float", 'default 0: not given. Spheres of more volume are refused'),
+        "packing_fraction": ("float", 'of the spheres in cell_volume, in place of n; default 0: not given. More than these sizes reach in disorder is refused'),
+    },
     "jam_run_options": {
         "resume": ("bool", '1: go on with the run that stopped early; default 0'),
         "collisions_per_particle": ("float", 'to make since the run began, > 0, default 100'),
@@ -1145,6 +1228,7 @@ OPTIONS = {
 # report structs: {C name: dataclass}
 REPORTS = {
     "jam_info": Info,
+    "jam_size_report": SizeReport,
     "jam_progress": Progress,
     "jam_md_report": MdReport,
     "jam_glass": Glass,
@@ -1187,6 +1271,10 @@ CALLS = {
     "jam_cell_get": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_cell_set": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),
+    "jam_diameters": (False, (("o", "struct_in", "jam_diameters_options"), ("curve", "array_in", "double"), ("curve_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_diameters_parse": (False, (("text", "string", "char"), ("o", "struct_out", "jam_diameters_options"), ("curve", "array_out", "double"), ("curve_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_cell_volume": (False, (("dim", "scalar", "int32_t"), ("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("volume", "scalar_out", "double"))),
+    "jam_size_report_get": (False, (("dim", "scalar", "int32_t"), ("diameters", "array_in", "double"), ("diameters_len", "len", "size_t"), ("report", "struct_out", "jam_size_report"))),
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
     "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "LogLevel"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),

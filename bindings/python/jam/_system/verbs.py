@@ -13,6 +13,7 @@ from .._api.calls import freeze, new_report
 from .._api.documented import takes
 from .._api.generated import CrunchReport, DecompressReport, MdReport, RelaxReport, SoftColumn, StatusCode, StopReason
 from .._api.options import as_enum, option_struct, spelled_out
+from .._api.size_laws import density_of
 from .observe import Observing, Step
 from .progress import end, reporter
 from .runs import Runs, make_runs
@@ -75,6 +76,7 @@ class Verbs(Observing):
         self,
         stages: Iterable[Mapping[str, float] | Sequence[float]] | None = None,
         *,
+        porosity: float | None = None,
         progress: Any = None,
         **options: Any,
     ) -> MdReport:
@@ -82,7 +84,8 @@ class Verbs(Observing):
 
         Without `stages` and growth_rate it runs the two stages that avoid crystals in d = 3: growth rate 1e-2 to p = 500,
         then 3e-3 to `pressure`, 1e7 by default. Limits, targets and growth_law keep them. A growth_rate makes one stage
-        of that rate.
+        of that rate. With packing_fraction or porosity it ends at exactly this density. From a fluid one that these sizes
+        do not reach in disorder is refused.
 
         Parameters
         ----------
@@ -90,6 +93,8 @@ class Verbs(Observing):
             Each stage is a pair (growth_rate, pressure) or a dict of options, growth_rate among them. They run one after the other, and
             `options` hold for all of them; one that every stage gives itself is refused. A stage that stops early ends
             the sequence.
+        porosity : float, optional
+            Void fraction, 1 - packing_fraction.
 
         Returns
         -------
@@ -105,6 +110,8 @@ class Verbs(Observing):
         ('PRESSURE', True)
         """
         report: MdReport | None = None
+        if porosity is not None:
+            options["packing_fraction"] = density_of(options.get("packing_fraction"), porosity)
         if stages is None:
             report = self._verb("jam_compress", "jam_compress_options", "jam_md_report", progress, options or None)
         made = [dict(s) if isinstance(s, Mapping) else dict(zip(("growth_rate", "pressure"), s)) for s in stages or ()]

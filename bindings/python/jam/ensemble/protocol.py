@@ -24,10 +24,12 @@ from .._api import generated
 from .._api.arrays import Array
 from .._api.generated import OPTIONS, StatusCode
 from .._api.options import option_struct, spelled_out
+from .._api.size_laws import sizes as draw_sizes
 from ..system import System
 
 PARTS = ("start", "stages", "crunch", "analysis")
 LATTICES = ("fcc",)
+#: Laws of diameters and what they take by default; besides these, every law of jam.sizes.
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
 #: Growth that avoids crystals: fast through the fluid, slower in the glass (the stages of `python3 -m jam`).
 STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in _programs.STAGES)
@@ -52,7 +54,7 @@ def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple
     return {k: v for k, v in spelled_out(made, struct).items() if k in known}
 
 
-def _diameters(given: Any, n: int) -> Any:
+def _diameters(given: Any, n: int, dim: int) -> Any:
     if given is None:
         return None
     if not isinstance(given, Mapping):
@@ -60,13 +62,17 @@ def _diameters(given: Any, n: int) -> Any:
         if len(sizes) != n or not (np.isfinite(sizes) & (sizes > 0)).all():
             raise ProtocolError(f"start: diameters must be {n} finite numbers > 0, a law, or None")
         return sizes.tolist()
-    law = given.get("law")
-    if law not in LAWS or set(given) - {"law"} - set(LAWS[law]):
-        raise ProtocolError(f"start: diameters {dict(given)!r}; a law is one of {LAWS} with its numbers")
-    made = {k: float(given.get(k, v)) for k, v in LAWS[law].items()}
-    if min(made.values()) <= 0 or made.get("share", 0.5) >= 1:
-        raise ProtocolError(f"start: diameters {dict(given)!r}: numbers must be > 0, a share < 1")
-    return {"law": law, **made}
+    law = {k: float(v) if isinstance(v, (int, float)) else v for k, v in given.items()}
+    law = {"law": law.pop("law", None), **LAWS.get(str(given.get("law")), {}), **law}
+    if law["law"] == "bidisperse":
+        if set(law) != {"law", "ratio", "share"} or not (law["ratio"] > 0 and 0 < law["share"] < 1):
+            raise ProtocolError(f"start: diameters {dict(given)!r}: bidisperse takes a ratio > 0 and a share in (0, 1)")
+        return law
+    try:
+        _sizes(law, n, dim, 1)
+    except (errors.JamError, TypeError, ValueError) as error:
+        raise ProtocolError(f"start: diameters {dict(given)!r}: {error}") from None
+    return law
 
 
 def _start(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -87,7 +93,7 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
             raise ProtocolError(f"start: lattice {lattice!r} is none of {', '.join(LATTICES)}")
         if made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]:
             raise ProtocolError(f"start: an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
-    return {**made, "diameters": _diameters(sizes, made["n"]), "lattice": lattice}
+    return {**made, "diameters": _diameters(sizes, made["n"], made["dim"]), "lattice": lattice}
 
 
 def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str, Any]:
@@ -206,29 +212,14 @@ def packing_name(protocol_id: str, seed: int, version: str | None = None) -> str
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _uniform(seed: int, k: int) -> float:
-    """In (0, 1): the k-th number of a seed, by the finaliser of splitmix64 (Steele, Lea and Flood 2014)."""
-    mask = (1 << 64) - 1
-    x = (seed * 0x9E3779B97F4A7C15 + k) & mask
-    for _ in range(2):
-        x = (x + 0x9E3779B97F4A7C15) & mask
-        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & mask
-        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & mask
-        x ^= x >> 31
-    return ((x >> 11) + 0.5) * 2.0**-53
-
-
-def _sizes(law: Any, n: int, seed: int) -> Array | None:
+def _sizes(law: Any, n: int, dim: int, seed: int) -> Array | None:
     """Ratios of the diameters."""
     if law is None or isinstance(law, list):
         return None if law is None else np.array(law)
     if law["law"] == "bidisperse":
         return np.where(np.arange(n) < round(law["share"] * n), 1.0, law["ratio"])
-    width = math.sqrt(math.log1p(law["deviation"] ** 2))
-    u = np.array([(_uniform(seed, 2 * k), _uniform(seed, 2 * k + 1)) for k in range(n)])
-    # Box and Muller 1958
-    found: Array = np.exp(width * np.sqrt(-2.0 * np.log(u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))
-    return found
+    fields: dict[str, Any] = {"draw": "random", "seed": seed, **{k: v for k, v in law.items() if k != "law"}}
+    return draw_sizes(str(law["law"]), n, dim=dim, **fields)
 
 
 def _fcc(n: int, box: float) -> Array:
@@ -242,7 +233,7 @@ def _fcc(n: int, box: float) -> Array:
 def begin(protocol: Mapping[str, Any], seed: int) -> System:
     """The start of a complete protocol."""
     given = {k: v for k, v in protocol["start"].items() if k != "lattice"}
-    sizes = _sizes(given.pop("diameters"), given["n"], seed)
+    sizes = _sizes(given.pop("diameters"), given["n"], given["dim"], seed)
     if protocol["start"]["lattice"] is None:
         return System.random(seed=seed, diameters=sizes, **given)
     n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")

@@ -1,0 +1,68 @@
+// Header section "sizes".
+#include <string>
+#include <vector>
+
+#include "capi/guard.hpp"
+#include "core/cell_reduction.hpp"
+#include "core/limits.hpp"
+#include "core/size_laws.hpp"
+#include "io/files.hpp"
+
+using namespace jam;
+
+extern "C" {
+
+jam_status jam_diameters_options_init(jam_diameters_options *o, size_t size) {
+  return init_options(o, size, default_diameters_options());
+}
+
+jam_status jam_diameters(const jam_diameters_options *o, const double *curve, size_t curve_len, double *out,
+                         size_t out_len, size_t *needed) {
+  return guard([&]() -> jam_status {
+    jam_diameters_options full = default_diameters_options();
+    take_options(o, full);
+    if (curve_len && !curve) fail(JAM_E_NULL, "curve is NULL but its length is %zu", curve_len);
+    const std::vector<double> s = draw_diameters(full, curve, curve_len);
+    return give_array(s.data(), s.size(), out, out_len, needed);
+  });
+}
+
+jam_status jam_diameters_parse(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
+                               size_t *needed) {
+  return guard([&]() -> jam_status {
+    need(text, "text");
+    need(o, "o");
+    jam_diameters_options full = default_diameters_options();
+    take_options(o, full);
+    std::vector<double> rows;
+    for (const std::string &file : parse_size_law(text, full, rows)) read_curve(file.c_str(), rows);
+    give_struct(full, o);
+    return give_array(rows.data(), rows.size(), curve, curve_len, needed);
+  });
+}
+
+jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, double *volume) {
+  return guard([&]() -> jam_status {
+    need(cell, "cell");
+    need(volume, "volume");
+    check_dim(dim);
+    check_matrix_len("cell", cell_len, dim);
+    check_array_in(cell, cell_len, "cell");
+    *volume = 1.0;
+    const Cell reduced = reduce_cell(dim, cell).cell;
+    for (int c = 0; c < dim; ++c) *volume *= reduced.edge(c);
+    return JAM_OK;
+  });
+}
+
+jam_status jam_size_report_get(int32_t dim, const double *diameters, size_t diameters_len, jam_size_report *report) {
+  return guard([&]() -> jam_status {
+    need(report, "report");
+    check_out_struct(report, "report");
+    if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
+    give_struct(size_report(dim, std::vector<double>(diameters, diameters + diameters_len)), report);
+    return JAM_OK;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,178 @@
+// Diameters drawn from a law.
+#include <algorithm>
+#include <cmath>
+
+#include "core/call_scope.hpp"
+#include "core/error.hpp"
+#include "core/limits.hpp"
+#include "core/math.hpp"
+#include "core/packing.hpp"
+#include "core/rng.hpp"
+#include "core/size_laws.hpp"
+
+namespace jam {
+namespace {
+
+using Options = jam_diameters_options;
+
+class Drawing {
+ public:
+  Drawing(const Options &o, const SizeDistribution &law)
+      : law_(law), dim_(o.dim), seed_(o.seed), random_(o.draw == JAM_DRAW_RANDOM) {}
+  double volume(double s) const { return unit_sphere_volume(dim_) * math::pow(s, dim_); }
+  std::vector<double> of(int64_t n) const {
+    std::vector<double> out(static_cast<size_t>(n));
+    if (random_)
+      random_from(out, 0);
+    else if (law_.by_volume())
+      volume_quantiles(out);
+    else
+      for (int64_t k = 0; k < n; ++k)
+        out[static_cast<size_t>(k)] = law_.quantile((static_cast<double>(k) + 0.5) / static_cast<double>(n));
+    return out;
+  }
+  // So many that their volume comes nearest to `wanted`.
+  std::vector<double> filling(double wanted) const {
+    return random_ ? random_filling(wanted) : quantiles_filling(wanted);
+  }
+  double total(const std::vector<double> &s) const {
+    double sum = 0.0, lost = 0.0;  // Kahan's sum
+    for (const double x : s) {
+      const double next = volume(x) - lost, now = sum + next;
+      lost = (now - sum) - next;
+      sum = now;
+    }
+    return sum;
+  }
+
+ private:
+  void random_from(std::vector<double> &out, size_t first) const {
+    Rng rng(seed_, Stream::sizes, first);
+    for (size_t k = first; k < out.size(); ++k)
+      out[k] = law_.quantile(std::min(rng.uniform() + 0x1p-54, 1.0 - 0x1p-53));
+  }
+  // Each sphere has the mean volume of its share of the number: the sums of volume at the ends of the shares are those
+  // of the law.
+  void volume_quantiles(std::vector<double> &out) const {
+    const double n = static_cast<double>(out.size());
+    double below = 0.0;
+    for (size_t k = 0; k < out.size(); ++k) {
+      if (k % 1024 == 0) CallScope::look();
+      const double u = static_cast<double>(k + 1) / n, next = k + 1 == out.size() ? 1.0 : law_.volume_of_smallest(u);
+      const double power = (next - below) * n * law_.mean_power();
+      out[k] = math::pow(power, 1.0 / dim_);
+      below = next;
+    }
+  }
+  std::vector<double> random_filling(double wanted) const {
+    std::vector<double> s;
+    double sum = 0.0;
+    while (sum < wanted) {
+      const size_t first = s.size();
+      check_count(static_cast<double>(first) + 64.0, wanted);
+      s.resize(first + std::max<size_t>(64, first));
+      random_from(s, first);
+      for (size_t k = first; k < s.size(); ++k) {
+        const double v = volume(s[k]);
+        if (sum + 0.5 * v >= wanted && k > 0) {
+          s.resize(k);
+          return s;
+        }
+        sum += v;
+        if (sum >= wanted) {
+          s.resize(k + 1);
+          return s;
+        }
+      }
+    }
+    return s;
+  }
+  std::vector<double> quantiles_filling(double wanted) const {
+    double n = 0.0, mean = unit_sphere_volume(dim_) * law_.mean_power();
+    if (!law_.by_volume()) mean = total(of(4096)) / 4096.0;
+    std::vector<double> s;
+    for (int turn = 0; turn < 32; ++turn) {
+      const double next =
+          turn == 0 ? std::floor(wanted / mean + 0.5) : n + std::floor((wanted - total(s)) / mean + 0.5);
+      check_count(next, wanted);
+      if (turn > 0 && next == n) break;
+      n = next;
+      s = of(static_cast<int64_t>(n));
+    }
+    return s;
+  }
+  static void check_count(double n, double wanted) {
+    if (n < 1.0)
+      fail(JAM_E_ARGUMENT, "the cell is too small: a volume of %g holds less than half a mean sphere", wanted);
+    if (n > static_cast<double>(limits::n_max))
+      fail(JAM_E_ARGUMENT, "a volume of %g holds %.3g spheres of this law, more than 2^31-1", wanted, n);
+  }
+  const SizeDistribution &law_;
+  int dim_;
+  int64_t seed_;
+  bool random_;
+};
+
+// The last sphere makes up for what the volume differs from `wanted`: the largest one that stays below the largest of
+// all, or that one itself.
+void adjust_last(const Drawing &drawing, int dim, double wanted, std::vector<double> &s) {
+  std::vector<size_t> order(s.size());
+  for (size_t k = 0; k < s.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return s[a] < s[b]; });
+  const double more = wanted - drawing.total(s), most = drawing.volume(s[order.back()]);
+  size_t taken = order.back();
+  for (auto k = order.rbegin(); k != order.rend(); ++k)
+    if (drawing.volume(s[*k]) + more <= most) {
+      taken = *k;
+      break;
+    }
+  std::rotate(s.begin() + static_cast<std::ptrdiff_t>(taken), s.begin() + static_cast<std::ptrdiff_t>(taken) + 1,
+              s.end());
+  const double volume = drawing.volume(s.back()) + more;
+  if (!(volume > 0.0)) fail(JAM_E_ARGUMENT, "the cell is too small: it does not hold the spheres of this law");
+  s.back() = math::pow(volume / unit_sphere_volume(dim), 1.0 / dim);
+}
+
+void check_sizes(const std::vector<double> &s) {
+  const auto [least, most] = std::minmax_element(s.begin(), s.end());
+  if (!(*least > 0.0) || !std::isfinite(*most) || !(*most <= limits::size_ratio_max * *least))
+    fail(JAM_E_ARGUMENT, "the law gives diameters from %g to %g: ratios up to %g are supported; cut it by low and high",
+         *least, *most, limits::size_ratio_max);
+}
+
+void check_amount(const Options &o) {
+  if (o.draw != JAM_DRAW_QUANTILES && o.draw != JAM_DRAW_RANDOM)
+    fail(JAM_E_ARGUMENT, "draw is %d, not a jam_size_draw", o.draw);
+  if (!(o.cell_volume >= 0.0) || !std::isfinite(o.cell_volume))
+    fail(JAM_E_ARGUMENT, "cell_volume is %g, it must be positive and finite, or 0", o.cell_volume);
+  if (!(o.packing_fraction >= 0.0 && o.packing_fraction < 1.0))
+    fail(JAM_E_ARGUMENT, "packing_fraction is %g, it must be above 0 and below 1, or 0 for none", o.packing_fraction);
+  const bool follows = o.packing_fraction > 0.0;
+  if (follows && o.cell_volume == 0.0) fail(JAM_E_ARGUMENT, "packing_fraction needs cell_volume");
+  if (follows && o.n != 0)
+    fail(JAM_E_ARGUMENT, "n is %lld beside packing_fraction, from which n follows", static_cast<long long>(o.n));
+  if (!follows) check_n(o.n);
+}
+
+}  // namespace
+
+std::vector<double> draw_diameters(const Options &o, const double *curve, size_t curve_len) {
+  const std::unique_ptr<SizeDistribution> law = size_distribution(o, curve, curve_len);
+  check_amount(o);
+  const Drawing drawing(o, *law);
+  if (o.packing_fraction == 0.0) {
+    std::vector<double> s = drawing.of(o.n);
+    check_sizes(s);
+    if (const double volume = drawing.total(s); o.cell_volume > 0.0 && volume > o.cell_volume)
+      fail(JAM_E_ARGUMENT, "the spheres add up to a volume of %g, the cell has %g", volume, o.cell_volume);
+    return s;
+  }
+  check_reach(o.dim, drawing.of(1024), o.packing_fraction);
+  const double wanted = o.packing_fraction * o.cell_volume;
+  std::vector<double> s = drawing.filling(wanted);
+  adjust_last(drawing, o.dim, wanted, s);
+  check_sizes(s);
+  return s;
+}
+
+}  // namespace jam

@@ -1,0 +1,26 @@
+// A curve of sizes: a table of two columns.
+#include <string_view>
+#include <vector>
+
+#include "io/read_helpers.hpp"
+
+namespace jam {
+
+void read_curve(const char *path, std::vector<double> &curve) {
+  LineReader in(path);
+  std::vector<std::string_view> words;
+  std::string_view line;
+  bool first = true;
+  while (in.next_filled(line, true)) {
+    split_columns(in, before_comment(line), words);
+    if (words.empty()) continue;
+    const bool heading = first && !is_number(words[0]);
+    first = false;
+    if (heading) continue;
+    if (words.size() != 2) in.fail(JAM_E_FORMAT, "a row of a curve has two numbers, this one %zu words", words.size());
+    for (const std::string_view word : words) curve.push_back(parse_number(in, word));
+  }
+  if (curve.empty()) in.fail(JAM_E_FORMAT, "the file holds no row of two numbers");
+}
+
+}  // namespace jam

@@ -1,0 +1,248 @@
+/* Named laws of diameters: what each needs, exact densities, seeds, and errors before any work. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "jam/jam.h"
+#include "test.h"
+
+static jam_diameters_options options(int32_t law) {
+  jam_diameters_options o;
+  assert_int_equal(jam_diameters_options_init(&o, sizeof o), JAM_OK);
+  o.law = law;
+  return o;
+}
+
+static double *draw(const jam_diameters_options *o, const double *curve, size_t curve_len, size_t *n) {
+  double *s;
+  if (jam_diameters(o, curve, curve_len, NULL, 0, n)) fail_msg("%s", jam_last_error());
+  s = malloc(*n * sizeof *s);
+  assert_non_null(s);
+  assert_int_equal(jam_diameters(o, curve, curve_len, s, *n, n), JAM_OK);
+  return s;
+}
+
+static void refused(const jam_diameters_options *o, const double *curve, size_t curve_len, jam_status status,
+                    const char *word) {
+  size_t n;
+  const jam_status got = jam_diameters(o, curve, curve_len, NULL, 0, &n);
+  if (got != status || !strstr(jam_last_error(), word)) fail_msg("%d: %s; not %s", (int)got, jam_last_error(), word);
+}
+
+static double volume(const double *s, size_t n, int dim) {
+  double sum = 0;
+  size_t k;
+  for (k = n; k--;) sum += (dim == 2 ? acos(-1.0) / 4 : acos(-1.0) / 6) * pow(s[k], dim);
+  return sum;
+}
+
+static const double curve[] = {0.5, 0, 1, 10, 2, 50, 4, 100};
+
+/* Sums of volume at the ends of each sphere's share of the number are those of the curve. */
+static void passing_curve_of_few_spheres_is_the_one_asked_for(void **state) {
+  jam_diameters_options o = options(JAM_SIZES_SIEVE);
+  size_t n, k;
+  double *s, sum = 0, all;
+  o.n = 200;
+  s = draw(&o, curve, 8, &n);
+  assert_int_equal(n, 200);
+  all = volume(s, n, 3);
+  for (k = 0; k + 1 < n; ++k) {
+    const double here = sqrt(s[k] * s[k + 1]); /* between both */
+    double asked = 0;
+    size_t row;
+    sum += volume(s + k, 1, 3);
+    assert_true(s[k] <= s[k + 1] * (1 + 1e-12) && s[k] >= 0.5 && s[k] <= 4);
+    for (row = 0; row < 3; ++row) {
+      const double low = curve[2 * row], high = curve[2 * row + 2];
+      const double part = here <= low ? 0 : here >= high ? 1 : log(here / low) / log(high / low);
+      asked += part * (curve[2 * row + 3] - curve[2 * row + 1]) / 100;
+    }
+    /* the end of the share lies between both spheres, so the curves differ by less than one sphere */
+    assert_true(fabs(sum / all - asked) <= volume(s + k + 1, 1, 3) / all);
+  }
+  free(s);
+  (void)state;
+}
+
+static void density_is_exact_and_n_follows(void **state) {
+  static const int32_t laws[] = {JAM_SIZES_EQUAL, JAM_SIZES_NORMAL, JAM_SIZES_LOGNORMAL, JAM_SIZES_UNIFORM,
+                                 JAM_SIZES_SIEVE};
+  size_t law;
+  int dim, way;
+  for (law = 0; law < sizeof laws / sizeof *laws; ++law)
+    for (dim = 2; dim <= 3; ++dim)
+      for (way = 0; way < 2; ++way) {
+        jam_diameters_options o = options(laws[law]);
+        const int sieve = o.law == JAM_SIZES_SIEVE;
+        size_t n, k;
+        double *s, *again, least = INFINITY, most = 0;
+        o.dim = dim;
+        o.draw = way;
+        if (o.law == JAM_SIZES_NORMAL || o.law == JAM_SIZES_LOGNORMAL) o.deviation = 0.2, o.high = 1.8;
+        if (o.law == JAM_SIZES_UNIFORM) o.low = 0.7, o.high = 1.3;
+        o.cell_volume = sieve ? 3000 : 300;
+        o.packing_fraction = 0.6;
+        s = draw(&o, sieve ? curve : NULL, sieve ? 8 : 0, &n);
+        if (!(fabs(volume(s, n, dim) / o.cell_volume - 0.6) < 1e-12))
+          fail_msg("law %d, d = %d: %g", (int)o.law, dim, volume(s, n, dim) / o.cell_volume - 0.6);
+        for (k = 0; k < n; ++k) least = fmin(least, s[k]), most = fmax(most, s[k]);
+        if (o.law == JAM_SIZES_EQUAL) { /* all but the last */
+          for (k = 0; k + 1 < n; ++k) assert_true(s[k] == 1);
+          assert_true(s[n - 1] > 0.7 && s[n - 1] < 1.25);
+        } else if (sieve) {
+          assert_true(most <= 4 * (1 + 1e-12) && s[n - 1] <= 4);
+        } else {
+          assert_true(most <= 1.8);
+        }
+        again = draw(&o, sieve ? curve : NULL, sieve ? 8 : 0, &n);
+        assert_memory_equal(s, again, n * sizeof *s);
+        free(s);
+        free(again);
+      }
+  (void)state;
+}
+
+static void seeds_reproduce_and_differ(void **state) {
+  jam_diameters_options o = options(JAM_SIZES_LOGNORMAL);
+  size_t n;
+  double *a, *b, *c;
+  o.deviation = 0.3, o.n = 50, o.draw = JAM_DRAW_RANDOM;
+  a = draw(&o, NULL, 0, &n);
+  b = draw(&o, NULL, 0, &n);
+  o.seed = 2;
+  c = draw(&o, NULL, 0, &n);
+  assert_memory_equal(a, b, n * sizeof *a);
+  assert_true(a[0] != c[0]);
+  free(a), free(b), free(c);
+  (void)state;
+}
+
+static void bad_laws_are_refused_by_name(void **state) {
+  static const double falls[] = {1, 0, 2, 60, 3, 40, 4, 100}, short_of[] = {1, 0, 2, 87}, begins[] = {1, 5, 2, 100},
+                      back[] = {1, 0, 3, 50, 2, 100}, zero_share[] = {1, 0.5, 2, 0}, negative[] = {-1, 0.5, 2, 0.5},
+                      nan_size[] = {NAN, 0, 2, 1};
+  jam_diameters_options o = options(JAM_SIZES_SIEVE);
+  o.n = 10;
+  refused(&o, falls, 8, JAM_E_ARGUMENT, "row 2 (3, 40): the sieve curve falls");
+  refused(&o, short_of, 4, JAM_E_ARGUMENT, "must end at 1, or at 100");
+  refused(&o, begins, 4, JAM_E_ARGUMENT, "must begin at 0");
+  refused(&o, back, 6, JAM_E_ARGUMENT, "must rise");
+  refused(&o, nan_size, 4, JAM_E_NONFINITE, "curve row 0");
+  refused(&o, negative, 4, JAM_E_ARGUMENT, "above 0");
+  refused(&o, curve, 3, JAM_E_ARGUMENT, "rows of two");
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "needs a curve");
+  o.law = JAM_SIZES_LIST;
+  refused(&o, zero_share, 4, JAM_E_ARGUMENT, "row 1 (2, 0): a share must be above 0");
+  o = options(JAM_SIZES_LOGNORMAL);
+  o.n = 10;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "needs deviation");
+  o.deviation = -0.1;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "deviation is -0.1");
+  o.deviation = INFINITY;
+  refused(&o, NULL, 0, JAM_E_NONFINITE, "deviation");
+  o.deviation = 0.1, o.mean = NAN;
+  refused(&o, NULL, 0, JAM_E_NONFINITE, "mean");
+  o.mean = 1, o.shape = 2;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "lognormal has no such field");
+  o.shape = NAN, o.low = 5, o.high = 4;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "low must be below high");
+  o.low = 50, o.high = 60;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "keep a share");
+  o = options(JAM_SIZES_WEIBULL);
+  o.n = 10, o.shape = 1.5;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "fines without end");
+  o = options(99);
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "not a jam_size_law");
+  o = options(JAM_SIZES_EQUAL);
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "n is 0");
+  o.n = 100, o.cell_volume = 10;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "add up to a volume of 52.");
+  o.packing_fraction = 0.5;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "from which n follows");
+  o.n = 0, o.cell_volume = 0;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "needs cell_volume");
+  o.cell_volume = 1e-9;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "too small");
+  o.cell_volume = 1e12;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "2^31-1");
+  o.cell_volume = 1000, o.packing_fraction = 0.72;
+  refused(&o, NULL, 0, JAM_E_UNPLACEABLE, "jam near 0.643");
+  assert_non_null(strstr(jam_last_error(), "random sequential addition ends near 0.384"));
+  o.packing_fraction = 1.5;
+  refused(&o, NULL, 0, JAM_E_ARGUMENT, "below 1");
+  (void)state;
+}
+
+static void laws_are_read_from_text(void **state) {
+  static const char *const bad[] = {"gauss",          "lognormal:width=3", "lognormal:0.3", "lognormal:deviation=",
+                                    "sieve:none.csv", "equal:share=mass",  "equal:,",       NULL};
+  jam_diameters_options o = options(JAM_SIZES_EQUAL);
+  double rows[4];
+  size_t needed, k;
+  assert_int_equal(jam_diameters_parse("lognormal: deviation=0.3, share=volume,draw=random", &o, NULL, 0, &needed),
+                   JAM_OK);
+  assert_true(o.law == JAM_SIZES_LOGNORMAL && o.deviation == 0.3 && o.share == JAM_SHARE_VOLUME);
+  assert_true(o.draw == JAM_DRAW_RANDOM && needed == 0);
+  assert_int_equal(jam_diameters_parse("list:1=0.75,1.4=2.5e-1", &o, rows, 4, &needed), JAM_OK);
+  assert_true(o.law == JAM_SIZES_LIST && needed == 4 && rows[0] == 1 && rows[3] == 0.25);
+  for (k = 0; bad[k]; ++k)
+    if (jam_diameters_parse(bad[k], &o, NULL, 0, &needed) >= 0) fail_msg("%s was taken", bad[k]);
+  (void)state;
+}
+
+static void curves_are_read_from_files(void **state) {
+  const char *const name = "jam_curve.csv";
+  char text[64];
+  jam_diameters_options o = options(JAM_SIZES_EQUAL);
+  double rows[6];
+  size_t needed;
+  FILE *file = fopen(name, "w");
+  assert_non_null(file);
+  fputs("# grading of a sand\nsize,passing\n0.5, 0\n1, 40 # half\n2, 100\n", file);
+  fclose(file);
+  snprintf(text, sizeof text, "sieve:%s", name);
+  assert_int_equal(jam_diameters_parse(text, &o, rows, 6, &needed), JAM_OK);
+  assert_true(needed == 6 && rows[2] == 1 && rows[3] == 40 && rows[5] == 100);
+  file = fopen(name, "w");
+  assert_non_null(file);
+  fputs("0.5 0\n1 40 7\n", file);
+  fclose(file);
+  assert_int_equal(jam_diameters_parse(text, &o, NULL, 0, &needed), JAM_E_FORMAT);
+  assert_non_null(strstr(jam_last_error(), "line 2"));
+  remove(name);
+  (void)state;
+}
+
+static void fluids_do_not_begin_to_grow_beyond_their_reach(void **state) {
+  jam_create_options c;
+  jam_compress_options o;
+  jam_md_report r;
+  jam_system *sys;
+  jam_create_options_init(&c, sizeof c);
+  jam_compress_options_init(&o, sizeof o);
+  c.n = 1000;
+  r.struct_size = sizeof r;
+  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  o.packing_fraction = 0.70;
+  assert_int_equal(jam_compress(sys, &o, &r), JAM_E_UNPLACEABLE);
+  assert_non_null(strstr(jam_last_error(), "Farr and Groot"));
+  o.packing_fraction = 0.45;
+  assert_int_equal(jam_compress(sys, &o, &r), JAM_OK);
+  assert_true(fabs(r.packing_fraction - 0.45) < 1e-12);
+  jam_destroy(sys);
+  (void)state;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(passing_curve_of_few_spheres_is_the_one_asked_for),
+      cmocka_unit_test(density_is_exact_and_n_follows),
+      cmocka_unit_test(seeds_reproduce_and_differ),
+      cmocka_unit_test(bad_laws_are_refused_by_name),
+      cmocka_unit_test(laws_are_read_from_text),
+      cmocka_unit_test(curves_are_read_from_files),
+      cmocka_unit_test(fluids_do_not_begin_to_grow_beyond_their_reach),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,4 +1,4 @@
-"""Every block of the guide's tutorials runs.      usage: test_tutorials.py ROOT BUILD"""
+"""Every block of the guide's tutorials and of its page on sizes runs.      usage: test_tutorials.py ROOT BUILD"""
 import os
 import re
 import subprocess
@@ -34,6 +34,15 @@ class Tutorials(unittest.TestCase):
                     self.skipTest("built without Fortran")
                 for kind, text in blocks:
                     self.run_block(kind, text, Path(folder))
+
+    def test_the_page_on_sizes_runs_from_its_curve_to_its_picture(self):
+        text = (PAGE.parent / "sizes.md").read_text(encoding="utf-8")
+        for word in ("porosity", "sieve", "millimetre", "void fraction"):
+            self.assertIn(word, text)
+        with tempfile.TemporaryDirectory() as folder:
+            for kind, block in re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.M | re.S):
+                self.run_block(kind, block, Path(folder))
+            self.assertGreater((Path(folder) / "sieve.png").stat().st_size, 10000)
 
     def run_block(self, kind, text, folder):
         (folder / "bin").mkdir(exist_ok=True)

@@ -234,7 +234,7 @@ class Protocol(unittest.TestCase):
     def test_limits_keep_both_stages(self):
         plain = jam.System.random(n=60, seed=1)
         self.assertGreater(plain.compress().pressure, 0.9e7)
-        for options in ({"wall_time": 1e6}, {"packing_fraction": 0.9}, {"time": 1e9}):
+        for options in ({"wall_time": 1e6}, {"packing_fraction": 0.7}, {"time": 1e9}):
             s = jam.System.random(n=60, seed=1)
             s.compress(**options)
             np.testing.assert_array_equal(s.positions, plain.positions)

@@ -40,6 +40,8 @@ The package `jam`. Options are keywords under the names of the C header, and enu
    :members:
 .. autofunction:: jam.eos
 .. autofunction:: jam.glass_fit
+.. autofunction:: jam.sizes
+.. autofunction:: jam.size_report
 ```
 
 ## Pictures

@@ -60,6 +60,9 @@ class Classes final : public SizeDistribution {
     return sum + c.share * integral(c, c.exponent, quantile(u)) / integral(c, c.exponent, c.high);
   }
   double mean_power() const override { return mean_power_; }
+  bool has_single_sizes() const override {
+    return std::any_of(class_.begin(), class_.end(), [](const SizeClass &c) { return c.low == c.high; });
+  }
 
  private:
   struct Place {

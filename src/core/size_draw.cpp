@@ -24,7 +24,7 @@ class Drawing {
     std::vector<double> out(static_cast<size_t>(n));
     if (random_)
       random_from(out, 0);
-    else if (law_.by_volume())
+    else if (law_.by_volume() && !law_.has_single_sizes())
       volume_quantiles(out);
     else
       for (int64_t k = 0; k < n; ++k)

@@ -110,6 +110,10 @@ class Laws(unittest.TestCase):
         self.assertEqual(list(s), [1.0] * 7 + [1.4] * 3)
         s = jam.sizes("list", 3000, curve=[(1, 0.5), (2, 0.5)], share="volume")
         self.assertAlmostEqual(np.sum(s[s < 1.5] ** 3) / np.sum(s**3), 0.5, delta=0.002)
+        self.assertEqual(set(s), {1.0, 2.0})
+        filled = jam.sizes("list:1=0.5,2=0.5,share=volume", porosity=0.5, box=20.0)
+        self.assertEqual(set(filled[:-1]), {1.0, 2.0})
+        self.assertAlmostEqual(np.pi / 6 * np.sum(filled**3) / 8000, 0.5, delta=1e-13)
 
     def test_seeds(self):
         a, b, c = (jam.sizes("lognormal", 30, deviation=0.2, draw="random", seed=k) for k in (1, 1, 2))

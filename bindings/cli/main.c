@@ -138,6 +138,17 @@ static int ends_job(jam_status status) {
   return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || interrupted;
 }
 
+/* Growth leads to no density below that of the start. */
+static int lies_above(const jam_system *sys, double density) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_info_get(sys, &info);
+  if (!(density > 0) || info.packing_fraction <= density * (1 + 1e-12)) return 0;
+  complain("warning: the packing fraction is %.6g, above the %.6g to grow to: nothing was done", info.packing_fraction,
+           density);
+  return 1;
+}
+
 static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *result) {
   const double deadline = t->begin + o->wall_time;
   char name[64] = "NVE";
@@ -145,6 +156,8 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
   int k, stages_left = o->given.stage_count;
 #define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
   t->stage = name;
+  result->fell_short = lies_above(sys, o->given.density);
+  if (result->fell_short) return JAM_OK;
   if (o->resume)
     status = finish_paused(sys, o, t, deadline, result, &stages_left);
   else if (o->nve > 0)

@@ -432,6 +432,8 @@ class JamPack(unittest.TestCase):
         self.assertLess(abs(self.report("--n", 50, "--packing-fraction", 0.1)["packing_fraction"] - 0.1), 1e-12)
         short = self.refused(1, "--n", 100, "--packing-fraction", 0.63, "--pressure", 20, "--quiet")
         self.assertIn("before the packing fraction 0.63", short)
+        above = self.refused(1, "--input", self.dir / "p.xyz", "--porosity", 0.5, "--quiet")
+        self.assertIn("the packing fraction is 0.55, above the 0.5 to grow to: nothing was done", above)
         self.refuse(3, "jam near 0.643", "--n", 1000, "--packing-fraction", 0.7)
         self.refuse(3, "jam near", *job[:3], 0.2, *job[4:6])
         curve.write_text("1 0\n2 60\n3 50\n4 100\n")

@@ -229,6 +229,11 @@ class _Work:
     def run(self) -> int:
         o, out, status = self.o, self.out, 0
         reached, aim = self.system.pressure, density(o)
+        if aim is not None and self.system.packing_fraction > aim * (1 + 1e-12):
+            said = f"the packing fraction is {self.system.packing_fraction:.6g}, above the {aim:.6g} to grow to"
+            print(f"python3 -m jam: warning: {said}: nothing was done", file=sys.stderr)
+            out["fell_short"] = True
+            return 0
         for verb, options in self.stages():
             if aim is not None and out["md_stop_reason"] == "packing_fraction":
                 break

@@ -7,7 +7,8 @@
 
 enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
 
-static const char *const allowed[] = {"--box", "--frame", "--non-additivity", "--wall-time", "--quiet", "--help", "-h"};
+static const char *const allowed[] = {"--box",       "--frame", "--non-additivity", "--prove", "--proof",
+                                      "--wall-time", "--quiet", "--help",           "-h"};
 
 static int is_allowed(const char *word) {
   const size_t length = strcspn(word, "=");
@@ -23,7 +24,9 @@ static char **as_input(int argc, char **argv) {
   int k;
   for (k = 2; k < argc; ++k)
     if (argv[k][0] == '-' && argv[k][1] && !is_allowed(argv[k])) {
-      complain("check takes a FILE and --box, --frame, --non-additivity, --wall-time or --quiet, not '%s'", argv[k]);
+      complain(
+          "check takes a FILE and --box, --frame, --non-additivity, --prove, --proof, --wall-time or --quiet, not '%s'",
+          argv[k]);
       return NULL;
     }
   words = malloc(((size_t)argc + 2) * sizeof *words);
@@ -48,25 +51,35 @@ static jam_status read_as_it_is(const options *o, jam_system **sys) {
   return status < 0 ? status : jam_read(o->input, &create, sys);
 }
 
+/* The proof speaks of the contacts of the file's packing. */
+static jam_status write_proof_file(jam_system *sys, const char *path) {
+  const jam_status status = jam_contacts_from_geometry(sys, NULL, NULL);
+  return status < 0 ? status : jam_write_proof(sys, path, NULL, 0);
+}
+
 static int judge(const options *o) {
   jam_check_options check;
   jam_check_report report;
   jam_system *sys = NULL;
-  jam_status status = read_as_it_is(o, &sys);
+  jam_status status = read_as_it_is(o, &sys), written = JAM_OK;
   report.struct_size = sizeof report;
   if (status >= 0) print_warnings(jam_notes(sys));
   if (status >= 0) status = jam_check_options_init(&check, sizeof check);
   if (status >= 0) {
     check.wall_time = o->wall_time;
+    check.prove = o->prove || o->proof;
     status = jam_check_packing(sys, &check, &report);
   }
+  if (o->proof && status == JAM_OK) written = write_proof_file(sys, o->proof);
   jam_destroy(sys);
   if (status < 0) {
     complain("%s", jam_last_error());
     return CHECK_REFUSED;
   }
   if (!o->quiet) puts(jam_check_text(&report));
-  if (fflush(stdout)) return EXIT_OUTPUT;
+  if (written < 0) complain("%s", jam_last_error());
+  if (o->proof && status != JAM_OK) complain("%s is not written: the packing is not jammed", o->proof);
+  if (written < 0 || fflush(stdout)) return EXIT_OUTPUT;
   return status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
 }
 

@@ -107,6 +107,7 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
   crunch.strain = (int32_t)o->strain;
   crunch.threads = (int32_t)o->threads;
   crunch.duality_gap = o->duality_gap;
+  crunch.prove = o->prove;
   crunch.keep_steps = o->page ? (int32_t)o->page_steps : 0;
   crunch.wall_time = wall_time;
   result->crunch.struct_size = sizeof result->crunch;
@@ -204,6 +205,7 @@ static int write_all(jam_system *sys, const options *o, outcome *result) {
   result->notes = jam_notes(sys);
   if (o->output) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
   if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts);
+  if (o->proof && result->has_crunch) bad |= told(jam_write_proof(sys, o->proof, NULL, 0));
   if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
   running = sys; /* a large spectrum takes long */
   if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;

@@ -41,6 +41,8 @@ typedef struct options {
   int64_t modes;
   const char *gaps;
   const char *structure;
+  int prove;
+  const char *proof;
   const char *report;
   const char *log;
   int quiet;
@@ -154,6 +156,10 @@ static const option_row table[] = {
     {"--gaps", TAKE_OUTPUT, offsetof(options, gaps), 0, 0, NULL, AFTER_CRUNCH,
      "", ""},
     {"--structure", TAKE_OUTPUT, offsetof(options, structure), 0, 0, NULL, AFTER_CRUNCH,
+     "", ""},
+    {"--prove", TAKE_SWITCH, offsetof(options, prove), 0, 0, NULL, 0,
+     "--no-crunch", ""},
+    {"--proof", TAKE_OUTPUT, offsetof(options, proof), 0, 0, NULL, AFTER_CRUNCH,
      "", ""},
     {"--report", TAKE_OUTPUT, offsetof(options, report), 0, 0, NULL, TAKES_STDOUT,
      "", ""},
@@ -283,6 +289,9 @@ static const char *const help[] = {
     "  --gaps FILE.csv        gaps h < 1 of pairs that are no contacts, sorted",
     "  --structure FILE.csv   a line a sphere: coordination, class, sums of contact vectors and",
     "                         forces, Q6, local packing fraction",
+    "  --prove                a theorem about the jammed packing, in spite of rounding; the",
+    "                         summary and the report say what was proved",
+    "  --proof FILE           the exact numbers of the proof, for the checker jamproof.py",
     "  --report FILE|-        figures, protocol and certificate as JSON; - is standard output",
     "  --log FILE|-           what the library says of each stage and LP, a line each with its",
     "                         time",
@@ -301,9 +310,9 @@ static const char *const help[] = {
     "",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the",
     "packing of a file as it is and moves nothing. It takes --box, --frame, --non-additivity,",
-    "--wall-time and --quiet. One paragraph says whether it is jammed, strictly jammed, not",
-    "jammed or undecided, and why. Exit status of check 0: jammed. 1: not. 3: undecided. 2: wrong",
-    "command line, or the file is refused.",
+    "--prove, --proof, --wall-time and --quiet. One paragraph says whether it is jammed, strictly",
+    "jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. 3:",
+    "undecided. 2: wrong command line, or the file is refused.",
     NULL};
 #endif
 #endif

@@ -139,6 +139,11 @@ static void put_protocol(FILE *f, const options *o, const outcome *result) {
     fputs("  \"method\": null,\n  \"lp_solver\": null,\n", f);
 }
 
+static const char *proof_of(const jam_crunch_report *r) {
+  if (!r->jammed) return "not tried: not jammed";
+  return jam_proof_text(r->theorem, r->proof_cause, r->proof_radius, r->proof_value, r->proof_bound);
+}
+
 int write_report(const options *o, const outcome *result, const char *path) {
   const jam_info *info = &result->info;
   const jam_crunch_report *r = &result->crunch;
@@ -190,6 +195,13 @@ int write_report(const options *o, const outcome *result, const char *path) {
     fprintf(f, "  \"jammed\": %s,\n", r->jammed ? "true" : "false");
   else
     fputs("  \"jammed\": null,\n", f);
+  fputs("  \"proof\": ", f);
+  if (o->prove && crunched)
+    put_text(f, proof_of(r));
+  else
+    fputs("null", f);
+  fputs(",\n", f);
+  put_number(f, "proof_radius", crunched ? r->proof_radius : NAN);
   fprintf(f, "  \"stop_reason\": \"%s\",\n", jam_stop_string(crunched ? r->stop_reason : result->md_stop));
   fprintf(f, "  \"md_stop_reason\": \"%s\",\n", jam_stop_string(result->md_stop));
   put_number(f, "seconds_md", result->seconds_md);
@@ -244,5 +256,6 @@ void print_summary(const options *o, const outcome *result) {
          (long long)r->excess_contacts, (long long)r->rattlers, (long long)r->bucklers);
   printf("  certified largest overlap %.1e, force imbalance %.1e, smallest force %.1e, smallest gap %.1e\n",
          r->max_overlap, r->force_residual, r->min_force, r->min_gap);
+  if (o->prove) printf("  proof     %s\n", proof_of(r));
   print_changes(o, result);
 }

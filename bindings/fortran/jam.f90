@@ -775,12 +775,16 @@ module jam
     integer(c_int32_t) :: keep_steps = 0
     ! 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no strain
     real(c_double) :: duality_gap = 0
+    ! 1: a packing that ends jammed is proved as by jam_prove, into the report; default 0
+    integer(c_int32_t) :: prove = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_crunch_options
 
   ! Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
   type, bind(c) :: jam_crunch_report
     ! set by the caller: sizeof(jam_crunch_report)
-    integer(c_int32_t) :: struct_size = 336
+    integer(c_int32_t) :: struct_size = 368
     ! 1: collectively jammed by the test of jam_rigidity; 0: not, undecided or not tested
     integer(c_int32_t) :: jammed = 0
     ! jam_stop_reason
@@ -872,6 +876,15 @@ module jam
     integer(c_int64_t) :: contacts_start = 0
     ! of these the contacts of this report; -1 where contacts are unknown
     integer(c_int64_t) :: contacts_kept = 0
+    ! jam_theorem, with the option prove; NONE without
+    integer(c_int32_t) :: theorem = 0
+    ! jam_proof_cause: why the theorem is not EXACT
+    integer(c_int32_t) :: proof_cause = 0
+    ! unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    real(c_double) :: proof_radius = 0
+    ! the two numbers of the cause
+    real(c_double) :: proof_value = 0
+    real(c_double) :: proof_bound = 0
   end type jam_crunch_report
 
   ! Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
@@ -1176,13 +1189,17 @@ module jam
     integer(c_int32_t) :: crunch = 0
     ! limit for this crunch in seconds, > 0, default infinity
     real(c_double) :: wall_time = 0
+    ! 1: a jammed packing is proved as by jam_prove, into the report; default 0
+    integer(c_int32_t) :: prove = 0
+    ! 0
+    integer(c_int32_t) :: reserved = 0
   end type jam_check_options
 
   ! Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
   ! NaN: not known.
   type, bind(c) :: jam_check_report
     ! set by the caller: sizeof(jam_check_report)
-    integer(c_int32_t) :: struct_size = 216
+    integer(c_int32_t) :: struct_size = 248
     ! jam_verdict: collectively jammed
     integer(c_int32_t) :: jammed = 0
     ! jam_verdict; NO where jammed is NO
@@ -1243,6 +1260,15 @@ module jam
     real(c_double) :: crunch_displacement_max = 0
     ! root of the mean square of the same
     real(c_double) :: crunch_displacement_rms = 0
+    ! jam_theorem, with the option prove; NONE without
+    integer(c_int32_t) :: theorem = 0
+    ! jam_proof_cause: why the theorem is not EXACT
+    integer(c_int32_t) :: proof_cause = 0
+    ! unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    real(c_double) :: proof_radius = 0
+    ! the two numbers of the cause
+    real(c_double) :: proof_value = 0
+    real(c_double) :: proof_bound = 0
   end type jam_check_report
 
   ! What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
@@ -1885,14 +1911,41 @@ module jam
       integer(c_int32_t) :: status
     end function jam_check_packing
 
-    ! The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
-    ! wrong struct_size. Valid until this thread's next call of it.
+    ! The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
+    ! for NULL or a wrong struct_size. Valid until this thread's next call of it.
     function jam_check_text(report) &
         bind(c, name="jam_check_text") result(status)
       import
       type(jam_check_report), intent(in), optional :: report
       type(c_ptr) :: status
     end function jam_check_text
+
+    ! The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
+    ! jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+    ! Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
+    ! exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
+    ! Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
+    function jam_prove_strict(sys, report) &
+        bind(c, name="jam_prove_strict") result(status)
+      import
+      type(c_ptr), value :: sys
+      type(jam_proof_report), intent(inout), optional :: report
+      integer(c_int32_t) :: status
+    end function jam_prove_strict
+
+    ! What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
+    ! 1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
+    ! this thread's next call of it.
+    function jam_proof_text(theorem, cause, radius, value, bound) &
+        bind(c, name="jam_proof_text") result(status)
+      import
+      integer(c_int32_t), value :: theorem
+      integer(c_int32_t), value :: cause
+      real(c_double), value :: radius
+      real(c_double), value :: value
+      real(c_double), value :: bound
+      type(c_ptr) :: status
+    end function jam_proof_text
 
     ! Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
     ! about 10 in a perfect FCC crystal.

@@ -286,6 +286,20 @@ TABLE = {
             after_crunch=True,
         ),
         Option(
+            "prove",
+            "switch",
+            "",
+            "a theorem about the jammed packing, in spite of rounding; the summary and the report say what was proved",
+            without=("no-crunch",),
+        ),
+        Option(
+            "proof",
+            "output",
+            "FILE",
+            "the exact numbers of the proof, for the checker jamproof.py",
+            after_crunch=True,
+        ),
+        Option(
             "report", "output", "FILE|-", "figures, protocol and certificate as JSON; - is standard output", stdout=True
         ),
         Option(
@@ -317,7 +331,7 @@ NOTES = (
     "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the packing of a file as it "
-    "is and moves nothing. It takes --box, --frame, --non-additivity, --wall-time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "
+    "is and moves nothing. It takes --box, --frame, --non-additivity, --prove, --proof, --wall-time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. "
     "3: undecided. 2: wrong command line, or the file is refused.",
 )
 

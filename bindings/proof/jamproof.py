@@ -12,9 +12,11 @@ proved, 1 not proved, 2 the file cannot be read. The guide's page "Proofs" holds
 
 For any matrix A let delta_k >= sum_l |1 - A J|_kl, eta_k >= |A F|_k, alpha_k >= sum_c |A_kc|, beta = 4 d max alpha.
 If eta + delta r + beta r^2 <= r and delta + 2 beta r < 1, then F has exactly one zero within r. In crystals F = 0 as
-it stands; then R has full rank modulo a prime, and the forces balance exactly.
+it stands; then R has full rank modulo a prime, and the forces balance exactly. In d = 2 the file may name implied
+contacts. They are left out of F: the others, where closed, close them by the exact angles of triangles and parallelograms.
 """
 import base64
+import math
 import sys
 import zlib
 from array import array
@@ -55,6 +57,7 @@ class Scene:
 
     def __init__(self, path):
         self.stable, self.contacts, self.inverse, ratio, position = [], [], None, [], []
+        self.tiles, self.rows = [], {}  # walks round tiles and implied contacts, as they come; state of the kept alone
         with open(path, encoding="ascii") as file:
             lines = [line.split() for line in file if line.strip()]
         if lines[0] != ["jamproof", "1"]:
@@ -70,7 +73,11 @@ class Scene:
                 position.append([number(x) for x in rest[2:]])
             elif name == "contact":
                 i, j, *n = map(int, rest[: 2 + d])
+                if len(rest) > 3 + d:
+                    self.rows[len(self.contacts)] = number(rest[3 + d])
                 self.contacts.append((i, j, tuple(n), number(rest[2 + d])))
+            elif name in ("tile", "implied"):
+                self.tiles.append((name, list(map(int, rest))))
             elif name == "inverse":
                 self.inverse = int(rest[0]), array("i", zlib.decompress(base64.b64decode(rest[1])))
             elif name not in word:
@@ -99,12 +106,12 @@ class Scene:
         return m * m, 2 * e - 2
 
 
-def equations(s):
-    """F_c as (m, e), the rows of R as {unknown: integer} and the columns of J as [(contact, integer in 2^-BITS)]."""
+def equations(s, kept):
+    """Of the contacts kept: F_c as (m, e), the rows of R as {unknown: integer} and the columns of J as [(contact, integer in 2^-BITS)]."""
     d, stable = s.dim, [i for i, yes in enumerate(s.stable) if yes]
     node = {i: k for k, i in enumerate(stable)}  # node 0 is pinned
     f, rows, columns = [], [], [[] for _ in range(d * (len(stable) - 1) + 1)]
-    for c, (i, j, n, _) in enumerate(s.contacts):
+    for c, (i, j, n, _) in enumerate(s.contacts[k] for k in kept):
         if i == j or i not in node or j not in node:
             raise Refused(f"images: contact {c} is not one of two stable spheres")
         r, (m, e) = s.vector(i, j, n), s.sigma2(i, j)
@@ -116,6 +123,85 @@ def equations(s):
             columns[unknown].append((c, shifted(value, s.k, -BITS)))
         columns[-1].append((c, shifted(-m, e, -BITS)))
     return f, rows, columns
+
+
+def plus(a, b, times=1):
+    """Angles as {name: how often}; the name of 60 degrees is ()."""
+    total = {name: a.get(name, 0) + times * b.get(name, 0) for name in {**a, **b}}
+    total[()] = total.get((), 0) % 6
+    return {name: times for name, times in total.items() if times}
+
+
+def walk(s, ring):
+    """The contacts of a walk as (contact, half turn or none, vector); where it leads, with the sum of images."""
+    ends = [s.contacts[c][:2] for c in ring]
+    at = start = ends[0][0] if ends[0][1] in ends[1] else ends[0][1]
+    sides, image = [], [0] * s.dim
+    for c, (i, j) in zip(ring, ends):
+        sign = 1 if at == j else -1
+        if at not in (i, j):
+            raise Refused(f"excess: contact {c} does not go on from sphere {at}")
+        at, image = i if sign > 0 else j, [a + sign * b for a, b in zip(image, s.contacts[c][2])]
+        sides.append((c, {(): (1 - sign) // 2 * 3}, [sign * v for v in s.vector(i, j, s.contacts[c][2])]))
+    return sides, (start, at, tuple(image))
+
+
+def relate(turned, p, q, angle):
+    """The direction of q is that of p and an angle: {contact: (root, angle to it)}."""
+    (a, x), (b, y) = (turned.setdefault(c[0], (c[0], {})) for c in (p, q))
+    angle = plus(plus(plus(angle, p[1]), x), plus(q[1], y), -1)
+    if a != b:
+        turned.update({c: (a, plus(z, angle)) for c, (root, z) in turned.items() if root == b})
+
+
+def lay(s, turned, ring, length):
+    """The angles of a tile: a parallelogram, or a triangle with two equal sides."""
+    sides, (start, end, image) = walk(s, ring)
+    size, cross = len(sides), []
+    for (_, _, u), (_, _, v) in zip(sides, sides[1:] + sides[:1]):
+        cross.append((u[0] * v[1] - u[1] * v[0]) * 1000.0 / math.sqrt((u[0] ** 2 + u[1] ** 2) * (v[0] ** 2 + v[1] ** 2)))
+    if start != end or any(image) or not (min(cross) > 0.5 or max(cross) < -0.5):
+        raise Refused("excess: a tile is not closed and convex")  # the radius is far below such a turn
+    if size == 4 and length[ring[0]] == length[ring[2]] and length[ring[1]] == length[ring[3]]:
+        relate(turned, sides[0], sides[2], {(): 3}), relate(turned, sides[1], sides[3], {(): 3})
+    elif size != 3:
+        raise Refused("excess: a tile is no triangle and no parallelogram")
+    for k in range(2 if size == 3 else 0):
+        p, q, opposite = (length[ring[(k + m) % 3]] for m in range(3))
+        if p == q:  # 180 degrees less the angle between them
+            outer = {(): 2} if opposite == p else {(p, opposite): 2}
+        elif opposite in (p, q):
+            outer = {(): 3, (opposite, p if opposite == q else q): -1}
+        else:
+            raise Refused("excess: three unequal sides")
+        relate(turned, sides[k], sides[k + 1], plus({}, outer, 1 if cross[0] > 0 else -1))
+
+
+def kept_contacts(s):
+    """The contacts but those that the others imply, each by a walk that sums to one vector of its length."""
+    implied, turned = {ring[0] for word, ring in s.tiles if word == "implied"}, {}
+    known = set(range(len(s.contacts))) - implied
+    length = [fraction(*s.sigma2(i, j)) for i, j, _, _ in s.contacts] if s.tiles else []
+    for word, ring in s.tiles:
+        if s.dim != 2 or not 3 <= len(ring) <= 4 or not known.issuperset(ring if word == "tile" else ring[1:]):
+            raise Refused(f"excess: {word} {ring} does not rest on known contacts")
+        if word == "tile":
+            lay(s, turned, ring, length)
+            continue
+        (i, j, n, _), (sides, (start, end, image)), total = s.contacts[ring[0]], walk(s, ring[1:]), {}
+        if (end, start, image) not in ((i, j, n), (j, i, tuple(-v for v in n))):
+            raise Refused(f"excess: the walk of contact {ring[0]} leads elsewhere")
+        for c, half, _ in sides:
+            root, angle = turned.get(c, (c, {}))
+            angle = plus(angle, half)
+            key, turn = (root, length[c], frozenset((k, v) for k, v in angle.items() if k)), angle.get((), 0)
+            a, b = ((1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1))[turn]
+            total[key] = total.get(key, (0, 0))[0] + a, total.get(key, (0, 0))[1] + b
+        left = [(key[1], a * a + a * b + b * b) for key, (a, b) in total.items() if a or b]
+        if left != [(length[ring[0]], 1)]:
+            raise Refused(f"excess: contact {ring[0]} does not follow")
+        known.add(ring[0])
+    return sorted(known - implied)
 
 
 def rank(rows, p=(1 << 61) - 1):
@@ -200,22 +286,20 @@ def bounds(s, f, columns, e, inverse):
     return delta, eta, [fraction(a, e) for a in alpha]
 
 
-def force_row(s, f):
+def force_row(s, f, kept, values):
     """The last row of A is minus the stress: that, and its delta, eta and alpha, in exact sums."""
-    stress, low = scaled([c[3] for c in s.contacts])
-    sigma2 = [fraction(*s.sigma2(i, j)) for i, j, _, _ in s.contacts]
+    stress, low = scaled(values)
+    sigma2 = [fraction(*s.sigma2(*s.contacts[c][:2])) for c in kept]
     weight = sum(a * m for a, m in zip(sigma2, stress))
-    if min(stress) <= 0:
-        raise Refused("force: a stress is not positive")
     stress = [Fraction(int((m << 90) / weight), 1 << 90) for m in stress]  # sum stress sigma^2 = 1 but for rounding
     net, pinned = {}, s.stable.index(True)
-    for (i, j, n, _), m in zip(s.contacts, stress):
+    for (i, j, n, _), m in zip((s.contacts[c] for c in kept), stress):
         r, whole = s.vector(i, j, n), int(m * (1 << 90))
         for sphere, sign in ((i, 2), (j, -2)):
             net[sphere] = [a + sign * b * whole for a, b in zip(net.get(sphere, [0] * s.dim), r)]
     off = sum(abs(v) for sphere, row in net.items() if sphere != pinned for v in row)
     delta = fraction(off, s.k - 90) + abs(1 - sum(a * m for a, m in zip(sigma2, stress)))
-    return stress, delta, abs(sum(fraction(*v) * m for v, m in zip(f, stress))), sum(stress)
+    return stress, delta, abs(sum(fraction(*v) * m for v, m in zip(f, stress))), sum(map(abs, stress))
 
 
 def images(s, i, j, reach):
@@ -267,24 +351,30 @@ def closed(s, rows, columns):
 
 def check(s):
     """What was proved; Refused where nothing was."""
-    f, rows, columns = equations(s)
-    if s.contacts and not any(m for m, _ in f):
+    every = range(len(s.contacts))
+    kept = kept_contacts(s)
+    f, rows, columns = equations(s, kept)
+    if len(kept) == len(every) and kept and not any(m for m, _ in f):
         return closed(s, rows, columns)
-    if len(s.contacts) != len(columns):
-        raise Refused(f"excess: {len(s.contacts)} contacts, {len(columns)} unknowns")
+    if len(kept) != len(columns):
+        raise Refused(f"excess: {len(kept)} contacts, {len(columns)} unknowns")
     s.hint = e, inverse = inverse_of(s, columns)
     delta, eta, alpha = bounds(s, f, columns, e, inverse)
-    stress, delta_g, eta_g, alpha_g = force_row(s, f)
+    row, delta_g, eta_g, alpha_g = force_row(s, f, kept, [s.rows.get(c, s.contacts[c][3]) for c in kept])
     delta, eta, beta = max(delta + [delta_g]), max(eta + [eta_g]), 4 * s.dim * max(alpha + [alpha_g])
     if delta >= 1 or 4 * beta * eta >= (1 - delta) ** 2:
         raise Refused(f"singular: delta {float(delta):.3g}, 4 beta eta {float(4 * beta * eta):.3g}")
     r = eta / (1 - delta) * (1 + 4 * beta * eta / (1 - delta) ** 2)
     if eta + delta * r + beta * r * r > r or delta + 2 * beta * r >= 1:
         raise Refused(f"singular: radius {float(r):.3g}, beta {float(beta):.3g}")
+    if s.tiles and r**2 * 10**12 > fraction(s.g, s.ge) * fraction(min(s.ratio), s.se) ** 2:
+        raise Refused(f"excess: radius {float(r):.3g} is too large for the angles of tiles")
     r_g = eta_g + delta_g * r + 4 * s.dim * alpha_g * r * r
-    largest = max([fraction(max(map(abs, column)), e) for column in inverse] + stress)
-    error = (delta_g + 8 * s.dim * alpha_g * r) / (1 - delta - 2 * beta * r) * largest
-    mean, gamma = alpha_g / len(stress), fraction(s.g, s.ge)
+    largest = max([fraction(max(map(abs, column)), e) for column in inverse] + [abs(v) for v in row])
+    # The forces on implied contacts are free; the others solve J^T f = the rest, within the inverse times what is left.
+    stress, off, _, size = force_row(s, [], every, [c[3] for c in s.contacts])
+    error = (off + 8 * s.dim * size * r) / (1 - delta - 2 * beta * r) * largest
+    mean, gamma = size / len(stress), fraction(s.g, s.ge)
     if min(stress) <= error:
         raise Refused(f"force: the least is {float(min(stress) / mean):.3g}, its error {float(error / mean):.3g}")
     least = least_opening(s, r, gamma + r_g)

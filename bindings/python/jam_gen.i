@@ -684,8 +684,8 @@ few neighbours to be held. A system that may overlap is tested with its diameter
 Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
 status above 0.
 Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER."
-%feature("docstring") jam_check_text "The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. \"\" for NULL or a
-wrong struct_size. Valid until this thread's next call of it."
+%feature("docstring") jam_check_text "The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. \"\"
+for NULL or a wrong struct_size. Valid until this thread's next call of it."
 %feature("docstring") jam_prove "Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
 steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
 smallest singular value, and Kantorovich's theorem the rest: the guide's page \"Proofs\" has theorems and limits.
@@ -693,6 +693,14 @@ ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters 
 exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
 Shapes: ratio (n).
 Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model)."
+%feature("docstring") jam_prove_strict "The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
+jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
+exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
+Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED."
+%feature("docstring") jam_proof_text "What was proved, in a few words: \"proved, radius 4e-31\", \"trapped within 3e-28, excess 130, 129\", \"not proved, force
+1e-12, 3e-11\". Arguments as in the reports; \"\" for numbers that are no jam_theorem or jam_proof_cause. Valid until
+this thread's next call of it."
 %feature("docstring") jam_write_proof "Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
 file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
 JAM_AMBIGUOUS (dependent contacts: centres are not refined).

@@ -943,6 +943,8 @@ typedef struct jam_crunch_options {
                        * own duality gap e is in the report. To first order no motion lets Gamma grow by more than e,
                        * so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted
                        * as undecided. Needs BARRIER_PATH and no strain */
+  int32_t prove;      /* @bool a packing that ends jammed is proved as by jam_prove, into the report; default 0 */
+  int32_t reserved;   /* 0 */
 } jam_crunch_options;
 
 /* Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij. */
@@ -1003,6 +1005,11 @@ typedef struct jam_crunch_report {
   double displacement_rms_stable;
   int64_t contacts_start; /* pairs that touched before, as far as the digits of the coordinates tell */
   int64_t contacts_kept;  /* of these the contacts of this report; -1 where contacts are unknown */
+  int32_t theorem;        /* @enum jam_theorem, with the option prove; NONE without */
+  int32_t proof_cause;    /* @enum jam_proof_cause: why the theorem is not EXACT */
+  double proof_radius;    /* unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite */
+  double proof_value;     /* the two numbers of the cause */
+  double proof_bound;
 } jam_crunch_report;
 
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
@@ -1449,6 +1456,8 @@ typedef struct jam_check_options {
   uint32_t struct_size; /* sizeof(jam_check_options) */
   int32_t crunch;       /* @bool an undecided packing is crunched, as a copy, to say what that changes; default 1 */
   double wall_time;     /* limit for this crunch in seconds, > 0, default infinity */
+  int32_t prove;        /* @bool a jammed packing is proved as by jam_prove, into the report; default 0 */
+  int32_t reserved;     /* 0 */
 } jam_check_options;
 
 /* Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
@@ -1485,6 +1494,11 @@ typedef struct jam_check_report {
   double crunch_packing_fraction; /* of the crunched copy */
   double crunch_displacement_max; /* largest displacement in it of a sphere that ends with contacts */
   double crunch_displacement_rms; /* root of the mean square of the same */
+  int32_t theorem;                /* @enum jam_theorem, with the option prove; NONE without */
+  int32_t proof_cause;            /* @enum jam_proof_cause: why the theorem is not EXACT */
+  double proof_radius; /* unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite */
+  double proof_value;  /* the two numbers of the cause */
+  double proof_bound;
 } jam_check_report;
 
 JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
@@ -1494,8 +1508,8 @@ JAM_API jam_status jam_check_options_init(jam_check_options *o, size_t size);
  * Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
  * status above 0. @errors OVERLAP (above one half), SOLVER */
 JAM_API jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report);
-/* The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
- * wrong struct_size. Valid until this thread's next call of it. */
+/* The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
+ * for NULL or a wrong struct_size. Valid until this thread's next call of it. */
 JAM_API const char *jam_check_text(const jam_check_report *report);
 /* ------------- proof */
 /* What was proved. */
@@ -1549,6 +1563,15 @@ typedef struct jam_proof_report {
  * exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause). @shape ratio (n) @errors STATE (no
  * network), UNSUPPORTED (Mari-Kurchan model) */
 JAM_API jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_len, jam_proof_report *report);
+/* The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
+ * jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+ * Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
+ * exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved. @errors STATE (no network), UNSUPPORTED */
+JAM_API jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report);
+/* What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
+ * 1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
+ * this thread's next call of it. @enum theorem jam_theorem, cause jam_proof_cause */
+JAM_API const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound);
 /* Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
  * file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
  * JAM_AMBIGUOUS (dependent contacts: centres are not refined). @shape ratio (n) @errors STATE, UNSUPPORTED, IO */

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "capi/analysis.hpp"
+#include "capi/proof.hpp"
 #include "crunch/crunch.hpp"
 #include "network/check.hpp"
 
@@ -35,6 +36,19 @@ void crunch_copy(const Packing &tested, double wall_time, Monitor &monitor, jam_
   }
 }
 
+// Mari-Kurchan shifts are no cell vectors: there nothing is proved.
+void prove_tested(const CheckResult &result, jam_check_report &r) {
+  if (r.jammed == JAM_VERDICT_YES && result.tested.model == JAM_MODEL_EUCLID)
+    take_proof(result.tested, result.carrying, r);
+}
+
+std::string paragraph(const jam_check_report &r) {
+  const bool tried = r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE;
+  if (!tried) return text_of(r);
+  return text_of(r) + " In spite of rounding: " +
+         proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound) + ".";
+}
+
 }  // namespace
 
 extern "C" {
@@ -49,14 +63,17 @@ jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_ch
     jam_check_options full = default_check_options();
     take_options(o, full);
     if (full.crunch != 0 && full.crunch != 1) fail(JAM_E_ARGUMENT, "crunch is %d, it must be 0 or 1", full.crunch);
+    if (full.prove != 0 && full.prove != 1) fail(JAM_E_ARGUMENT, "prove is %d, it must be 0 or 1", full.prove);
     if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
     CheckResult result = check_as_it_is(sys->packing, cancel_point);
     jam_check_report &r = result.report;
     r.struct_size = sizeof r;
+    without_proof(r);
+    if (full.prove) prove_tested(result, r);
     if (full.crunch && r.jammed == JAM_VERDICT_UNDECIDED) crunch_copy(result.tested, full.wall_time, sys->monitor, r);
     give_struct(r, report);
     if (r.jammed == JAM_VERDICT_YES) return JAM_OK;
-    return {r.jammed == JAM_VERDICT_NO ? JAM_NOT_JAMMED : JAM_AMBIGUOUS, text_of(r)};
+    return {r.jammed == JAM_VERDICT_NO ? JAM_NOT_JAMMED : JAM_AMBIGUOUS, paragraph(r)};
   });
 }
 
@@ -65,7 +82,7 @@ const char *jam_check_text(const jam_check_report *report) {
   text[0] = '\0';
   guard([&]() -> jam_status {
     if (report && report->struct_size == sizeof *report)
-      std::snprintf(text, sizeof text, "%s", text_of(*report).c_str());
+      std::snprintf(text, sizeof text, "%s", paragraph(*report).c_str());
     return JAM_OK;
   });
   return text;

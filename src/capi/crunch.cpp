@@ -1,6 +1,7 @@
 // Header section "crunch to the jamming point" and the arrays of the contact network.
 #include "crunch/crunch.hpp"
 #include "capi/guard.hpp"
+#include "capi/proof.hpp"
 
 using namespace jam;
 
@@ -21,6 +22,17 @@ jam_status with_step(const jam_system *sys, F &&f) noexcept {
       fail(JAM_E_STATE, "no step to look at: call this from the progress callback of jam_crunch with steps = 1");
     return f(sys->crunching->step());
   });
+}
+// A crunch is not lost where its proof ends early.
+void prove_end(const Packing &p, Results &found, Monitor &monitor) {
+  if (!found.report.jammed || p.model != JAM_MODEL_EUCLID) return;
+  try {
+    take_proof(p, found.contacts, found.report);
+  } catch (const Cancelled &) {
+    monitor.log(JAM_LOG_WARNING, "crunch: cancelled during the proof");
+  } catch (const std::exception &e) {
+    monitor.log(JAM_LOG_WARNING, "crunch: no proof: %s", e.what());
+  }
 }
 }  // namespace
 
@@ -48,6 +60,8 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     found.contacts = std::move(result.contacts);
     found.report = result.report;
     found.report.status = result.status;
+    without_proof(found.report);
+    if (full.prove) prove_end(result.packing, found, sys->monitor);
     found.history = std::move(history).rows();
     found.kept_steps = std::move(history).kept();
     found.has_report = found.has_history = true;

@@ -1,4 +1,6 @@
 // Header section "proof".
+#include "capi/proof.hpp"
+
 #include <cstdio>
 
 #include "capi/analysis.hpp"
@@ -35,8 +37,10 @@ jam_proof_report report_of(const ProofScene &s, const Proof &proof) {
   r.cause_value = proof.cause_value, r.cause_bound = proof.cause_bound;
   r.stable = static_cast<int64_t>(s.nodes()), r.contacts = static_cast<int64_t>(s.contacts());
   r.radius = proof.exact ? proof.radius * s.unit : std::nan("");
-  const double gamma_up = proof.gamma_radius / s.gamma;
-  r.fraction_error = proof.exact ? 0.5 * s.dim * gamma_up * (1.0 + 1e-9) : std::nan("");
+  double fraction_up = 0.5 * s.dim * proof.gamma_radius / s.gamma;
+  if (s.strict)  // of the volume, by its edges
+    for (int c = 0; c < s.dim; ++c) fraction_up += proof.radius / s.cell.row(c)[c];
+  r.fraction_error = proof.exact ? fraction_up * (1.0 + 1e-6) : std::nan("");
   r.least_force = proof.least_force, r.force_error = proof.exact ? proof.force_radius : std::nan("");
   r.least_gap = proof.least_gap;
   r.inner = proof.trapped ? proof.inner * s.unit : std::nan("");
@@ -54,27 +58,43 @@ jam_proof_report report_of(const ProofScene &s, const Proof &proof) {
   return r;
 }
 
-const char *cause_text(ProofCause cause) {
-  switch (cause) {
-    case ProofCause::none:
-      return "";
-    case ProofCause::excess:
-      return "excess: contacts are not those of one state of self-stress (contacts, needed)";
-    case ProofCause::force:
-      return "force: the least force is not above its error (over the mean force)";
-    case ProofCause::gap:
-      return "gap: a pair that is no contact is not open (least gap, radius)";
-    case ProofCause::singular:
-      return "singular: the rows are dependent, or too nearly so";
-    case ProofCause::rattler:
-      return "rattler: a rattler is not clear of its neighbours (least gap, radius)";
-    case ProofCause::images:
-      return "images: a sphere touches its own image";
-  }
-  return "";
+// The scene's centres are refined on the way.
+jam_proof_report prove_scene(ProofScene &scene) {
+  ProofEquations equations;
+  Proof proof;
+  if (refine(scene, equations))
+    proof = prove(scene, equations);
+  else
+    proof.cause = ProofCause::singular;
+  return report_of(scene, proof);
+}
+
+Answer give_proof(ProofScene &scene, jam_proof_report *report) {
+  const jam_proof_report r = prove_scene(scene);
+  give_struct(r, report);
+  if (r.theorem != JAM_THEOREM_NONE) return JAM_OK;
+  return {JAM_AMBIGUOUS, proof_text(r.theorem, r.cause, r.radius, r.cause_value, r.cause_bound)};
 }
 
 }  // namespace
+
+jam_proof_report jam::prove_network(const Packing &p, const ContactNetwork &network) {
+  ProofScene scene = make_proof_scene(p, network, {});
+  return prove_scene(scene);
+}
+
+std::string jam::proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound) {
+  static const char *const causes[] = {"", "excess", "force", "gap", "singular", "rattler", "images"};
+  if (theorem < JAM_THEOREM_NONE || theorem > JAM_THEOREM_EXACT || cause < 0 || cause > JAM_CAUSE_IMAGES) return "";
+  char start[64] = "not proved", why[96] = "";
+  if (theorem == JAM_THEOREM_EXACT) std::snprintf(start, sizeof start, "proved, radius %.2g", radius);
+  if (theorem == JAM_THEOREM_TRAPPED) std::snprintf(start, sizeof start, "trapped within %.2g", radius);
+  if (cause == JAM_CAUSE_EXCESS)  // two counts
+    std::snprintf(why, sizeof why, ", excess %.0f, %.0f", value, bound);
+  else if (cause != JAM_CAUSE_NONE)
+    std::snprintf(why, sizeof why, ", %s %.2g, %.2g", causes[cause], value, bound);
+  return std::string(start) + why;
+}
 
 extern "C" {
 
@@ -82,19 +102,27 @@ jam_status jam_prove(const jam_system *sys, const double *ratio, size_t ratio_le
   return guard_const(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     ProofScene scene = take_scene(sys, ratio, ratio_len);
-    ProofEquations equations;
-    Proof proof;
-    if (refine(scene, equations))
-      proof = prove(scene, equations);
-    else
-      proof.cause = ProofCause::singular;
-    give_struct(report_of(scene, proof), report);
-    if (proof.exact || proof.trapped) return JAM_OK;
-    char text[300];
-    std::snprintf(text, sizeof text, "not proved: %s: %.3g, %.3g", cause_text(proof.cause), proof.cause_value,
-                  proof.cause_bound);
-    return {JAM_AMBIGUOUS, text};
+    return give_proof(scene, report);
   });
+}
+
+jam_status jam_prove_strict(const jam_system *sys, jam_proof_report *report) {
+  return guard_const(sys, [&]() -> Answer {
+    check_out_struct(report, "report");
+    ProofScene scene = take_scene(sys, nullptr, 0);
+    scene.strict = true, scene.implied.clear();
+    return give_proof(scene, report);
+  });
+}
+
+const char *jam_proof_text(int32_t theorem, int32_t cause, double radius, double value, double bound) {
+  static thread_local char text[192];
+  text[0] = '\0';
+  guard([&]() -> jam_status {
+    std::snprintf(text, sizeof text, "%s", proof_text(theorem, cause, radius, value, bound).c_str());
+    return JAM_OK;
+  });
+  return text;
 }
 
 jam_status jam_write_proof(const jam_system *sys, const char *path, const double *ratio, size_t ratio_len) {

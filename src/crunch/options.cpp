@@ -42,6 +42,7 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   if (o.step_bound != 0.0) check_range("step_bound", o.step_bound, 1e-15, limits::radius_max);
   if (o.full_lps != 0 && o.full_lps != 1) fail(JAM_E_ARGUMENT, "full_lps is %d, it must be 0 or 1", o.full_lps);
   if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
+  if (o.prove != 0 && o.prove != 1) fail(JAM_E_ARGUMENT, "prove is %d, it must be 0 or 1", o.prove);
   if (o.keep_steps < 0 || o.keep_steps > limits::keep_steps_max)
     fail(JAM_E_ARGUMENT, "keep_steps is %d, it must be 0 .. %d", o.keep_steps, limits::keep_steps_max);
   if (o.strain < JAM_STRAIN_NONE || o.strain > JAM_STRAIN_FREE)

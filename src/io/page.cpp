@@ -98,7 +98,8 @@ void put_named(std::string &out, const std::vector<std::pair<const char *, doubl
   out += "}";
 }
 
-void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason) {
+void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason,
+                const std::string &proof) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<const char *, double>> rows = {
       {"contacts", static_cast<double>(r.contacts)},
@@ -125,6 +126,8 @@ void put_report(std::string &out, const jam_crunch_report &r, const std::string 
   out += r.jammed ? "true" : "false";
   out += ", \"stop_reason\": ";
   put_string(out, stop_reason);
+  out += ", \"proof\": ";
+  put_string(out, proof);
   out += ", \"numbers\": ";
   put_named(out, rows);
   out += "}";
@@ -205,7 +208,7 @@ void write_page(const PageContent &content, const char *path) {
   out += ",\n\"diameter\": ";
   put_numbers(file, p.diameter.data(), p.diameter.size());
   if (content.network) put_network(file, *content.network);
-  if (content.report) put_report(out, *content.report, content.stop_reason);
+  if (content.report) put_report(out, *content.report, content.stop_reason, content.proof);
   put_gaps(out, content.gaps);
   out += ",\n\"history\": [";
   for (size_t k = 0; k < content.history.size(); ++k) {

@@ -30,6 +30,7 @@ struct PageContent {
   const ContactNetwork *network = nullptr;    // NULL before a crunch, like the report
   const jam_crunch_report *report = nullptr;  // its numbers are shown as the certificate
   std::string stop_reason{};
+  std::string proof{};            // what was proved; empty where nothing was asked for
   std::vector<double> gaps{};     // of pairs that are no contacts, ascending
   std::vector<double> history{};  // relative growth of the diameters in each step of the crunch
   std::vector<PageStep> steps{};  // the slider: the last one is the packing itself; empty: no slider

@@ -24,6 +24,11 @@ void put(std::string &out, double high, double low) {
   put(out, low);
 }
 
+void put_list(std::string &out, const std::vector<int32_t> &list) {
+  for (const int32_t x : list) (out += ' ') += std::to_string(x);
+  out += '\n';
+}
+
 }  // namespace
 
 void write_proof(const ProofScene &s, const char *path) {
@@ -45,13 +50,22 @@ void write_proof(const ProofScene &s, const char *path) {
     out += '\n';
     file.flush_if_full();
   }
+  std::vector<bool> implied(s.contacts(), false);
+  for (const ImpliedContact &c : s.implied) implied[c.contact] = true;
+  size_t row = 0;  // of the contacts that are not implied
   for (size_t k = 0; k < s.contacts(); ++k) {
     out += "contact " + std::to_string(s.sphere[s.a[k]]) + ' ' + std::to_string(s.sphere[s.b[k]]);
     for (size_t c = 0; c < d; ++c) out += ' ' + std::to_string(s.image[k * d + c]);
     put(out += ' ', s.force[k]);
+    if (!s.row.empty()) put(out += ' ', implied[k] ? 0.0 : s.row[row++]);
     out += '\n';
     file.flush_if_full();
   }
+  if (!s.row.empty())
+    for (const ImpliedContact &c : s.implied) {
+      for (const std::vector<int32_t> &tile : c.tiles) put_list(out += "tile", tile);
+      put_list(out += "implied " + std::to_string(c.contact), c.path);
+    }
   file.commit();
 }
 

@@ -60,6 +60,9 @@ void certify(const Packing &p, const ContactNetwork &net, jam_crunch_report &rep
   report.packing_fraction_start = report.displacement_max = report.displacement_rms = report.displacement_max_stable =
       report.displacement_rms_stable = std::numeric_limits<double>::quiet_NaN();
   report.contacts_start = report.contacts_kept = -1;
+  report.theorem = JAM_THEOREM_NONE, report.proof_cause = JAM_CAUSE_NONE;
+  report.proof_radius = std::numeric_limits<double>::infinity();
+  report.proof_value = report.proof_bound = 0.0;
 }
 
 int32_t verdict_code(Verdict verdict) {

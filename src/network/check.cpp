@@ -54,8 +54,7 @@ void scan_pairs(const Packing &p, const std::vector<int32_t> &coordination, jam_
   }
 }
 
-void take_verdict(const Packing &p, const PackingVerdict &v, jam_check_report &r) {
-  const ContactNetwork net = v.carrying(p.dim);
+void take_verdict(const Packing &p, const PackingVerdict &v, const ContactNetwork &net, jam_check_report &r) {
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.excess_contacts = excess_contacts(net, p.dim);
@@ -126,7 +125,8 @@ CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_poi
       verdict.undecided_contacts = std::max(verdict.undecided_contacts, wide.report.contacts);
     }
   }
-  take_verdict(q, verdict, r);
+  out.carrying = verdict.carrying(q.dim);
+  take_verdict(q, verdict, out.carrying, r);
   r.reason = reason_of(r, resolution.coarse(p), changes);
   return out;
 }

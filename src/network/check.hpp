@@ -5,12 +5,14 @@
 #include "core/cancellation.hpp"
 #include "core/packing.hpp"
 #include "jam/jam.h"
+#include "network/contact_network.hpp"
 
 namespace jam {
 
 struct CheckResult {
   jam_check_report report{};
-  Packing tested;  // with the diameters that were tested: no pair overlaps
+  Packing tested;           // with the diameters that were tested: no pair overlaps
+  ContactNetwork carrying;  // contacts with force of the verdict
 };
 CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_point = CancellationPoint());
 

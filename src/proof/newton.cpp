@@ -22,23 +22,33 @@ void add_to(double &high, double &low, double x) {
   high = sum.high, low = sum.low;
 }
 
-// f with R^T f = 0 and sum f sigma^2 = 1.
+}  // namespace
+
 void refine_forces(ProofScene &s, const ProofEquations &e, const NormalMatrix &normal) {
-  normal.project_on_balance(s.force);
   double sum = 0.0;
+  if (s.strict) {  // r . R^T f = 2 sum f |r|^2 = d for homogeneous strains
+    for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * e.sigma2[c];
+    for (double &f : s.force) f *= 0.5 * s.dim / (sum * s.gamma);
+    normal.project_on_balance(s.force);
+    return;
+  }
+  normal.project_on_balance(s.force);
   for (size_t c = 0; c < s.contacts(); ++c) sum += s.force[c] * e.sigma2[c];
   for (double &f : s.force) f /= sum;
 }
-
-}  // namespace
 
 // f^T (R v - sigma^2 g) = -f^T F and f^T R = 0 give g; the rest is a system in R alone.
 NewtonStep newton_step(const ProofScene &s, const ProofEquations &e, const NormalMatrix &normal) {
   NewtonStep step;
   double sum = 0.0;
+  std::vector<double> y(e.f);
+  for (double &x : y) x = -x;
+  if (s.strict) {
+    step.v = normal.nearest(y);
+    return step;
+  }
   for (size_t c = 0; c < s.contacts(); ++c) step.gamma += s.force[c] * e.f[c], sum += s.force[c] * e.sigma2[c];
   step.gamma /= sum;
-  std::vector<double> y(s.contacts());
   for (size_t c = 0; c < s.contacts(); ++c) y[c] = e.sigma2[c] * step.gamma - e.f[c];
   step.v = normal.nearest(y);
   return step;
@@ -52,14 +62,24 @@ void take_step(ProofScene &s, const NewtonStep &step) {
       add_to(s.high[at], s.low[at], step.v[i * d + k]);
     }
   add_to(s.gamma, s.gamma_low, step.gamma);
+  if (!s.strict) return;
+  std::vector<double> rows = s.cell.rows();
+  for (size_t q = 0; q < d; ++q)
+    for (size_t k = 0; k <= q; ++k) add_to(rows[q * d + k], s.cell_low[q * d + k], step.v[(s.nodes() + q) * d + k]);
+  s.cell = Cell::from_triangle(s.dim, rows.data());
 }
 
 bool refine(ProofScene &s, ProofEquations &e) {
   const BlasSingleThread single;
   if (s.contacts() == 0) return false;
   const bool closed = close_exactly(s);  // nothing to refine, and no step may spoil it
+  if (!closed && !s.implied.empty()) {   // what is not implied has as many equations as unknowns
+    ProofScene kept = without_implied(s);
+    if (!refine(kept, e)) return false;
+    s.high = kept.high, s.low = kept.low, s.gamma = kept.gamma, s.gamma_low = kept.gamma_low, s.row = kept.force;
+  }
   e = evaluate(s);
-  if (!closed) {
+  if (!closed && s.implied.empty()) {
     NormalMatrix normal(s, e);
     if (!normal.factorise()) return false;
     refine_forces(s, e, normal);
@@ -74,7 +94,7 @@ bool refine(ProofScene &s, ProofEquations &e) {
   }
   NormalMatrix normal(s, e);
   if (!normal.factorise()) return false;
-  if (!closed) refine_forces(s, e, normal);
+  if (!closed || s.strict) refine_forces(s, e, normal);
   return true;
 }
 

@@ -13,33 +13,40 @@ namespace jam {
 
 NormalMatrix::NormalMatrix(const ProofScene &s, const ProofEquations &e) : scene_(s), equations_(e) {
   const size_t d = static_cast<size_t>(s.dim), dd = d * d;
-  m_.dim = s.dim, m_.nodes = static_cast<int32_t>(s.nodes());
-  m_.diag.assign(s.nodes() * dd, 0.0);
-  std::map<std::pair<int32_t, int32_t>, std::vector<double>> off;
+  m_.dim = s.dim, m_.nodes = static_cast<int32_t>(s.ends());
+  m_.diag.assign(s.ends() * dd, 0.0);
+  std::map<std::pair<size_t, size_t>, std::vector<double>> off;
+  const auto add = [&](double *block, size_t p, size_t q, const double *r, double weight) {
+    for (size_t k = 0; k < d; ++k)
+      for (size_t m = 0; m < d; ++m)
+        if (s.moves(p, static_cast<int>(k)) && s.moves(q, static_cast<int>(m)))
+          block[k * d + m] += weight * (r[k] * r[m]);
+  };
   for (size_t c = 0; c < s.contacts(); ++c) {
     const double *r = &e.row[c * d];
-    const int32_t a = s.a[c], b = s.b[c];
-    const bool couples = a != 0 && b != 0;
-    std::vector<double> *block = nullptr;
-    if (couples) {
-      block = &off[{std::min(a, b), std::max(a, b)}];
-      block->resize(dd, 0.0);
-    }
-    for (size_t p = 0; p < d; ++p)
-      for (size_t q = 0; q < d; ++q) {
-        const double x = r[p] * r[q];
-        if (a != 0) m_.diag[a * dd + p * d + q] += x;
-        if (b != 0) m_.diag[b * dd + p * d + q] += x;
-        if (couples) (*block)[p * d + q] -= x;
-      }
+    s.each_end(c, [&](size_t p, double wp) {
+      s.each_end(c, [&](size_t q, double wq) {
+        if (p == q) add(&m_.diag[p * dd], p, p, r, wp * wp);
+        if (p == 0 || p >= q) return;
+        std::vector<double> &block = off[{p, q}];
+        block.resize(dd, 0.0);
+        add(block.data(), p, q, r, wp * wq);
+      });
+    });
   }
   double trace = 0.0;
   for (size_t i = d; i < s.unknowns(); ++i) trace += m_.diag[i * d + i % d];
-  for (size_t p = 0; p < d; ++p) m_.diag[p * d + p] = trace / static_cast<double>(s.unknowns());
+  for (size_t i = 0; i < s.unknowns(); ++i)
+    if (!s.moves(i / d, static_cast<int>(i % d))) m_.diag[i * d + i % d] = trace / static_cast<double>(s.unknowns());
   for (auto &[pair, block] : off) {
-    m_.ei.push_back(pair.first), m_.ej.push_back(pair.second);
+    m_.ei.push_back(static_cast<int32_t>(pair.first)), m_.ej.push_back(static_cast<int32_t>(pair.second));
     m_.off.insert(m_.off.end(), block.begin(), block.end());
   }
+}
+
+void NormalMatrix::pin(std::vector<double> &v) const {
+  for (size_t i = 0; i < v.size(); ++i)
+    if (!scene_.moves(i / scene_.dim, static_cast<int>(i % scene_.dim))) v[i] = 0.0;
 }
 
 bool NormalMatrix::factorise() {
@@ -57,14 +64,16 @@ std::vector<double> NormalMatrix::nearest(const std::vector<double> &y) const {
     multiply_rows(scene_, equations_, v.data(), image.data());
     for (size_t c = 0; c < y.size(); ++c) left[c] = y[c] - image[c];
   }
-  std::fill(v.begin(), v.begin() + scene_.dim, 0.0);
+  pin(v);
   return v;
 }
 
 void NormalMatrix::project_on_balance(std::vector<double> &f) const {
   std::vector<double> step(scene_.unknowns()), image(f.size());
+  const std::vector<double> target = balance_target(scene_);
   for (int pass = 0; pass < proof_tuning::refinements; ++pass) {
     multiply_columns(scene_, equations_, f.data(), step.data());
+    for (size_t k = 0; k < step.size(); ++k) step[k] -= target[k];
     factor_->solve(step.data());
     multiply_rows(scene_, equations_, step.data(), image.data());
     for (size_t c = 0; c < f.size(); ++c) f[c] -= image[c];
@@ -80,7 +89,7 @@ double NormalMatrix::smallest_eigenvalue() const {
   for (int pass = 0; pass < proof_tuning::inverse_iterations; ++pass) {
     CallScope::look();
     factor_->solve(v.data());
-    std::fill(v.begin(), v.begin() + scene_.dim, 0.0);
+    pin(v);
     double length = 0.0, stretch = 0.0;
     for (const double x : v) length += x * x;
     if (!(length > 0.0)) return 0.0;
@@ -92,24 +101,26 @@ double NormalMatrix::smallest_eigenvalue() const {
   return value;
 }
 
-// |R'^T R' - M| in the 2-norm, R' the rounded rows: each entry is a sum of at most z products, so it is
-// gamma_(z + 3) |R'|^T |R'| (its 2-norm is at most the product of the largest row and column sum).
+// |R'^T R' - M| in the 2-norm, R' the rounded rows: each entry is a sum of at most z products of three, so it is
+// gamma_(z + 4) |R'|^T |R'| (its 2-norm is at most the product of the largest row and column sum).
 double NormalMatrix::forming_error() const {
   const size_t d = static_cast<size_t>(scene_.dim);
   std::vector<double> column(scene_.unknowns());
-  std::vector<int32_t> z(scene_.nodes(), 0);
+  std::vector<int32_t> z(scene_.ends(), 0);
   double largest_row = 0.0;
   multiply_columns(scene_, equations_, std::vector<double>(scene_.contacts(), 1.0).data(), column.data(), true);
   for (size_t c = 0; c < scene_.contacts(); ++c) {
     std::vector<double> part;
-    for (size_t k = 0; k < d; ++k) part.push_back(2.0 * std::fabs(equations_.row[c * d + k]));
-    largest_row = std::max(largest_row, sum_up(part));
-    ++z[scene_.a[c]], ++z[scene_.b[c]];
+    scene_.each_end(c, [&](size_t node, double weight) {
+      for (size_t k = 0; k < d; ++k) part.push_back(std::fabs(weight * equations_.row[c * d + k]));
+      ++z[node];
+    });
+    largest_row = std::max(largest_row, mul_up(sum_up(part), 1.0 + 2.0 * half_ulp));
   }
   const double most = *std::max_element(z.begin(), z.end());
   const double largest_column =
-      mul_up(*std::max_element(column.begin(), column.end()), add_up(1.0, gamma_of(most + 2.0)));
-  return mul_up(gamma_of(most + 3.0), mul_up(largest_row, largest_column));
+      mul_up(*std::max_element(column.begin(), column.end()), add_up(1.0, gamma_of(most + 3.0)));
+  return mul_up(gamma_of(most + 4.0), mul_up(largest_row, largest_column));
 }
 
 NormalMatrix::Bound NormalMatrix::bound() {
@@ -130,8 +141,9 @@ NormalMatrix::Bound NormalMatrix::bound() {
                           forming_error());
     const double left = sub_down(mu, out.rounding);
     if (!(left > 0.0)) continue;
-    // R differs from its rounded rows by half_ulp in each entry; each row stands twice.
-    out.singular = std::max(0.0, sub_down(sqrt_down(left), mul_up(2.0 * half_ulp, mul_up(2.0, rows))));
+    // R differs from its rounded rows by half_ulp in each entry; a row stands at each of its ends.
+    const double all = mul_up(rows, sqrt_up(largest_weight(scene_)));
+    out.singular = std::max(0.0, sub_down(sqrt_down(left), mul_up(2.0 * half_ulp, mul_up(2.0, all))));
     if (out.singular > 0.0) return out;
   }
   out.singular = 0.0;

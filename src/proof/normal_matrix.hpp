@@ -18,7 +18,7 @@ class NormalMatrix {
   bool factorise();
   // v (nodes, dim) with R v nearest to y, refined to double precision; 0 at the pinned node.
   std::vector<double> nearest(const std::vector<double> &y) const;
-  // f := its part with R^T f = 0.
+  // f := the nearest to it with R^T f = 0, strict with R^T f = the gradient of log V.
   void project_on_balance(std::vector<double> &f) const;
 
   // The smallest eigenvalue of M is at least `singular`^2. A factorisation L L^T of M - mu without a lost pivot has
@@ -33,6 +33,7 @@ class NormalMatrix {
 
  private:
   double smallest_eigenvalue() const;
+  void pin(std::vector<double> &v) const;
   double forming_error() const;
   const ProofScene &scene_;
   const ProofEquations &equations_;

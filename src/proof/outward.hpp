@@ -18,6 +18,7 @@ inline double sub_down(double a, double b) { return down(a - b); }
 inline double mul_up(double a, double b) { return up(a * b); }
 inline double mul_down(double a, double b) { return down(a * b); }
 inline double div_up(double a, double b) { return up(a / b); }
+inline double div_down(double a, double b) { return down(a / b); }
 inline double sqrt_up(double x) { return up(std::sqrt(x)); }
 inline double sqrt_down(double x) { return down(std::sqrt(x)); }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proof/implied.hpp"
+
 namespace jam {
 
 Expansion ProofScene::component(size_t c, int k) const {
@@ -10,7 +12,10 @@ Expansion ProofScene::component(size_t c, int k) const {
   Expansion r(high[i]);
   r.add(low[i]), r.add(-high[j]), r.add(-low[j]);
   for (int q = k; q < dim; ++q)
-    if (image[c * dim + q] != 0) r.add_product(image[c * dim + q], cell.row(q)[k]);
+    if (image[c * dim + q] != 0) {
+      r.add_product(image[c * dim + q], cell.row(q)[k]);
+      r.add_product(image[c * dim + q], cell_low[q * dim + k]);
+    }
   return r;
 }
 
@@ -25,6 +30,20 @@ Expansion ProofScene::sigma_squared(int32_t i, int32_t j) const {
   }
   square.add_product(sum, sum);
   return square;
+}
+
+ProofScene without_implied(const ProofScene &s) {
+  ProofScene out = s;
+  out.implied.clear();
+  std::vector<bool> gone(s.contacts(), false);
+  for (const ImpliedContact &c : s.implied) gone[c.contact] = true;
+  out.a.clear(), out.b.clear(), out.image.clear(), out.force.clear();
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    if (gone[c]) continue;
+    out.a.push_back(s.a[c]), out.b.push_back(s.b[c]), out.force.push_back(s.force[c]);
+    for (int k = 0; k < s.dim; ++k) out.image.push_back(s.image[c * s.dim + k]);
+  }
+  return out;
 }
 
 bool lattice_image(const Cell &cell, const double *offset, int32_t *n) {
@@ -72,6 +91,7 @@ ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, con
     if (x != 0.0 && std::fabs(x) < 1e-60) fail(JAM_E_ARGUMENT, "the cell has an entry of %g of its size", x);
   }
   s.cell = Cell::from_triangle(p.dim, rows.data());
+  s.cell_low.assign(rows.size(), 0.0);
   s.non_additivity = p.non_additivity;
   s.high = p.position;
   for (double &x : s.high) x = without_tiny(x / s.unit);
@@ -93,6 +113,7 @@ ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, con
     sum += s.force.back() * sigma2;
   }
   for (double &f : s.force) f /= sum;
+  s.implied = find_implied(s);
   return s;
 }
 
@@ -117,27 +138,54 @@ ProofEquations evaluate(const ProofScene &s) {
 }
 
 void multiply_rows(const ProofScene &s, const ProofEquations &e, const double *v, double *y) {
-  const size_t d = static_cast<size_t>(s.dim);
   for (size_t c = 0; c < s.contacts(); ++c) {
     double sum = 0.0;
-    for (size_t k = 0; k < d; ++k) {
-      const double xa = s.a[c] ? v[s.a[c] * d + k] : 0.0, xb = s.b[c] ? v[s.b[c] * d + k] : 0.0;
-      sum += e.row[c * d + k] * (xa - xb);
+    for (int k = 0; k < s.dim; ++k) {
+      double opening = 0.0;
+      s.each_end(c, [&](size_t node, double weight) {
+        if (s.moves(node, k)) opening += weight * v[node * s.dim + k];
+      });
+      sum += e.row[c * s.dim + k] * opening;
     }
     y[c] = sum;
   }
 }
 
 void multiply_columns(const ProofScene &s, const ProofEquations &e, const double *f, double *y, bool absolute) {
-  const size_t d = static_cast<size_t>(s.dim);
   std::fill(y, y + s.unknowns(), 0.0);
   for (size_t c = 0; c < s.contacts(); ++c)
-    for (size_t k = 0; k < d; ++k) {
-      const double x = e.row[c * d + k] * f[c];
-      y[s.a[c] * d + k] += absolute ? std::fabs(x) : x;
-      y[s.b[c] * d + k] += absolute ? std::fabs(x) : -x;
+    for (int k = 0; k < s.dim; ++k) {
+      const double x = e.row[c * s.dim + k] * f[c];
+      s.each_end(c, [&](size_t node, double weight) {
+        if (s.moves(node, k)) y[node * s.dim + k] += absolute ? std::fabs(weight * x) : weight * x;
+      });
     }
-  std::fill(y, y + d, 0.0);  // node 0 is pinned
+}
+
+namespace {
+double weight_of(const ProofScene &s, size_t c) {
+  double sum = 0.0;
+  s.each_end(c, [&](size_t, double weight) { sum += weight * weight; });
+  return sum;
+}
+}  // namespace
+
+double largest_weight(const ProofScene &s) {
+  double most = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c) most = std::max(most, weight_of(s, c));
+  return most;
+}
+
+double largest_load(const ProofScene &s) {
+  std::vector<double> load(s.ends(), 0.0);
+  for (size_t c = 0; c < s.contacts(); ++c) s.each_end(c, [&](size_t node, double) { load[node] += weight_of(s, c); });
+  return *std::max_element(load.begin(), load.end());
+}
+
+std::vector<double> balance_target(const ProofScene &s) {
+  std::vector<double> out(s.unknowns(), 0.0);
+  for (int q = 0; s.strict && q < s.dim; ++q) out[(s.nodes() + q) * s.dim + q] = 1.0 / s.cell.row(q)[q];
+  return out;
 }
 
 }  // namespace jam

@@ -5,6 +5,9 @@
 // x: centres of the stable spheres, each the sum of two doubles; n_c: an integer vector, rows of A: cell vectors;
 // sigma_c: contact distance from the ratios s_i of diameters. A packing with the diameters sqrt(Gamma) s_i touches
 // exactly in the contacts where all F_c are 0. One stable sphere is pinned, which removes translations.
+//
+// Strict: Gamma is fixed, and the lower triangle of A is unknown. A cell vector is then a node like a sphere: F_c
+// depends on sum_p w_p y_p over its ends p, w = 1, -1 for its spheres and n_q for cell vector q.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,29 +18,58 @@
 
 namespace jam {
 
+// A contact of which the others leave no choice but to be closed: the walk from one of its spheres to the other over
+// these contacts has a known sum.
+struct ImpliedContact {
+  int32_t contact = 0;
+  std::vector<int32_t> path;
+  std::vector<std::vector<int32_t>> tiles;  // walks round triangles and parallelograms that give the directions
+};
+
 struct ProofScene {
   int dim = 3;
-  double unit = 1.0;  // a power of two: lengths here are lengths of the packing over it, about the box
-  Cell cell{3, 1.0};  // in this unit, as all below
+  double unit = 1.0;             // a power of two: lengths here are lengths of the packing over it, about the box
+  Cell cell{3, 1.0};             // in this unit, as all below
+  std::vector<double> cell_low;  // (dim, dim), added to the cell vectors
+  bool strict = false;
   double non_additivity = 0.0;
   std::vector<double> ratio;      // s_i of all spheres
   std::vector<double> high, low;  // (n, dim), all spheres
   double gamma = 1.0, gamma_low = 0.0;
-  std::vector<int32_t> sphere, node;  // node -> sphere; sphere -> node, -1 for rattlers
-  std::vector<int32_t> a, b;          // contact -> nodes
-  std::vector<int32_t> image;         // (contacts, dim): n_c
-  std::vector<double> force;          // f_c > 0 with sum f_c sigma_c^2 = 1; as given by the network until refined
-  bool own_images = false;            // a contact of a sphere with its own image
+  std::vector<int32_t> sphere, node;    // node -> sphere; sphere -> node, -1 for rattlers
+  std::vector<int32_t> a, b;            // contact -> nodes
+  std::vector<int32_t> image;           // (contacts, dim): n_c
+  std::vector<double> force;            // f_c > 0 with sum f_c sigma_c^2 = 1; as given by the network until refined
+  std::vector<ImpliedContact> implied;  // d = 2: implied.hpp. Each follows from those before it and the others
+  std::vector<double> row;  // with implied contacts: the state of self-stress of the others alone, once refined
+  bool own_images = false;  // a contact of a sphere with its own image
 
   size_t contacts() const { return a.size(); }
   size_t nodes() const { return sphere.size(); }
-  size_t unknowns() const { return dim * nodes(); }  // Gamma not counted; the pinned sphere is node 0
+  size_t ends() const { return nodes() + (strict ? dim : 0); }  // spheres, then cell vectors
+  size_t unknowns() const { return dim * ends(); }              // with those that are pinned, without Gamma
+  // Node 0 is pinned, and so are entries of cell vectors above the diagonal.
+  bool moves(size_t node, int k) const {
+    return node != 0 && (node < nodes() || k <= static_cast<int>(node - nodes()));
+  }
+  // As many contacts as unknowns.
+  int64_t needed() const { return dim * (static_cast<int64_t>(nodes()) - 1) + (strict ? dim * (dim + 1) / 2 : 1); }
+  template <class F>
+  void each_end(size_t c, F &&f) const {  // f(node, weight)
+    f(static_cast<size_t>(a[c]), 1.0), f(static_cast<size_t>(b[c]), -1.0);
+    for (int q = 0; strict && q < dim; ++q)
+      if (image[c * dim + q] != 0) f(nodes() + q, static_cast<double>(image[c * dim + q]));
+  }
 
   // Component k of r_c, exactly.
   Expansion component(size_t c, int k) const;
   Expansion sigma_squared(int32_t i, int32_t j) const;  // of spheres
   Expansion sigma_squared(size_t c) const { return sigma_squared(sphere[a[c]], sphere[b[c]]); }
 };
+
+// The scene of the contacts that are not implied, forces as they are. Its equations are those that the exact packing
+// solves; the implied ones follow.
+ProofScene without_implied(const ProofScene &scene);
 
 // ratio: one s_i a sphere, or empty: the diameters as they are. The network has forces.
 ProofScene make_proof_scene(const Packing &p, const ContactNetwork &network, const std::vector<double> &ratio);
@@ -53,10 +85,16 @@ struct ProofEquations {
 };
 ProofEquations evaluate(const ProofScene &scene);
 
-// y (contacts) = R v with the rows above; v of the pinned node is 0.
+// y (contacts) = R v with the rows above; what is pinned counts as 0.
 void multiply_rows(const ProofScene &scene, const ProofEquations &e, const double *v, double *y);
-// y (nodes, dim) = R^T f, with zeros at the pinned node. With `absolute` of absolute values.
+// y (ends, dim) = R^T f, with zeros at what is pinned. With `absolute` of absolute values.
 void multiply_columns(const ProofScene &scene, const ProofEquations &e, const double *f, double *y,
                       bool absolute = false);
+// sum_p w_p^2 over the ends p of a contact: its largest value, and the largest sum over the contacts of a node. With
+// these, sum_c |sum_p w_p v_p|^2 <= largest_load |v|^2.
+double largest_weight(const ProofScene &scene);
+double largest_load(const ProofScene &scene);
+// What R^T f has to be: 0, but strict the gradient of log V by the cell vectors.
+std::vector<double> balance_target(const ProofScene &scene);
 
 }  // namespace jam

@@ -1,4 +1,5 @@
 /* Calls of proofs: arguments, statuses, texts, and what a proof of two sizes of disks says. */
+#include <fenv.h>
 #include <jam/jam.h>
 #include <math.h>
 #include <stdio.h>
@@ -77,7 +78,7 @@ static void a_packing_of_two_sizes_is_proved(void **state) {
   assert_true(r.radius > 0.0 && r.radius < 1e-28); /* two doubles hold 32 digits */
   assert_true(r.fraction_error > 0.0 && r.fraction_error < 1e-27);
   assert_true(r.least_force > r.force_error && r.force_error > 0.0);
-  assert_true(r.inner < r.outer && r.outer > 1e-10);
+  assert_true(r.inner == r.radius && r.outer > 1e-10); /* about the exact packing itself nothing moves */
   assert_true(fabs(r.packing_fraction - plain.packing_fraction) < 1e-12);
   assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
   jam_positions_view(sys, &x, &len);
@@ -91,6 +92,76 @@ static void a_packing_of_two_sizes_is_proved(void **state) {
   jam_destroy(copy);
 }
 
+/* Bounds are rounded outward on the assumption of rounding to nearest, which the library sets: whatever the host's
+   mode, every number of the report is the same, and the mode is as before. */
+static void the_rounding_mode_of_the_host_changes_nothing(void **state) {
+  static const int modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+  jam_system *sys = jammed();
+  jam_proof_report nearest = {.struct_size = sizeof nearest};
+  double high[2 * n], low[2 * n], again[2 * n], rest[2 * n];
+  size_t k;
+  (void)state;
+  assert_int_equal(jam_prove(sys, sizes, n, &nearest), JAM_OK);
+  assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
+  for (k = 0; k < sizeof modes / sizeof *modes; ++k) {
+    jam_proof_report r = {.struct_size = sizeof r};
+    jam_status status;
+    assert_int_equal(fesetround(modes[k]), 0);
+    status = jam_prove(sys, sizes, n, &r);
+    assert_int_equal(fegetround(), modes[k]);
+    assert_int_equal(jam_refined_positions(sys, sizes, n, again, 2 * n, rest, 2 * n, NULL), JAM_OK);
+    fesetround(FE_TONEAREST);
+    assert_int_equal(status, JAM_OK);
+    assert_memory_equal(&r, &nearest, sizeof r);
+    assert_memory_equal(again, high, sizeof high);
+    assert_memory_equal(rest, low, sizeof low);
+  }
+  jam_destroy(sys);
+}
+
+/* Crunch and check take the option, and their reports agree with jam_prove. */
+static void crunch_and_check_prove_when_asked(void **state) {
+  jam_system *sys = jammed();
+  jam_proof_report proof = {.struct_size = sizeof proof};
+  jam_crunch_report crunched = {.struct_size = sizeof crunched};
+  jam_check_report checked = {.struct_size = sizeof checked};
+  jam_crunch_options crunch;
+  jam_check_options check;
+  (void)state;
+  assert_int_equal(jam_crunch_report_get(sys, &crunched), JAM_OK);
+  assert_int_equal(crunched.theorem, JAM_THEOREM_NONE);
+  assert_true(isinf(crunched.proof_radius));
+  jam_crunch_options_init(&crunch, sizeof crunch);
+  crunch.prove = 2;
+  assert_int_equal(jam_crunch(sys, &crunch, NULL), JAM_E_ARGUMENT);
+  crunch.prove = 1;
+  assert_int_equal(jam_crunch(sys, &crunch, &crunched), JAM_OK);
+  assert_int_equal(jam_prove(sys, NULL, 0, &proof), JAM_OK);
+  assert_int_equal(crunched.theorem, JAM_THEOREM_EXACT);
+  assert_true(crunched.proof_radius == proof.radius);
+  jam_check_options_init(&check, sizeof check);
+  assert_int_equal(jam_check_packing(sys, &check, &checked), JAM_OK);
+  assert_int_equal(checked.theorem, JAM_THEOREM_NONE);
+  assert_null(strstr(jam_check_text(&checked), "proved, radius"));
+  check.prove = 1;
+  assert_int_equal(jam_check_packing(sys, &check, &checked), JAM_OK);
+  assert_int_equal(checked.theorem, JAM_THEOREM_EXACT);
+  assert_true(checked.proof_radius < 1e-28);
+  assert_non_null(strstr(jam_check_text(&checked), "proved, radius"));
+  jam_destroy(sys);
+}
+
+static void the_text_of_a_proof_is_short(void **state) {
+  (void)state;
+  assert_string_equal(jam_proof_text(JAM_THEOREM_EXACT, JAM_CAUSE_NONE, 4e-31, NAN, NAN), "proved, radius 4e-31");
+  assert_string_equal(jam_proof_text(JAM_THEOREM_TRAPPED, JAM_CAUSE_EXCESS, 3e-28, 130.0, 129.0),
+                      "trapped within 3e-28, excess 130, 129");
+  assert_string_equal(jam_proof_text(JAM_THEOREM_NONE, JAM_CAUSE_FORCE, NAN, 1e-12, 3e-11),
+                      "not proved, force 1e-12, 3e-11");
+  assert_string_equal(jam_proof_text(7, 0, 0.0, 0.0, 0.0), "");
+  assert_string_equal(jam_proof_text(0, 7, 0.0, 0.0, 0.0), "");
+}
+
 /* Mari-Kurchan shifts are no cell vectors. */
 static void shifted_pairs_are_refused_by_name(void **state) {
   jam_create_options o;
@@ -102,12 +173,16 @@ static void shifted_pairs_are_refused_by_name(void **state) {
   assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(jam_prove(sys, NULL, 0, NULL), JAM_E_UNSUPPORTED);
+  assert_int_equal(jam_prove_strict(sys, NULL), JAM_E_UNSUPPORTED);
   jam_destroy(sys);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(bad_arguments_are_refused),
                                      cmocka_unit_test(a_packing_of_two_sizes_is_proved),
+                                     cmocka_unit_test(the_rounding_mode_of_the_host_changes_nothing),
+                                     cmocka_unit_test(crunch_and_check_prove_when_asked),
+                                     cmocka_unit_test(the_text_of_a_proof_is_short),
                                      cmocka_unit_test(shifted_pairs_are_refused_by_name)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

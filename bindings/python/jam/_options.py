@@ -14,10 +14,10 @@ NOTES = (
     'jammed; the valid state reached is written. 2: wrong command line. 3: request or input refused, '
     'or the computation failed. 4: an output cannot be written. '
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' judges the "
-    'packing of a file as it is and moves nothing. It takes --box, --frame, --non-additivity, --wall- '
-    'time and --quiet. One paragraph says whether it is jammed, strictly jammed, not jammed or '
-    'undecided, and why. Exit status of check 0: jammed. 1: not. 3: undecided. 2: wrong command line, '
-    'or the file is refused. '
+    'packing of a file as it is and moves nothing. It takes --box, --frame, --non-additivity, '
+    '--prove, --proof, --wall-time and --quiet. One paragraph says whether it is jammed, strictly '
+    'jammed, not jammed or undecided, and why. Exit status of check 0: jammed. 1: not. 3: undecided. '
+    '2: wrong command line, or the file is refused. '
 )
 # name, kind, metavar, default, (low, high), words, needs the crunch, no effect beside, no effect without, help
 OPTIONS = (
@@ -120,6 +120,11 @@ OPTIONS = (
     ('structure', 'output', 'FILE.csv', None, (0, 0), (), True, (), (),
         'a line a sphere: coordination, class, sums of contact vectors and forces, Q6, local packing '
         'fraction'),
+    ('prove', 'switch', '', None, (0, 0), (), False, ('no-crunch',), (),
+        'a theorem about the jammed packing, in spite of rounding; the summary and the report say what '
+        'was proved'),
+    ('proof', 'output', 'FILE', None, (0, 0), (), True, (), (),
+        'the exact numbers of the proof, for the checker jamproof.py'),
     ('report', 'output', 'FILE|-', None, (0, 0), (), False, (), (),
         'figures, protocol and certificate as JSON; - is standard output'),
     ('log', 'output', 'FILE|-', None, (0, 0), (), False, (), (),

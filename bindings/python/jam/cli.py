@@ -271,11 +271,15 @@ class _Work:
                 lp_solver=o.lp,
                 threads=o.threads,
                 duality_gap=o.duality_gap,
+                prove=o.prove,
                 keep_steps=o.page_steps if o.page else 0,
                 checkpoint=o.checkpoint,
                 checkpoint_every=o.checkpoint_every,
             )
             out["protocol"].append({"stage": "crunch", "method": method, "strain": o.strain})
+            if o.prove:
+                numbers = int(r.theorem), int(r.proof_cause), r.proof_radius, r.proof_value, r.proof_bound
+                out["proof"] = raw.jam_proof_text(*numbers) if r.jammed else "not tried: not jammed"
             status, out["crunch"], out["stop_reason"] = int(r.status), r, r.stop_reason.name.lower()
         return status
 
@@ -323,6 +327,8 @@ def _report(system: System, out: dict[str, Any]) -> dict[str, Any]:
     for key in ("contacts_start", "contacts_kept"):
         made[key] = getattr(r, key) if r and getattr(r, key) >= 0 else None
     made["jammed"] = bool(r.jammed) if r else None
+    made["proof"] = out["proof"]
+    made["proof_radius"] = r.proof_radius if r else None
     made |= {
         "stop_reason": out["stop_reason"],
         "md_stop_reason": out["md_stop_reason"],
@@ -342,6 +348,8 @@ def _write(system: System, o: argparse.Namespace, out: dict[str, Any]) -> None:
     if o.contacts and crunched:
         ending = os.path.splitext(o.contacts.removesuffix(".gz"))[1]
         system.write_contacts("/dev/stdout" if o.contacts == "-" else o.contacts, "auto" if ending else "csv")
+    if o.proof and crunched:
+        system.write_proof(o.proof)
     if o.page:
         system.page(o.page)
     if o.gaps and crunched:
@@ -419,13 +427,20 @@ def _check(words: list[str]) -> int:
     p.add_argument("--box", type=_positive, default=1.0)
     p.add_argument("--frame", type=int, default=-1)
     p.add_argument("--non-additivity", type=_delta, default=0.0)
+    p.add_argument("--prove", action="store_true")
+    p.add_argument("--proof", type=_file, default=None)
     p.add_argument("--wall-time", type=_positive, default=None)
     p.add_argument("--quiet", action="store_true")
     o = p.parse_args(words)
     try:
         system = System.read(o.file, box=o.box, frame=o.frame, non_additivity=o.non_additivity, overlap="allow")
         _warn(system)
-        report = system.check(wall_time=o.wall_time)
+        report = system.check(wall_time=o.wall_time, prove=o.prove or o.proof is not None)
+        if o.proof and report.jammed == Verdict.YES:
+            system.contacts_from_geometry()
+            system.write_proof(o.proof)
+        elif o.proof:
+            print(f"jam: {o.proof} is not written: the packing is not jammed", file=sys.stderr)
     except (JamError, ValueError, OSError) as e:
         print(f"jam: {e}", file=sys.stderr)
         return USAGE
@@ -458,6 +473,7 @@ def main(arguments: list[str] | None = None) -> int:
         "seconds_md": 0.0,
         "pressure": None,
         "crunch": None,
+        "proof": None,
         "stop_reason": "none",
         "md_stop_reason": "none",
     }

@@ -19,9 +19,12 @@ from .system import System, restore
 __all__ = ["StoreError", "image", "load", "provenance", "save", "write_shard"]
 
 
-def image(system: System, **more: Any) -> bytes:
-    """The bytes of a packing's file. More: `analysis`, `protocol`, `protocol_id` and `times` of write_packing.image."""
-    return write_packing.image(system._contents(), **more)
+def image(system: System, *, refined: bool = False, **more: Any) -> bytes:
+    """The bytes of a packing's file. More: `analysis`, `protocol`, `protocol_id` and `times` of write_packing.image.
+
+    refined: centres as sums of two doubles too, see System.refined_positions.
+    """
+    return write_packing.image(system._contents(), refined=system.refined_positions() if refined else None, **more)
 
 
 def save(system: System, path: str | os.PathLike[str], **more: Any) -> None:

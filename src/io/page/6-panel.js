@@ -141,7 +141,7 @@ function showReport() {
     `N = ${n}, d = ${dim}, packing fraction ${shownNumber(data.packing_fraction, 12)}, seed ${data.seed}`;
   if (!r) return void (place.innerHTML = "<p>No crunch has been made.</p>");
   const rows = Object.entries(r.numbers).map(([name, x]) => `<tr><td>${name}</td><td>${shownNumber(x, 12)}</td></tr>`);
-  place.innerHTML = `<p class="verdict">${r.jammed ? "Collectively jammed" : "Not jammed"} (${r.stop_reason})</p>` +
+  place.innerHTML = `<p class="verdict">${r.jammed ? "Collectively jammed" : "Not jammed"} (${r.stop_reason})${r.proof ? "; " + r.proof : ""}</p>` +
     `<table>${rows.join("")}</table>`;
 }
 

@@ -396,7 +396,7 @@ function call_array(::Type{T}, f, s::System, args...) where {T}
 end
 
 """
-    judge(s; crunch, wall_time, progress) -> (report, text)
+    judge(s; crunch, prove, wall_time, progress) -> (report, text)
 
 Judges the packing as it is and moves nothing: a jam_check_report, and its paragraph. `s.status` is JAM_OK when jammed,
 JAM_NOT_JAMMED, or JAM_AMBIGUOUS when undecided.

@@ -627,7 +627,9 @@ mutable struct jam_crunch_options
     strain::Int32  # jam_free_strain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move
     keep_steps::Int32  # states before the end that are kept for jam_write_page, 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept
     duality_gap::Cdouble  # 0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no strain
-    jam_crunch_options() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    prove::Int32  # 1: a packing that ends jammed is proved as by jam_prove, into the report; default 0
+    reserved::Int32  # 0
+    jam_crunch_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -681,7 +683,12 @@ mutable struct jam_crunch_report
     displacement_rms_stable::Cdouble
     contacts_start::Int64  # pairs that touched before, as far as the digits of the coordinates tell
     contacts_kept::Int64  # of these the contacts of this report; -1 where contacts are unknown
-    jam_crunch_report() = new(336, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    theorem::Int32  # jam_theorem, with the option prove; NONE without
+    proof_cause::Int32  # jam_proof_cause: why the theorem is not EXACT
+    proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    proof_value::Cdouble  # the two numbers of the cause
+    proof_bound::Cdouble
+    jam_crunch_report() = new(368, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -889,7 +896,9 @@ mutable struct jam_check_options
     struct_size::UInt32  # sizeof(jam_check_options)
     crunch::Int32  # 1: an undecided packing is crunched, as a copy, to say what that changes; default 1
     wall_time::Cdouble  # limit for this crunch in seconds, > 0, default infinity
-    jam_check_options() = new(16, 0, 0)
+    prove::Int32  # 1: a jammed packing is proved as by jam_prove, into the report; default 0
+    reserved::Int32  # 0
+    jam_check_options() = new(24, 0, 0, 0, 0)
 end
 
 """
@@ -928,7 +937,12 @@ mutable struct jam_check_report
     crunch_packing_fraction::Cdouble  # of the crunched copy
     crunch_displacement_max::Cdouble  # largest displacement in it of a sphere that ends with contacts
     crunch_displacement_rms::Cdouble  # root of the mean square of the same
-    jam_check_report() = new(216, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+    theorem::Int32  # jam_theorem, with the option prove; NONE without
+    proof_cause::Int32  # jam_proof_cause: why the theorem is not EXACT
+    proof_radius::Cdouble  # unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    proof_value::Cdouble  # the two numbers of the cause
+    proof_bound::Cdouble
+    jam_check_report() = new(248, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1876,8 +1890,8 @@ function jam_check_packing(sys, o, report)
 end
 
 """
-The report of jam_check_packing as one paragraph: the verdict, its figures, and how sure it is. "" for NULL or a
-wrong struct_size. Valid until this thread's next call of it.
+The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
+for NULL or a wrong struct_size. Valid until this thread's next call of it.
 """
 function jam_check_text(report)
     return ccall((:jam_check_text, libjam), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
@@ -1894,6 +1908,26 @@ Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model).
 """
 function jam_prove(sys, ratio, ratio_len, report)
     return ccall((:jam_prove, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
+end
+
+"""
+The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
+jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
+Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
+exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
+Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
+"""
+function jam_prove_strict(sys, report)
+    return ccall((:jam_prove_strict, libjam), Int32, (Ptr{Cvoid}, Ref{jam_proof_report}), sys, _ref(jam_proof_report, report))
+end
+
+"""
+What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
+1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
+this thread's next call of it.
+"""
+function jam_proof_text(theorem, cause, radius, value, bound)
+    return ccall((:jam_proof_text, libjam), Cstring, (Int32, Int32, Cdouble, Cdouble, Cdouble), theorem, cause, radius, value, bound)
 end
 
 """

@@ -670,7 +670,12 @@ class CrunchReport(Report):
     displacement_max_stable: both over the spheres that end with contacts, without their mean; NaN without any
     displacement_rms_stable:
     contacts_start: pairs that touched before, as far as the digits of the coordinates tell
-    contacts_kept: of these the contacts of this report; -1 where contacts are unknown"""
+    contacts_kept: of these the contacts of this report; -1 where contacts are unknown
+    theorem: jam_theorem, with the option prove; NONE without
+    proof_cause: jam_proof_cause: why the theorem is not EXACT
+    proof_radius: unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    proof_value: the two numbers of the cause
+    proof_bound:"""
     jammed: bool
     stop_reason: StopReason
     lp_solver: LpSolver
@@ -716,6 +721,11 @@ class CrunchReport(Report):
     displacement_rms_stable: float
     contacts_start: int
     contacts_kept: int
+    theorem: Theorem
+    proof_cause: ProofCause
+    proof_radius: float
+    proof_value: float
+    proof_bound: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -942,7 +952,12 @@ class CheckReport(Report):
     diameter_factor: diameters were tested times this, so that no pair overlaps; 1: as they are
     crunch_packing_fraction: of the crunched copy
     crunch_displacement_max: largest displacement in it of a sphere that ends with contacts
-    crunch_displacement_rms: root of the mean square of the same"""
+    crunch_displacement_rms: root of the mean square of the same
+    theorem: jam_theorem, with the option prove; NONE without
+    proof_cause: jam_proof_cause: why the theorem is not EXACT
+    proof_radius: unit of the box: radius of EXACT, inner of TRAPPED, see jam_proof_report; else infinite
+    proof_value: the two numbers of the cause
+    proof_bound:"""
     jammed: Verdict
     strictly_jammed: Verdict
     stationary: Verdict
@@ -973,6 +988,11 @@ class CheckReport(Report):
     crunch_packing_fraction: float
     crunch_displacement_max: float
     crunch_displacement_rms: float
+    theorem: Theorem
+    proof_cause: ProofCause
+    proof_radius: float
+    proof_value: float
+    proof_bound: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -1169,6 +1189,7 @@ OPTIONS = {
         "strain": ("FreeStrain", "FreeStrain, default NONE. Else the cell deforms at fixed volume after the fixed cell's optimum; FREE ends strictly jammed. One sphere alone needs a strain: its contacts are its own images, which only strains move"),
         "keep_steps": ("int", 'states before the end that are kept for write_page(), 0 .. 1000, default 0. Where there are more, or more than 2^24 coordinates in all, every second, fourth, ... is kept'),
         "duality_gap": ("float", '0, the default: to the jamming point. Else 1e-12 .. 1e-2, for packings too large for that: the barrier path ends at this duality gap, and an LP names contacts. Their forces balance. Their own duality gap e is in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 + e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no strain'),
+        "prove": ("bool", '1: a packing that ends jammed is proved as by prove(), into the report; default 0'),
     },
     "jam_relax_options": {
         "minimiser": ("Minimiser", 'Minimiser, default NEWTON'),
@@ -1216,6 +1237,7 @@ OPTIONS = {
     "jam_check_options": {
         "crunch": ("bool", '1: an undecided packing is crunched, as a copy, to say what that changes; default 1'),
         "wall_time": ("float", 'limit for this crunch in seconds, > 0, default infinity'),
+        "prove": ("bool", '1: a jammed packing is proved as by prove(), into the report; default 0'),
     },
     "jam_dos_options": {
         "moments": ("int", 'Chebyshev moments, 8..1e6, default 512: resolution in omega about 1.6 omega_max / moments'),
@@ -1326,6 +1348,7 @@ CALLS = {
     "jam_flex": (True, (("kind", "scalar", "RigidityKind"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("strain", "array_out", "double"), ("strain_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_check_packing": (True, (("o", "struct_in", "jam_check_options"), ("report", "struct_out", "jam_check_report"))),
     "jam_prove": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("report", "struct_out", "jam_proof_report"))),
+    "jam_prove_strict": (True, (("report", "struct_out", "jam_proof_report"),)),
     "jam_write_proof": (True, (("path", "string", "char"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"))),
     "jam_refined_positions": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("high", "array_out", "double"), ("high_len", "len", "size_t"), ("low", "array_out", "double"), ("low_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),

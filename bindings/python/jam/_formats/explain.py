@@ -16,6 +16,8 @@ from .._api.generated import HistoryColumn, StepPhase
 
 #: Unit and meaning of each array by its name. Lengths have the unit of the box.
 _MEANING = {
+    "particles/spheres/refined/high": ("length", "centres (n, d) of the proof are high + low, to about 31 digits"),
+    "particles/spheres/refined/low": ("length", "(n, d), what a double leaves of the centres of the proof"),
     "particles/spheres/position/value": ("length", "centres (1, n, d), in the cell whose vectors are box/edges"),
     "particles/spheres/box/edges/value": ("length", "cell vectors (1, d, d), one a row"),
     "jam/state": ("", "bytes of a checkpoint of libjam, which System.from_checkpoint reads: all that dynamics need"),

@@ -1,6 +1,7 @@
 """One packing, one HDF5 file: positions and box as H5MD, all else in the group `jam`.
 
     h5md, particles/spheres      H5MD 1.1: box/edges as a full matrix, position as a trajectory of one frame
+    particles/spheres/refined    centres as high + low, of save(refined=True)
     jam  (attributes)            schema, seed, protocol (its name), provenance
     jam/state                    bytes of a checkpoint: what dynamics depend on, velocities and random shifts among it
     jam/diameters                (n,), unit of the box
@@ -90,6 +91,7 @@ def image(
     protocol: str | None = None,
     protocol_id: str = "",
     times: Mapping[str, float] | None = None,
+    refined: Any = None,
 ) -> bytes:
     """The bytes of a packing's file.
 
@@ -103,10 +105,13 @@ def image(
         The protocol as JSON and its name.
     times : mapping, optional
         Seconds by name, beside the moment of writing.
+    refined : named tuple, optional
+        Centres as sums of two doubles: what System.refined_positions returns.
     """
 
     def fill(file: Any) -> list[str]:
         _h5md(file, contents)
+        put(file["particles/spheres"], "refined", refined)
         group = file.create_group("jam")
         group.attrs.update({"schema": SCHEMA, "seed": contents.seed, "protocol": protocol_id, **provenance()})
         group.attrs["written"] = time.time()

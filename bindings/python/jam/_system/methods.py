@@ -322,7 +322,7 @@ class Methods:
         answer: Array = self.call('isoconf_kept', instant)
         return answer
 
-    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None) -> Estimate:
+    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None, prove: bool | None = None) -> Estimate:
         """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
         the same at 'info'. Takes as long as a few steps.
 
@@ -369,6 +369,8 @@ class Methods:
             in the report. To first order no motion lets Gamma grow by more than e, so that phi_J is about phi (1 +
             e)^(d/2). Contacts that a smaller gap may change are counted as undecided. Needs BARRIER_PATH and no
             strain
+        prove : bool, optional
+            1: a packing that ends jammed is proved as by prove(), into the report; default 0
 
         Returns
         -------
@@ -378,7 +380,7 @@ class Methods:
         ------
         ArgumentError, OverlapError, TooFewError
         """
-        answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap)
+        answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap, prove=prove)
         return answer
 
     def crunch_history(self, column: int | str) -> Array:
@@ -688,6 +690,24 @@ class Methods:
         ArgumentError, NonfiniteError, StateError, UnsupportedError
         """
         answer: ProofReport = self.call('prove', ratio)
+        return answer
+
+    def prove_strict(self) -> ProofReport:
+        """The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns.
+
+        EXACT: strictly jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do
+        not enlarge the volume. Lengths of the report count displacements and entries of the cell vectors alike,
+        packing_fraction is that of the exact cell. There is no proof file. Status: 'ambiguous' not proved.
+
+        Returns
+        -------
+        ProofReport
+
+        Raises
+        ------
+        StateError, UnsupportedError
+        """
+        answer: ProofReport = self.call('prove_strict')
         return answer
 
     def write_proof(self, path: str, ratio: Any = None) -> None:

@@ -224,13 +224,17 @@ class Network(Base):
         found: RigidityReport = self.call("rigidity", kind, progress=progress)
         return found
 
-    def check(self, *, crunch: bool = True, wall_time: float | None = None, progress: Any = None) -> CheckReport:
+    def check(
+        self, *, crunch: bool = True, prove: bool = False, wall_time: float | None = None, progress: Any = None
+    ) -> CheckReport:
         """Judges the packing as it is: by positions, diameters and cell alone. Nothing moves or changes.
 
         Parameters
         ----------
         crunch : bool
             An undecided packing is crunched, as a copy, to say what that changes.
+        prove : bool
+            A jammed packing is proved, see prove(). The text says what was proved.
         wall_time : float, optional
             Limit of this crunch in seconds.
 
@@ -250,7 +254,7 @@ class Network(Base):
         Collectively jammed, but not strictly
         """
         handle = self.handle
-        chosen = option_struct("jam_check_options", {"crunch": crunch, "wall_time": wall_time})
+        chosen = option_struct("jam_check_options", {"crunch": crunch, "prove": prove, "wall_time": wall_time})
         made = new_report("jam_check_report")
         with self._reporting(progress):
             status = not_cancelled(raw.jam_check_packing(handle, chosen, made))

@@ -106,15 +106,16 @@ class Writing(State, Network):
             'style="width:100%;height:480px;border:1px solid #ccc"></iframe>'
         )
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, refined: bool = False) -> None:
         """Writes the packing with all its results to one HDF5 file, which jam.load reads (needs python3-h5py).
 
         Stored are the state that dynamics go on from, report, contacts, forces, history, the calls made with their
         options, and where it was made. What was observed is not. Positions and box have the layout of H5MD.
+        refined=True stores the centres of refined_positions() too.
         """
         from .._formats.write_packing import image, write_file
 
-        write_file(path, image(self._contents()))
+        write_file(path, image(self._contents(), refined=self.refined_positions() if refined else None))
 
     def _state(self) -> bytes:
         """The bytes of a checkpoint, which holds all: velocities, shifts, results."""

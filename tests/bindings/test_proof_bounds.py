@@ -1,0 +1,181 @@
+"""Each bound of the checker is needed: where one is taken out, a false file passes. Run it to see the table.
+
+A file is false where what the broken checker then says of it is wrong: an overlap, forces that do not balance, a radius
+below the distance to the exact packing. What holds of implied contacts is in test_proof_truths.py: a file that names a
+wrong one is refused twice, as the equations left over are singular.
+"""
+import functools
+import random
+import sys
+import tempfile
+import types
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+from test_proof import CHECKER, File, file_of, moved, new_large_sphere, packing, value, word
+
+SOURCE = CHECKER.read_text(encoding="ascii")
+FAR = Fraction(1, 10**6)
+
+
+def checker(edit=None):
+    """The checker as a module, with one piece of its text exchanged."""
+    text = SOURCE
+    if edit:
+        assert text.count(edit[0]) == 1, f"{edit[0]!r} stands {text.count(edit[0])} times in the checker"
+        text = text.replace(*edit)
+    found = types.ModuleType("jamproof")
+    exec(compile(text, str(CHECKER), "exec"), found.__dict__)  # pylint: disable=exec-used
+    return found
+
+
+def verdict(program, text):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a.jamproof"
+        path.write_text(text, encoding="ascii")
+        try:
+            return program.check(program.Scene(path))
+        except program.Refused as why:
+            return str(why).split(":")[0]
+
+
+@functools.lru_cache
+def made(n, dim, excess):
+    """The text of the first packing with so many contacts above one state of self-stress."""
+    for seed in range(1, 120):
+        system, ratio = packing(n, dim, seed)
+        if system.report.jammed and system.report.excess_contacts == excess:
+            return file_of(system, ratio)
+    raise AssertionError("no seed gives such a packing")
+
+
+def small():
+    return File(made(16, 3, 0))
+
+
+def overlap():
+    f = small()
+    new_large_sphere(f, random.Random(1))
+    return f.text()
+
+
+def overlap_across_the_boundary():
+    """A small sphere at a wall of the cell, one whose centre is its image, but for a hundredth, at the other."""
+    f = small()
+    stable = next(s for s in f.spheres if s[1] == "1")
+    side = value(next(line for line in f.lines if line[0] == "cell")[1])
+    f.lines.append(["sphere", "0", word(Fraction(1, 100)), word(value(stable[3]) + side), *stable[4:]])
+    return f.text()
+
+
+def gap_below_the_radius():
+    """A grain beside a sphere, open by less than the exact packing may be away."""
+    intact, generator = checker(), random.Random(3)
+    for _ in range(100):
+        f = small()
+        stable = generator.choice([s for s in f.spheres if s[1] == "1"])
+        grain = Fraction(1, 1000)
+        gamma = Fraction(float(value(f.gamma[1])) ** 0.5)
+        direction = np.array([generator.gauss(0, 1) for _ in range(3)])
+        direction /= np.linalg.norm(direction)
+        reach = gamma * (value(stable[2]) + grain) / 2 * (1 + Fraction(1, 10**9))
+        f.lines.append(["sphere", "0", word(grain), *[word(value(x) + Fraction(v) * reach) for x, v in zip(stable[3:], direction)]])
+        f.spheres.append(f.lines[-1])
+        if isinstance(verdict(intact, f.text()), dict):
+            moved(FAR)(f, generator)
+            return f.text()
+    raise AssertionError("no place for a grain")
+
+
+def far_centre():
+    f = small()
+    moved(FAR)(f, random.Random(1))
+    return f.text()
+
+
+def far_centre_and_no_inverse():
+    text, intact = far_centre(), checker()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a"
+        path.write_text(text, encoding="ascii")
+        n = len(intact.Scene(path).contacts)
+    data = intact.base64.b64encode(intact.zlib.compress(bytes(4 * n * (n - 1)))).decode()
+    return text + f"inverse -30 {data}\n"
+
+
+def other_forces():
+    """All equal, while the last row of the inverse is the true state of self-stress."""
+    f = small()
+    for line in f.contacts:
+        line.append(line[-1])
+        line[-2] = "1p0"
+    return f.text()
+
+
+def crystal(rows, side, sphere_ratio):
+    """A closed file by hand: centres as binary fractions, all contacts, forces 1."""
+    lines = ["jamproof 1", f"dim {len(rows[0])}", "unit 1p0", "cell " + " ".join("1p0" if a == b else "0p0" for a in range(len(rows[0])) for b in range(a + 1)), "non_additivity 0p0"]
+    lines.append("gamma " + word(side))
+    lines += [f"sphere 1 {word(sphere_ratio)} " + " ".join(word(Fraction(x)) for x in row) for row in rows]
+    for i, x in enumerate(rows):
+        for j in range(i):
+            for n in np.ndindex(*[3] * len(x)):
+                r = [Fraction(a) - Fraction(b) + k - 1 for a, b, k in zip(x, rows[j], n)]
+                if sum(v * v for v in r) == side:
+                    lines.append(f"contact {i} {j} " + " ".join(str(k - 1) for k in n) + " 1p0")
+    return lines
+
+
+def square_lattice():
+    rows = [(a / 4, b / 4) for a in range(4) for b in range(4)]
+    return "\n".join(crystal(rows, Fraction(1, 16), 1)) + "\n"
+
+
+def fcc_with_one_force_doubled():
+    base = [(0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5)]
+    rows = [tuple((g + b) / 2 for g, b in zip(grid, x)) for grid in np.ndindex(2, 2, 2) for x in base]
+    lines = crystal(rows, Fraction(1, 8), 1)
+    return "\n".join(lines[:-1] + [lines[-1][:-3] + "2p0"]) + "\n"
+
+
+# Bound, what stands in the checker, what it is exchanged for, a false file, and the radius that would be true.
+TABLE = (
+    ("pairs stay apart", "if have <= need:", "if False:", overlap, None),
+    ("pairs in other images", "for m in range(int(-(reach + x[c]) // cell[c][c]), int((reach - x[c]) // cell[c][c]) + 2):",
+     "for m in (0,):", overlap_across_the_boundary, None),
+    ("radius in a gap", "* radius * moving", "* 0 * moving", gap_below_the_radius, None),
+    ("eta", "eta = [fraction(abs(v) + a, e + low) for v, a in zip(eta, alpha)]", "eta = [Fraction(0)] * rows", far_centre, FAR),
+    ("delta", "delta = [fraction(2 * v + (2 * s.dim + 1) * a, e - BITS - 1) for v, a in zip(delta, alpha)]",
+     "delta = [Fraction(0)] * rows", far_centre_and_no_inverse, FAR),
+    ("error of forces", "if min(stress) <= error:", "if min(stress) <= 0:", other_forces, None),
+    ("rank of a crystal", "if rank(rows) < len(columns) - 1:", "if False:", square_lattice, None),
+    ("balance of a crystal", "if min(stress) <= 0 or any(", "if min(stress) <= 0 or 0 and any(", fcc_with_one_force_doubled, None),
+)  # fmt: skip
+
+
+def is_false(found, radius):
+    """Whether a verdict is a proof of what is not so."""
+    return isinstance(found, dict) and (radius is None or found["radius"] < radius / 2)
+
+
+class Bounds(unittest.TestCase):
+    def test_each_bound_is_needed(self):
+        for name, old, new, make, radius in TABLE:
+            with self.subTest(bound=name):
+                text = make()
+                self.assertFalse(is_false(verdict(checker(), text), radius))
+                self.assertTrue(is_false(verdict(checker((old, new)), text), radius), verdict(checker((old, new)), text))
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--table"]:
+        print("| bound taken out | checker | without the bound |\n|---|---|---|")
+        for bound, before, after, maker, _ in TABLE:
+            false = maker()
+            shown = [verdict(checker(e), false) for e in (None, (before, after))]
+            print(f"| {bound} | " + " | ".join(f"proved, {x['radius']:.1g}" if isinstance(x, dict) else x for x in shown) + " |")
+    else:
+        unittest.main()

@@ -1,0 +1,296 @@
+"""Proofs against what is known otherwise: algebraic numbers, singular values, contacts that others imply, false claims."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+import h5py
+import numpy as np
+
+import jam
+from test_proof import File, file_of, packing, verdict
+
+KERNELS = ("Prescott", "Nehalem", "Sandybridge", "Haswell")
+PROVE = """
+import json, sys, jam
+system = jam.System.read(sys.argv[1])
+system.contacts_from_geometry()
+proof = system.prove()
+high, low = system.refined_positions()
+print(json.dumps({"kernel": jam.raw.jam_blas_kernel(), "theorem": int(proof.theorem), "radius": proof.radius,
+    "gamma": [proof.gamma.hex(), proof.gamma_low.hex()], "error": 2.0 / system.dim * proof.fraction_error,
+    "high": [x.hex() for x in high.ravel().tolist()], "low": [x.hex() for x in low.ravel().tolist()]}))
+"""
+
+
+def gamma_interval(proof, dim):
+    """The enclosure of Gamma, exactly: fraction_error is relative, of Gamma^(d/2)."""
+    middle = Fraction(proof.gamma) + Fraction(proof.gamma_low)
+    half = middle * Fraction(proof.fraction_error) * Fraction(2, dim) * Fraction(1001, 1000)
+    return middle - half, middle + half
+
+
+def disks_on_torus(n, side):
+    """Equal disks that a crunch jams at diameter side, from the first start that does."""
+    for seed in range(1, 200):
+        system = jam.System.random(n=n, dim=2, seed=seed, packing_fraction=0.2)
+        system.crunch()
+        if abs(float(system.diameters[0]) - side) < 1e-9 and system.report.jammed:
+            return system
+    raise AssertionError(f"no start of {n} disks ends at diameter {side}")
+
+
+class KnownNumbers(unittest.TestCase):
+    def test_three_disks_on_a_torus(self):
+        """Largest diameter (sqrt(6) - sqrt(2)) / 2 (Dickinson et al., Discrete Comput. Geom. 2011): Gamma = 2 - sqrt(3)."""
+        system = disks_on_torus(3, (6**0.5 - 2**0.5) / 2)
+        proof = system.prove()
+        self.assertEqual(proof.theorem, jam.Theorem.EXACT)
+        low, high = gamma_interval(proof, 2)
+        self.assertLess(high - low, Fraction(1, 10**28))
+        self.assertGreater((2 - low) ** 2, 3)  # low < 2 - sqrt(3) < high
+        self.assertLess((2 - high) ** 2, 3)
+        self.assertIsInstance(verdict(file_of(system, None)), dict)
+
+    def test_five_disks_on_a_torus(self):
+        """The square lattice of the vectors (1, 2) / 5, (-2, 1) / 5: Gamma = 1 / 5, one contact more than unknowns.
+
+        Fifths are no binary fractions, and no walk implies a contact: trapped, and Gamma is stationary there.
+        """
+        system = disks_on_torus(5, 0.2**0.5)
+        self.assertEqual(system.report.excess_contacts, 1)
+        proof = system.prove()
+        self.assertEqual((proof.theorem, proof.cause), (jam.Theorem.TRAPPED, jam.ProofCause.EXCESS))
+        self.assertLess(proof.inner, 1e-28)
+        self.assertLess(abs(Fraction(proof.gamma) + Fraction(proof.gamma_low) - Fraction(1, 5)), Fraction(1, 10**31))
+        self.assertEqual(verdict(file_of(system, None)), "excess")
+
+    def test_two_spheres_in_a_cell(self):
+        """Body-centred: Gamma = 3 / 4; in d = 2 1 / 2. All numbers are binary fractions."""
+        for dim in (2, 3):
+            places = np.array([[0.0] * dim, [0.5] * dim])
+            system = jam.System.from_arrays(places, 0.5 * dim**0.5 * (1 - 1e-16))
+            system.contacts_from_geometry()
+            proof = system.prove()
+            if proof.theorem == jam.Theorem.EXACT:
+                self.assertEqual((proof.gamma, proof.gamma_low, proof.radius), (dim / 4.0, 0.0, 0.0))
+            self.assertEqual(proof.theorem, jam.Theorem.EXACT)
+
+    def test_kernels_and_threads_give_enclosures_that_overlap(self):
+        system, _ = packing(48, 3, 2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = folder + "/a.xyz"
+            system.write(path)
+            found = []
+            for kernel, threads in [(k, "1") for k in KERNELS] + [("", "2")]:
+                env = dict(os.environ, OPENBLAS_NUM_THREADS=threads, **({"OPENBLAS_CORETYPE": kernel} if kernel else {}))
+                run = subprocess.run([sys.executable, "-c", PROVE, path], env=env, capture_output=True, text=True)
+                if run.returncode < 0:  # the processor has not the instructions of this kernel
+                    continue
+                self.assertEqual(run.returncode, 0, run.stderr)
+                found.append(json.loads(run.stdout))
+        self.assertGreaterEqual(len({f["kernel"] for f in found}), 3, [f["kernel"] for f in found])
+
+        def number(high, low):
+            return Fraction(float.fromhex(high)) + Fraction(float.fromhex(low))
+
+        for one in found:
+            self.assertEqual(one["theorem"], int(jam.Theorem.EXACT))
+            gamma, other = number(*one["gamma"]), number(*found[0]["gamma"])
+            self.assertLessEqual(abs(gamma - other), Fraction(one["error"] + found[0]["error"]) * other)
+            for x, y in zip(zip(one["high"], one["low"]), zip(found[0]["high"], found[0]["low"])):
+                self.assertLessEqual(abs(number(*x) - number(*y)), Fraction(one["radius"] + found[0]["radius"]) * 2)
+
+
+class ImpliedContacts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.found = []
+        for n, seed in ((64, s) for s in range(1, 120)):
+            system, ratio = packing(n, 2, seed)
+            if system.report.jammed and system.report.excess_contacts in (1, 2):
+                cls.found.append((system, ratio))
+            if len(cls.found) == 3:
+                break
+
+    def test_flowers_and_patches_are_proved(self):
+        self.assertGreaterEqual(len(self.found), 2)
+        for system, ratio in self.found:
+            proof = system.prove(ratio)
+            self.assertEqual(proof.theorem, jam.Theorem.EXACT, proof)
+            found = verdict(file_of(system, ratio))
+            self.assertIsInstance(found, dict, found)
+            self.assertLess(max(found["radius"], proof.radius), 1e-28)
+            self.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+
+    def test_implied_contacts_close_to_thirty_digits(self):
+        """They are no equations of Newton's steps, and yet they close: in fractions."""
+        for system, ratio in self.found:
+            f = File(file_of(system, ratio))
+            implied = {int(line[1]) for line in f.lines if line[0] == "implied"}
+            self.assertEqual(len(implied), system.report.excess_contacts)
+            high, low = system.refined_positions(ratio)
+            x = [[Fraction(a) + Fraction(b) for a, b in zip(*rows)] for rows in zip(high.tolist(), low.tolist())]
+            squares = {}
+            for c, (i, j) in enumerate(system.contacts.pairs.tolist()):
+                r = [a - b for a, b in zip(x[i], x[j])]
+                r = [v - round(v) for v in r]
+                sigma = (Fraction(float(ratio[i])) + Fraction(float(ratio[j]))) / 2
+                squares[c] = sum(v * v for v in r) / sigma**2
+            kept = next(squares[c] for c in squares if c not in implied)
+            for c in implied:
+                self.assertLess(abs(squares[c] / kept - 1), Fraction(1, 10**28))
+
+    def test_what_no_walk_implies_is_refused(self):
+        for system, ratio in self.found:
+            text = file_of(system, ratio)
+            lines = [line.split() for line in text.splitlines()]
+            tile = next(k for k, line in enumerate(lines) if line[0] == "tile")
+            implied = next(k for k, line in enumerate(lines) if line[0] == "implied")
+            named = {line[1] for line in lines if line[0] == "implied"}
+            other = next(str(c) for c in range(len(system.contacts.pairs)) if str(c) not in named | set(lines[implied]))
+
+            def changed(edit):
+                copy = [list(line) for line in lines]
+                edit(copy)
+                return verdict("\n".join(" ".join(line) for line in copy) + "\n")
+
+            def replace(k, at, word):
+                return lambda copy: copy[k].__setitem__(at, word)
+
+            edits = {
+                "no word of implied contacts": lambda copy: copy.__delitem__(slice(tile, len(copy))),
+                "no tiles": lambda copy: copy.__setitem__(
+                    slice(None), [line for line in copy if line[0] != "tile"]
+                ),
+                "another contact called implied": replace(implied, 1, other),
+                "the walk over another contact": replace(implied, 2, other),
+                "a tile with another contact": replace(tile, 1, other),
+                "a tile that rests on the implied one": replace(tile, 1, lines[implied][1]),
+                "a force of a kept contact negated": lambda copy: next(
+                    line for line in copy if line[0] == "contact"
+                ).__setitem__(5, "-1p-10"),
+            }
+            for name, edit in edits.items():
+                with self.subTest(kind=name):
+                    self.assertNotIsInstance(changed(edit), dict)
+
+
+class Strict(unittest.TestCase):
+    def packed(self, n, dim, seed, strain):
+        diameters = np.where(np.arange(n) % 2, 1.4, 1.0) if dim == 2 else np.ones(n)
+        system = jam.System.random(n=n, dim=dim, seed=seed, diameters=diameters, packing_fraction={2: 0.3, 3: 0.2}[dim])
+        system.compress(growth_rate=1e-2, pressure=1e4)
+        system.crunch(strain=strain)
+        return system
+
+    def test_free_cells_are_proved(self):
+        """Against numpy: rows with cell columns, their smallest singular value, and forces by a solve."""
+        proved = 0
+        for dim, seed in ((2, 1), (2, 2), (2, 3), (3, 1), (3, 2), (3, 3)):
+            system = self.packed(32, dim, seed, "free")
+            proof = system.prove_strict()
+            pairs, h = system.contacts.pairs, system.cell
+            stable = sorted(set(pairs.ravel().tolist()))
+            place = {s: k for k, s in enumerate(stable)}
+            rows = np.zeros((len(pairs), dim * len(stable) + dim * dim))
+            for c, (i, j) in enumerate(pairs.tolist()):
+                r = system.contacts.vectors[c] * 0.5 * (system.diameters[i] + system.diameters[j])
+                apart = system.positions[i] - system.positions[j]
+                if np.abs(np.linalg.solve(h.T, r - apart) - np.round(np.linalg.solve(h.T, r - apart))).max() > 1e-6:
+                    r = -r
+                image = np.round(np.linalg.solve(h.T, r - apart))
+                rows[c, dim * place[i] : dim * place[i] + dim] = 2 * r
+                rows[c, dim * place[j] : dim * place[j] + dim] = -2 * r
+                rows[c, dim * len(stable) :] = np.outer(2 * image, r).ravel()
+            used = [k for k in range(dim, dim * len(stable))]
+            used += [dim * len(stable) + q * dim + k for q in range(dim) for k in range(q + 1)]
+            target = np.zeros(rows.shape[1])
+            for q in range(dim):
+                target[dim * len(stable) + q * dim + q] = 1 / h[q, q]
+            rows, target = rows[:, used], target[used]
+            if rows.shape[0] != rows.shape[1]:
+                self.assertNotEqual(proof.theorem, jam.Theorem.EXACT)
+                continue
+            force = np.linalg.solve(rows.T, target)
+            least = np.linalg.svd(rows, compute_uv=False)[-1]
+            self.assertGreater(force.min(), 0)
+            self.assertEqual(proof.theorem, jam.Theorem.EXACT, (dim, seed, proof))
+            self.assertLess(proof.radius, 1e-27)
+            unit = 2.0 ** np.floor(np.log2(float(system.box)))
+            self.assertLessEqual(proof.singular * unit, least * (1 + 1e-9))
+            self.assertAlmostEqual(proof.least_force / (force.min() / force.mean()), 1.0, delta=1e-5)
+            self.assertAlmostEqual(proof.packing_fraction / system.packing_fraction, 1.0, delta=1e-12)
+            proved += 1
+        self.assertGreaterEqual(proved, 3)
+
+    def test_a_packing_of_a_fixed_cell_is_not_strict(self):
+        for dim, seed in ((2, 1), (3, 1)):
+            system = self.packed(32, dim, seed, "none")
+            self.assertEqual(system.prove_strict().theorem, jam.Theorem.NONE)
+
+    def test_a_crystal_is(self):
+        base = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
+        grid = np.stack(np.meshgrid(*[np.arange(2)] * 3, indexing="ij"), -1).reshape(-1, 3)
+        system = jam.System.from_arrays(((grid[:, None] + base).reshape(-1, 3)) / 2.0, 0.5 * 0.5**0.5 * (1 - 1e-16))
+        system.contacts_from_geometry()
+        self.assertEqual(system.prove_strict().theorem, jam.Theorem.EXACT)
+
+
+PACK = os.environ.get("JAM_PACK")
+
+
+@unittest.skipUnless(PACK, "jam-pack is not built")
+class Program(unittest.TestCase):
+    def test_what_was_proved_is_shown(self):
+        """By jam-pack and python3 -m jam alike: summary, report, page, proof file; then of the file as it is."""
+        programs = [PACK], [sys.executable, "-m", "jam"]
+        with tempfile.TemporaryDirectory() as folder:
+            names = {k: f"{folder}/a.{k}" for k in ("xyz", "json", "html", "jamproof")}
+            wanted = ["--n", "48", "--seed", "2", "--prove", "--output", names["xyz"], "--report", names["json"]]
+            wanted += ["--page", names["html"], "--proof", names["jamproof"]]
+            for program in programs:
+                done = subprocess.run(program + wanted, capture_output=True, text=True, timeout=120)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(names["json"], encoding="utf-8") as file:
+                    report = json.load(file)
+                self.assertRegex(report["proof"], r"^proved, radius \d")
+                self.assertLess(report["proof_radius"], 1e-28)
+                with open(names["html"], encoding="utf-8") as file:
+                    self.assertIn(f'"proof": "{report["proof"]}"', file.read())
+                with open(names["jamproof"], encoding="ascii") as file:
+                    self.assertIsInstance(verdict(file.read()), dict)
+                self.assertRegex(done.stdout, r"proof +proved, radius" if program == [PACK] else r"theorem +exact")
+            said = []
+            for program in programs:
+                os.remove(names["jamproof"])
+                words = ["check", names["xyz"], "--prove", "--proof", names["jamproof"]]
+                done = subprocess.run(program + words, capture_output=True, text=True, timeout=120)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                said.append(done.stdout)
+                with open(names["jamproof"], encoding="ascii") as file:
+                    self.assertIsInstance(verdict(file.read()), dict)
+            self.assertIn("proved, radius", said[0])
+            self.assertEqual(said[0], said[1])
+
+
+class Files(unittest.TestCase):
+    def test_a_file_holds_centres_of_two_doubles(self):
+        system, _ = packing(32, 3, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = folder + "/a.h5"
+            system.save(path, refined=True)
+            high, low = system.refined_positions()
+            with h5py.File(path, "r") as file:
+                self.assertTrue(np.array_equal(file["particles/spheres/refined/high"][()], high))
+                self.assertTrue(np.array_equal(file["particles/spheres/refined/low"][()], low))
+            again = jam.load(path)
+            self.assertTrue(np.array_equal(again.positions, system.positions))
+            self.assertEqual(again.prove().radius, system.prove().radius)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -26,7 +26,6 @@ def machine():
 
 def draw(runs, picture):
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(13, 4))
-    sizes = sorted({r["n"] for r in runs})
     names = {0: "doubles", 1: "one Newton step", 2: "two steps", 3: "three steps"}
     for dim, marker in ((2, "s"), (3, "o")):
         for steps, colour in zip(range(4), ("C3", "C1", "C0", "C2")):
@@ -39,6 +38,7 @@ def draw(runs, picture):
                 marker, color=colour, label=label, mfc="none",
             )  # fmt: skip
         two = [r for r in runs if r["dim"] == dim and r["steps"] == 2]
+        sizes = sorted({r["n"] for r in two})
         share = [np.median([r["seconds"] / r["crunch"] for r in two if r["n"] == n]) for n in sizes]
         right.semilogx(sizes, share, marker + "-", color="k", label=f"time over the crunch's, d = {dim}", mfc="none")
         rest = [np.median([r["rounding"] / r["eigenvalue"] for r in two if r["n"] == n]) for n in sizes]

@@ -872,7 +872,7 @@ module jam
     ! both over the spheres that end with contacts, without their mean; NaN without any
     real(c_double) :: displacement_max_stable = 0
     real(c_double) :: displacement_rms_stable = 0
-    ! pairs that touched before, as far as the digits of the coordinates tell
+    ! pairs that touched before, as far as the digits of the coordinates show
     integer(c_int64_t) :: contacts_start = 0
     ! of these the contacts of this report; -1 where contacts are unknown
     integer(c_int64_t) :: contacts_kept = 0
@@ -1173,7 +1173,7 @@ module jam
     integer(c_int64_t) :: bridges = 0
     ! closed pairs that are not in K+
     integer(c_int64_t) :: idle_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot tell from contacts
+    ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
     integer(c_int64_t) :: undecided_contacts = 0
     ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     real(c_double) :: rigidity_margin = 0
@@ -1349,26 +1349,26 @@ module jam
     real(c_double) :: shear_max = 0
   end type jam_moduli
 
-  ! What jam_compare found; contacts only when both have a network.
+  ! What jam_compare found.
   type, bind(c) :: jam_comparison
     ! set by the caller: sizeof(jam_comparison)
     integer(c_int32_t) :: struct_size = 80
     ! 0
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: contacts_a = 0
-    ! of sys and of other
+    ! of sys and of other; 0 without a network
     integer(c_int64_t) :: contacts_b = 0
     ! pairs in both
     integer(c_int64_t) :: common_contacts = 0
     ! spheres that are rattlers in neither
     integer(c_int64_t) :: stable_in_both = 0
-    ! common over union
+    ! common over union; NaN unless both have a network
     real(c_double) :: overlap = 0
-    ! common over contacts_a: sys as the reference
+    ! common over contacts_a: sys as the reference; NaN likewise
     real(c_double) :: overlap_a = 0
     ! phi of other minus phi of sys
     real(c_double) :: packing_fraction_change = 0
-    ! over these spheres, mean displacement taken out, in mean diameters of sys
+    ! of these spheres (or all) without their mean, in mean diameters of sys
     real(c_double) :: displacement_rms = 0
     ! likewise
     real(c_double) :: displacement_max = 0
@@ -1592,7 +1592,8 @@ module jam
 
     ! What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
     ! diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-    ! jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
+    ! jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
+    ! hold it.
     function jam_notes(sys) &
         bind(c, name="jam_notes") result(status)
       import
@@ -1852,12 +1853,12 @@ module jam
 
     ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
     ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
-    ! are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-    ! stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
-    ! time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-    ! candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
-    ! verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
-    ! these contacts closed.
+    ! are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
+    ! self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
+    ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+    ! JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+    ! above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+    ! collectively jammed even with these contacts closed.
     ! Errors: JAM_E_SOLVER.
     function jam_contacts_from_geometry(sys, o, report) &
         bind(c, name="jam_contacts_from_geometry") result(status)
@@ -2147,6 +2148,13 @@ module jam
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function c_jam_read
+    function c_jam_add_note(sys, text) &
+        bind(c, name="jam_add_note") result(status)
+      import
+      type(c_ptr), value :: sys
+      character(kind=c_char), intent(in) :: text(*)
+      integer(c_int32_t) :: status
+    end function c_jam_add_note
     function c_jam_write(sys, path, format) &
         bind(c, name="jam_write") result(status)
       import
@@ -2962,6 +2970,7 @@ module jam
   private :: c_jam_read_watched
   private :: c_jam_checkpoint_read_watched
   private :: c_jam_read
+  private :: c_jam_add_note
   private :: c_jam_write
   private :: c_jam_write_contacts
   private :: c_jam_write_page
@@ -3929,6 +3938,15 @@ contains
     integer(c_int32_t) :: status
     status = c_jam_read(jam_c_string(path), o, out)
   end function jam_read
+
+  ! Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
+  ! not empty.
+  function jam_add_note(sys, text) result(status)
+    type(c_ptr), intent(in) :: sys
+    character(*), intent(in) :: text
+    integer(c_int32_t) :: status
+    status = c_jam_add_note(sys, jam_c_string(text))
+  end function jam_add_note
 
   ! Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
   ! then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
@@ -6371,8 +6389,9 @@ contains
     status = c_jam_elastic_tensor(sys, h, at_affine, count_affine, at_relaxed, count_relaxed, needed)
   end function l_jam_elastic_tensor
 
-  ! Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
-  ! nearest images, without its mean over spheres stable in both.
+  ! Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
+  ! spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
+  ! ratios of diameters differ, or one of the two has no network.
   ! Shapes: out (n, d).
   function jam_compare(sys, other, comparison, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys

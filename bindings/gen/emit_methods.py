@@ -20,7 +20,7 @@ Progressing = bool | Callable[[Any], Any] | None
 
 
 class Methods:
-    """Calls of the C header on a system, by its conventions: see System.call. Outputs are returned; self.status tells more."""
+    """Calls of the C header on a system, by its conventions: see System.call. Outputs are returned; self.status says more."""
 
     def call(self, name: str, *args: Any, progress: Progressing = None, **named: Any) -> Any:
         raise NotImplementedError

@@ -358,7 +358,7 @@ NaN: not known."
   }
   ~jam_comparison() { free($self); }
 }
-%feature("docstring") jam_comparison "What jam_compare found; contacts only when both have a network."
+%feature("docstring") jam_comparison "What jam_compare found."
 %feature("docstring") jam_version "Version of the library, e.g. \"0.1.0\". Static storage."
 %feature("docstring") jam_commit "Commit of the source that the library was built from, 12 hex digits, e.g. \"d1afac7c0de5\". \"\" when the build did not
 find a commit. It does not show uncommitted changes. Static storage."
@@ -462,7 +462,10 @@ lost digits.
 Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE."
 %feature("docstring") jam_notes "What was changed or assumed when sys was made, one sentence per line; \"\" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-jam_set_log sends these lines to its callback. Valid as long as the handle; \"\" for NULL. Checkpoints hold it."
+jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; \"\" for NULL. Checkpoints
+hold it."
+%feature("docstring") jam_add_note "Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
+not empty."
 %feature("docstring") jam_write "Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
 a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
@@ -646,12 +649,12 @@ Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_geometry_options_init ""
 %feature("docstring") jam_contacts_from_geometry "Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
-are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
-time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
-verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
-these contacts closed.
+are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
+self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
+network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+collectively jammed even with these contacts closed.
 Errors: JAM_E_SOLVER."
 %feature("docstring") jam_contact_candidates "Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
 the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
@@ -772,6 +775,7 @@ jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces
 c_bacd differ: a rotation of stressed contacts counts.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
-%feature("docstring") jam_compare "Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
-nearest images, without its mean over spheres stable in both.
+%feature("docstring") jam_compare "Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
+spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
+ratios of diameters differ, or one of the two has no network.
 Shapes: out (n, d)."

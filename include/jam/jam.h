@@ -545,8 +545,12 @@ typedef enum jam_format {
 JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
  * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
- * jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it. */
+ * jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
+ * hold it. */
 JAM_API const char *jam_notes(const jam_system *sys);
+/* Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
+ * not empty. */
+JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
 /* Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
  * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
  * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
@@ -1003,7 +1007,7 @@ typedef struct jam_crunch_report {
   double
       displacement_max_stable; /* both over the spheres that end with contacts, without their mean; NaN without any */
   double displacement_rms_stable;
-  int64_t contacts_start; /* pairs that touched before, as far as the digits of the coordinates tell */
+  int64_t contacts_start; /* pairs that touched before, as far as the digits of the coordinates show */
   int64_t contacts_kept;  /* of these the contacts of this report; -1 where contacts are unknown */
   int32_t theorem;        /* @enum jam_theorem, with the option prove; NONE without */
   int32_t proof_cause;    /* @enum jam_proof_cause: why the theorem is not EXACT */
@@ -1358,12 +1362,12 @@ typedef struct jam_geometry_report {
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 /* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
  * moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
- * are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
- * stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
- * time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
- * candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
- * verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
- * these contacts closed. @errors SOLVER */
+ * are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
+ * self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
+ * network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+ * JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+ * above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+ * collectively jammed even with these contacts closed. @errors SOLVER */
 JAM_API jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o,
                                               jam_geometry_report *report);
 /* Columns of jam_contact_candidates. */
@@ -1415,7 +1419,7 @@ typedef struct jam_rigidity_report {
   int64_t bridges;            /* spheres of B with d contacts of K+ or fewer */
   int64_t idle_contacts;      /* closed pairs that are not in K+ */
   int64_t undecided_contacts; /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those
-                               * that the digits of the coordinates cannot tell from contacts */
+                               * that the digits of the coordinates cannot distinguish from contacts */
   double rigidity_margin;     /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere
                                * that touches its own images alone: with strains */
   double force_residual;      /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
@@ -1448,7 +1452,7 @@ typedef enum jam_check_reason {
   JAM_CHECK_DIGITS = 4,   /* undecided: the coordinates have too few digits to say which spheres touch */
   JAM_CHECK_OVERLAP = 5,  /* undecided: spheres overlap, so gaps are known no better than that */
   JAM_CHECK_GAPS = 6,     /* undecided: with pairs closed that are open by 1e-10 or more it would be jammed */
-  JAM_CHECK_MARGIN = 7    /* undecided: doubles do not tell a flex from a soft mode, or a weak force from none */
+  JAM_CHECK_MARGIN = 7    /* undecided: doubles do not resolve a flex from a soft mode, or a weak force from none */
 } jam_check_reason;
 
 /* Options of jam_check_packing. */
@@ -1694,17 +1698,17 @@ typedef struct jam_moduli {
   double shear_max;     /* largest of them */
 } jam_moduli;
 
-/* What jam_compare found; contacts only when both have a network. */
+/* What jam_compare found. */
 typedef struct jam_comparison {
   uint32_t struct_size;           /* set by the caller: sizeof(jam_comparison) */
   int32_t reserved;               /* 0 */
-  int64_t contacts_a, contacts_b; /* of sys and of other */
+  int64_t contacts_a, contacts_b; /* of sys and of other; 0 without a network */
   int64_t common_contacts;        /* pairs in both */
   int64_t stable_in_both;         /* spheres that are rattlers in neither */
-  double overlap;                 /* common over union */
-  double overlap_a;               /* common over contacts_a: sys as the reference */
+  double overlap;                 /* common over union; NaN unless both have a network */
+  double overlap_a;               /* common over contacts_a: sys as the reference; NaN likewise */
   double packing_fraction_change; /* phi of other minus phi of sys */
-  double displacement_rms;        /* over these spheres, mean displacement taken out, in mean diameters of sys */
+  double displacement_rms;        /* of these spheres (or all) without their mean, in mean diameters of sys */
   double displacement_max;        /* likewise */
 } jam_comparison;
 
@@ -1738,8 +1742,9 @@ JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h,
  * STATE, SOLVER */
 JAM_API jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                                       double *relaxed, size_t relaxed_len, size_t *needed);
-/* Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
- * nearest images, without its mean over spheres stable in both. @shape out (n, d) */
+/* Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
+ * spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
+ * ratios of diameters differ, or one of the two has no network. @shape out (n, d) */
 JAM_API jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_comparison *comparison, double *out,
                                size_t out_len, size_t *needed);
 

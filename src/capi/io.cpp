@@ -1,4 +1,4 @@
-// Header section "files": jam_read, jam_notes, jam_write, jam_write_contacts.
+// Header section "files": jam_read, jam_notes, jam_add_note, jam_write, jam_write_contacts.
 #include <cstring>
 #include <string>
 
@@ -76,6 +76,15 @@ jam_status jam_read_watched(const char *path, const jam_create_options *o, jam_p
 }
 
 const char *jam_notes(const jam_system *sys) { return sys ? sys->notes.text().c_str() : ""; }
+
+jam_status jam_add_note(jam_system *sys, const char *text) {
+  return guard_set(sys, [&]() -> jam_status {
+    need(text, "text");
+    if (!*text || std::strpbrk(text, "\r\n")) fail(JAM_E_ARGUMENT, "a note must be one line that is not empty");
+    sys->notes.append(Notes(text));
+    return JAM_OK;
+  });
+}
 
 jam_status jam_write(const jam_system *sys, const char *path, int32_t format) {
   return guard_const(sys, [&]() -> jam_status {

@@ -1,6 +1,8 @@
 """Files of other programs: each number comes from where the file names it, or the file is refused with a way out."""
 import importlib.util
+import json
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -169,15 +171,58 @@ class Gsd(Folder):
         for name in ("box", "dim"):
             self.refused([name, "f.gsd"], jam.System.read, self.path, kind=TypeError, **{name: 3})
 
+    def test_notes_of_what_was_changed_or_assumed(self):
+        f = self.frame()
+        f.particles.type_shapes = [{"type": "Sphere", "diameter": 0.6}, {"type": "Sphere", "diameter": 0.9}]
+        self.write(f)
+        single = "positions of the file have single precision, about 7 digits"
+        corner = "the corner of the cell is at -4 -4 -4 in the file: positions are measured from there"
+        self.assertEqual(jam.System.read(self.path).notes, "\n".join([single, corner]))
+        f.particles.diameter = np.where(f.particles.typeid, 0.9, 0.6)
+        f.particles.velocity = np.ones((64, 3))
+        f.particles.position[0, 0] += 8.0
+        f.particles.image = np.tile([1, 0, 0], (64, 1))
+        f.configuration.step = 7
+        f.log["some/energy"] = np.ones(1)
+        self.write(f, f)
+        notes = jam.System.read(self.path).notes.splitlines()
+        self.assertEqual(notes[0], "the last of 2 frames was read; frame=0 to 1 read others")
+        self.assertIn(
+            "chunks of the file that were not read: log/some/energy, particles/image, particles/velocity", notes
+        )
+        self.assertIn("1 of 64 spheres lay outside the cell and were wrapped into it", notes)
+        notes = jam.System.read(self.path, frame=1, diameters=0.5).notes
+        self.assertIn("particles/diameter, particles/image, particles/type_shapes, particles/typeid", notes)
+        self.assertNotIn("frames", notes)
+
+    def test_notes_of_disks(self):
+        f = self.frame(2)
+        f.particles.diameter = np.full(16, 0.5)
+        f.particles.position[:, 2] = 0.25
+        self.write(f)
+        self.assertIn("the third coordinate, 0.25 of every disk, was left out", jam.System.read(self.path).notes)
+
+    def test_notes_are_of_what_is_new(self):
+        """A file of libjam comes back to the bit; copies, pickles and files keep the notes of others."""
+        s = jam.System.random(n=64, seed=3, packing_fraction=0.1)
+        s.write(self.path)
+        self.assertEqual(jam.System.read(self.path).notes, "")
+        later = jam.System.read(self.path, doubles=False)
+        self.assertIn("log/jam/position", later.notes)
+        self.assertEqual(pickle.loads(pickle.dumps(later)).notes, later.notes)
+
     def test_the_command_line_takes_them(self):
         f = self.frame()
         f.particles.diameter = np.full(64, 0.5)
         self.write(f)
         out = os.path.join(self.folder, "out.xyz")
+        report = os.path.join(self.folder, "out.json")
         command = [sys.executable, "-m", "jam", "--input", self.path, "--no-md", "--no-crunch", "--quiet", "--output", out]
-        done = subprocess.run(command, capture_output=True, text=True)
+        done = subprocess.run([*command, "--report", report], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(jam.System.read(out).box, 8.0)
+        with open(report, encoding="utf-8") as file:
+            self.assertIn("the corner of the cell is at -4", " ".join(json.load(file)["notes"]))
 
     def test_no_gsd(self):
         with open(self.path, "w") as file:
@@ -260,6 +305,41 @@ class Ase(Folder):
         path = self.file("a.xyz", frames=x, cell=np.eye(3), arrays=both)
         self.refused(["`radius`", "`diameter`", "diameters="], jam.files.read_ase, path)
         np.testing.assert_array_equal(jam.files.read_ase(path, radii=[0.1, 0.2]).diameters, [0.2, 0.4])
+
+    def test_notes(self):
+        x = [[[0.1, 0.2, 0.5], [1.6, 0.7, 0.5]]]
+        path = self.file("a.xyz", frames=x * 2, cell=np.diag([1.0, 1.0, 5.0]))
+        notes = jam.files.read_ase(path, dim=2).notes.splitlines()
+        self.assertEqual(
+            notes,
+            [
+                "the last of 2 frames was read; frame=0 to 1 read others",
+                "columns of the file that were not read: numbers",
+                "the third coordinate, 0.5 of every disk, was left out",
+                "1 of 2 spheres lay outside the cell and were wrapped into it",
+            ],
+        )
+        path = self.dump(self.ROWS)
+        with open(path) as file:
+            text = file.read().replace("0 1\n0 1\n0 1\n", "-0.5 0.5\n0 1\n0 1\n")
+        with open(path, "w") as file:
+            file.write(text)
+        s = jam.files.read_ase(path, 0.1)
+        self.assertIn("the corner of the cell is at -0.5 0 0 in the file", s.notes)
+        self.assertAlmostEqual(s.positions[0, 0], 0.6, 12)
+        path = os.path.join(self.folder, "b.xyz")
+        with open(path, "w") as file:
+            file.write('1\nLattice="0 2 0 -2 0 0 0 0 2" Properties=species:S:1:pos:R:3 energy=1 Origin="1 0 0"\nH .1 .2 .3\n')
+        notes = jam.files.read_ase(path, 0.1).notes
+        self.assertIn("rotated with the cell", notes)
+        self.assertIn("keys of the file that were not read: energy, Origin", notes)
+
+    def test_no_pipe(self):
+        """A pipe without a writer would wait for ever."""
+        for name, read in (("a.cif", lambda path: jam.files.read_ase(path, 0.1)), ("a.gsd", jam.System.read)):
+            path = os.path.join(self.folder, name)
+            os.mkfifo(path)
+            self.refused([name, "no regular file"], read, path, kind=OSError)
 
     def dump(self, rows, name="a.dump"):
         path = os.path.join(self.folder, name)

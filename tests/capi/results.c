@@ -278,6 +278,13 @@ static void notes_are_kept(void **state) {
   o.dim = 2, o.n = 2, o.overlap = JAM_OVERLAP_SHRINK;
   assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_OK);
   assert_true(strlen(jam_notes(sys)) > 0);
+  assert_int_equal(jam_add_note(sys, "the velocities of the file were not read"), JAM_OK);
+  assert_non_null(strstr(jam_notes(sys), "overlapped by"));
+  assert_non_null(strstr(jam_notes(sys), "\nthe velocities of the file were not read"));
+  assert_int_equal(jam_add_note(sys, ""), JAM_E_ARGUMENT);
+  assert_int_equal(jam_add_note(sys, "two\nlines"), JAM_E_ARGUMENT);
+  assert_int_equal(jam_add_note(sys, NULL), JAM_E_NULL);
+  assert_int_equal(jam_add_note(NULL, "a"), JAM_E_NULL);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
   assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);

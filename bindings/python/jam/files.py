@@ -153,9 +153,7 @@ def read_gsd(
     **options
         As of System.from_arrays, but for box, cell and dim, which the file holds.
     """
-    return System.from_arrays(
-        **gsd.arguments(path, frame, diameters=diameters, radii=radii, doubles=doubles, **options)
-    )
+    return System._noted(*gsd.arguments(path, frame, diameters=diameters, radii=radii, doubles=doubles, **options))
 
 
 def read_ase(
@@ -172,7 +170,7 @@ def read_ase(
     Parameters
     ----------
     path : path-like
-        ASE tells the format by the name or the content.
+        ASE recognises the format by the name or the content.
     diameters : array_like, optional
         One for all or one for each sphere, in the order of the file. Needed unless the file has an array `radius` or
         `diameter`. Where ASE sorts the spheres of a LAMMPS file by their ids, one for each is refused.
@@ -185,4 +183,4 @@ def read_ase(
     **options
         As of System.from_arrays; overlap='shrink' for files with few digits.
     """
-    return System.from_arrays(**ase.arguments(path, diameters, radii=radii, dim=dim, frame=frame, **options))
+    return System._noted(*ase.arguments(path, diameters, radii=radii, dim=dim, frame=frame, **options))

@@ -165,7 +165,7 @@ class System(Verbs, Writing):
         name = os.fsdecode(path)
         if name.lower().endswith(".gsd"):
             given = {key: value for key, value in options.items() if value is not None}
-            return cls.from_arrays(**gsd.arguments(name, **given))
+            return cls._noted(*gsd.arguments(name, **given))
         for unknown in ("diameters", "radii", "cell"):
             if unknown in options:
                 raise TypeError(
@@ -179,6 +179,14 @@ class System(Verbs, Writing):
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
         """Reads a file of `checkpoint_write`. The dynamics continue to the same bits as if they had never stopped."""
         return cls._made(*raw.checkpoint_read_watched(os.fspath(path), None))
+
+    @classmethod
+    def _noted(cls, arguments: dict[str, Any], notes: list[str]) -> "System":
+        """from_arrays, with what a reader changed or assumed on the way in `notes`."""
+        made = cls.from_arrays(**arguments)
+        for note in notes:
+            raw.jam_add_note(made.handle, note)
+        return made
 
     @classmethod
     def _made(cls, status: int, handle: Any) -> "System":

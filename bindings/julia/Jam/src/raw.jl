@@ -274,7 +274,7 @@ const JAM_CHECK_FLEX = Int32(3)  # not: forces balance, and yet spheres can move
 const JAM_CHECK_DIGITS = Int32(4)  # undecided: the coordinates have too few digits to say which spheres touch
 const JAM_CHECK_OVERLAP = Int32(5)  # undecided: spheres overlap, so gaps are known no better than that
 const JAM_CHECK_GAPS = Int32(6)  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
-const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
+const JAM_CHECK_MARGIN = Int32(7)  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
 
 # jam_theorem: What was proved.
 const JAM_THEOREM_NONE = Int32(0)  # nothing: see cause
@@ -681,7 +681,7 @@ mutable struct jam_crunch_report
     displacement_rms::Cdouble  # root of the mean square of the same
     displacement_max_stable::Cdouble  # both over the spheres that end with contacts, without their mean; NaN without any
     displacement_rms_stable::Cdouble
-    contacts_start::Int64  # pairs that touched before, as far as the digits of the coordinates tell
+    contacts_start::Int64  # pairs that touched before, as far as the digits of the coordinates show
     contacts_kept::Int64  # of these the contacts of this report; -1 where contacts are unknown
     theorem::Int32  # jam_theorem, with the option prove; NONE without
     proof_cause::Int32  # jam_proof_cause: why the theorem is not EXACT
@@ -883,7 +883,7 @@ mutable struct jam_rigidity_report
     flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     bridges::Int64  # spheres of B with d contacts of K+ or fewer
     idle_contacts::Int64  # closed pairs that are not in K+
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot tell from contacts
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
     rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     jam_rigidity_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
@@ -1001,19 +1001,19 @@ mutable struct jam_moduli
 end
 
 """
-What jam_compare found; contacts only when both have a network.
+What jam_compare found.
 """
 mutable struct jam_comparison
     struct_size::UInt32  # set by the caller: sizeof(jam_comparison)
     reserved::Int32  # 0
     contacts_a::Int64
-    contacts_b::Int64  # of sys and of other
+    contacts_b::Int64  # of sys and of other; 0 without a network
     common_contacts::Int64  # pairs in both
     stable_in_both::Int64  # spheres that are rattlers in neither
-    overlap::Cdouble  # common over union
-    overlap_a::Cdouble  # common over contacts_a: sys as the reference
+    overlap::Cdouble  # common over union; NaN unless both have a network
+    overlap_a::Cdouble  # common over contacts_a: sys as the reference; NaN likewise
     packing_fraction_change::Cdouble  # phi of other minus phi of sys
-    displacement_rms::Cdouble  # over these spheres, mean displacement taken out, in mean diameters of sys
+    displacement_rms::Cdouble  # of these spheres (or all) without their mean, in mean diameters of sys
     displacement_max::Cdouble  # likewise
     jam_comparison() = new(80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
@@ -1344,10 +1344,19 @@ end
 """
 What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-jam_set_log sends these lines to its callback. Valid as long as the handle; "" for NULL. Checkpoints hold it.
+jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
+hold it.
 """
 function jam_notes(sys)
     return ccall((:jam_notes, libjam), Cstring, (Ptr{Cvoid},), sys)
+end
+
+"""
+Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
+not empty.
+"""
+function jam_add_note(sys, text)
+    return ccall((:jam_add_note, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, text)
 end
 
 """
@@ -1813,12 +1822,12 @@ end
 """
 Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
-are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-stress. The
-stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the network kept each
-time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress. JAM_AMBIGUOUS: another
-candidate fits too (see second_*), or there are several states of self-stress. Also where gaps above 1e-7 leave the
-verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not collectively jammed even with
-these contacts closed.
+are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
+self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
+network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
+JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
+above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+collectively jammed even with these contacts closed.
 Errors: JAM_E_SOLVER.
 """
 function jam_contacts_from_geometry(sys, o, report)
@@ -2125,8 +2134,9 @@ function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, ne
 end
 
 """
-Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to other,
-nearest images, without its mean over spheres stable in both.
+Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
+spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
+ratios of diameters differ, or one of the two has no network.
 Shapes: out (n, d).
 """
 function jam_compare(sys, other, comparison, out, out_len, needed)

@@ -342,7 +342,7 @@ class CheckReason(IntEnum):
     DIGITS = 4  # undecided: the coordinates have too few digits to say which spheres touch
     OVERLAP = 5  # undecided: spheres overlap, so gaps are known no better than that
     GAPS = 6  # undecided: with pairs closed that are open by 1e-10 or more it would be jammed
-    MARGIN = 7  # undecided: doubles do not tell a flex from a soft mode, or a weak force from none
+    MARGIN = 7  # undecided: doubles do not resolve a flex from a soft mode, or a weak force from none
 
 
 class Theorem(IntEnum):
@@ -669,7 +669,7 @@ class CrunchReport(Report):
     displacement_rms: root of the mean square of the same
     displacement_max_stable: both over the spheres that end with contacts, without their mean; NaN without any
     displacement_rms_stable:
-    contacts_start: pairs that touched before, as far as the digits of the coordinates tell
+    contacts_start: pairs that touched before, as far as the digits of the coordinates show
     contacts_kept: of these the contacts of this report; -1 where contacts are unknown
     theorem: jam_theorem, with the option prove; NONE without
     proof_cause: jam_proof_cause: why the theorem is not EXACT
@@ -900,7 +900,7 @@ class RigidityReport(Report):
     flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     bridges: spheres of B with d contacts of K+ or fewer
     idle_contacts: closed pairs that are not in K+
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot tell from contacts
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
     rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
     kind: RigidityKind
@@ -1059,16 +1059,16 @@ class Moduli(Report):
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Report):
-    """What jam_compare found; contacts only when both have a network.
+    """What jam_compare found.
 
     contacts_a:
-    contacts_b: of sys and of other
+    contacts_b: of sys and of other; 0 without a network
     common_contacts: pairs in both
     stable_in_both: spheres that are rattlers in neither
-    overlap: common over union
-    overlap_a: common over contacts_a: sys as the reference
+    overlap: common over union; NaN unless both have a network
+    overlap_a: common over contacts_a: sys as the reference; NaN likewise
     packing_fraction_change: phi of other minus phi of sys
-    displacement_rms: over these spheres, mean displacement taken out, in mean diameters of sys
+    displacement_rms: of these spheres (or all) without their mean, in mean diameters of sys
     displacement_max: likewise"""
     contacts_a: int
     contacts_b: int
@@ -1301,6 +1301,7 @@ CALLS = {
     "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "LogLevel"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),
     "jam_set_memory_limit": (True, (("bytes", "scalar", "double"),)),
+    "jam_add_note": (True, (("text", "string", "char"),)),
     "jam_write": (True, (("path", "string", "char"), ("format", "scalar", "Format"))),
     "jam_write_contacts": (True, (("path", "string", "char"), ("format", "scalar", "ContactFormat"))),
     "jam_write_page": (True, (("path", "string", "char"), ("title", "string", "char"), ("small", "scalar", "int32_t"), ("names", "string", "char"), ("values", "array_in", "double"), ("values_len", "len", "size_t"))),

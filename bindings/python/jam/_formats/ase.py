@@ -8,7 +8,8 @@ import numpy as np
 
 from .._api.arrays import Array
 from .._api.given import sizes_of
-from .frames import bad, box_of, in_range, plane, refuse_cell
+from .frames import bad, box_of, from_corner, in_range, notes_of, plane, refuse_cell, say_outside, say_unread
+from .replacing import open_regular
 
 # What other programs call the sizes of spheres, as factors to the diameter.
 _SIZES = {"radius": 2.0, "radii": 2.0, "diameter": 1.0, "diameters": 1.0}
@@ -22,8 +23,8 @@ def arguments(
     dim: int = 3,
     frame: int = -1,
     **options: Any,
-) -> dict[str, Any]:
-    """What System.from_arrays takes for one frame; the arguments are those of jam.files.read_ase."""
+) -> tuple[dict[str, Any], list[str]]:
+    """What System.from_arrays takes for one frame, and notes; the arguments are those of jam.files.read_ase."""
     import ase.io
     import ase.io.formats
 
@@ -31,6 +32,7 @@ def arguments(
     if dim not in (2, 3):
         raise ValueError(f"dim must be 2 or 3 in files of ASE, not {dim!r}")
     refuse_cell(options, name)
+    open_regular(name).close()
     kind = ase.io.formats.filetype(name)
     frames = ase.io.read(name, index=":", format=kind)
     at = in_range(name, frame, len(frames))
@@ -40,20 +42,29 @@ def arguments(
     if not all(atoms.pbc[:dim]):
         hint = "; dim=2 reads a packing of disks" if dim == 3 and all(atoms.pbc[:2]) else ""
         raise bad(name, f"the cell must be periodic in every direction, pbc is {[bool(p) for p in atoms.pbc]}{hint}")
-    positions = np.asarray(atoms.positions)
+    positions, notes = np.asarray(atoms.positions), notes_of(frame, len(frames))
+    read = {"positions"}
     if diameters is None and radii is None:
-        sizes = _sizes_in(name, atoms.arrays)
+        sizes, names = _sizes_in(name, atoms.arrays)
+        read.update(names)
     else:
         sizes = sizes_of(diameters, radii, len(atoms))
         if sizes.size > 1:
             _refuse_sorted(name, kind, at, positions)
+    say_unread(notes, "columns", (k for k in atoms.arrays if k not in read))
+    say_unread(notes, "keys", atoms.info)
+    if atoms.constraints:
+        notes.append("constraints of the file were not read")
     cell = np.asarray(atoms.cell)
-    x = plane(name, positions, cell, dim)
-    return dict(positions=x, diameters=sizes, **box_of(cell[:dim, :dim]), dim=dim, **options)
+    x = plane(name, positions, cell, dim, notes)
+    cell = cell[:dim, :dim]
+    x = from_corner(x, np.asarray(atoms.get_celldisp()).reshape(-1)[:dim], notes)
+    say_outside(notes, x, cell)
+    return dict(positions=x, diameters=sizes, **box_of(cell), dim=dim, **options), notes
 
 
-def _sizes_in(path: str, arrays: dict[str, Array]) -> Array:
-    """Diameters from the one array of a frame that has the name of a size, in either case of letters."""
+def _sizes_in(path: str, arrays: dict[str, Array]) -> tuple[Array, list[str]]:
+    """Diameters from the one array of a frame that has the name of a size, in either case of letters, and its names."""
     found = [name for name in arrays if name.lower() in _SIZES]
     if not found:
         raise bad(path, "no array `radius` or `diameter`: give diameters=")
@@ -61,7 +72,7 @@ def _sizes_in(path: str, arrays: dict[str, Array]) -> Array:
     for name, other in zip(found[1:], sizes[1:]):
         if not np.array_equal(other, sizes[0]):
             raise bad(path, f"the arrays `{found[0]}` and `{name}` name different sizes: give diameters=")
-    return sizes[0]
+    return sizes[0], found
 
 
 # Formats in which a file may list the atoms in another order than ASE: the option that leaves its order as it is.

@@ -5,7 +5,7 @@ Needs python3-gsd.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Callable
 
@@ -13,12 +13,15 @@ import numpy as np
 
 from .._api.arrays import Array
 from .._api.given import sizes_of
-from .frames import bad, box_of, in_range, plane, refuse_cell
-from .replacing import replacing
+from .frames import bad, box_of, from_corner, in_range, notes_of, plane, refuse_cell, say_outside, say_unread
+from .replacing import open_regular, replacing
 
 # Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
 _POSITION, _DIAMETER, _CELL = "jam/position", "jam/diameter", "jam/cell"
 _KEPT = (_POSITION, _DIAMETER, _CELL)
+# What every frame is read from; its number of steps says nothing about the packing.
+_READ = {"configuration/step", "configuration/dimensions", "configuration/box", "particles/N", "particles/position"}
+_SIZES = {"particles/diameter"}
 
 Bad = Callable[[str], Exception]  # the exception for what is no packing
 
@@ -37,6 +40,8 @@ class Found:
     diameters: Array | None
     cell: Array  # (3, 3), one vector a row
     doubles: Doubles | None
+    boxed: bool  # the file names its box
+    unread: list[str] = field(default_factory=list)  # chunks that hold more
 
 
 def write(path: str | os.PathLike[str], positions: Array, diameters: Array, cell: Array) -> None:
@@ -64,26 +69,34 @@ def arguments(
     radii: Any = None,
     doubles: bool = True,
     **options: Any,
-) -> dict[str, Any]:
-    """What System.from_arrays takes for one frame; the arguments are those of jam.files.read_gsd."""
+) -> tuple[dict[str, Any], list[str]]:
+    """What System.from_arrays takes for one frame, and notes; the arguments are those of jam.files.read_gsd."""
     import gsd.hoomd
 
     name = os.fsdecode(path)
     refuse_cell(options, name)
+    open_regular(name).close()
     try:
         opened = gsd.hoomd.open(name, "rb")
     except RuntimeError as error:  # the package's only word for a file that is none of GSD
         raise bad(name, f"no GSD file that can be read: {error}") from None
     with opened as file:
         at, by_hand = in_range(name, frame, len(file)), diameters is not None or radii is not None
-        found = _read(file, at, partial(bad, name), not by_hand, doubles)
+        found, notes = _read(file, at, partial(bad, name), not by_hand, doubles), notes_of(frame, len(file))
     d, cell, sizes = found.dim, found.cell[: found.dim, : found.dim], found.diameters
-    x = plane(name, found.positions, found.cell, d) + 0.5 * cell.sum(0)
+    x = plane(name, found.positions, found.cell, d, notes)
+    say_unread(notes, "chunks", found.unread)
     if found.doubles is not None:
         x, sizes, cell = found.doubles.positions, found.doubles.diameters, found.doubles.cell
+    else:
+        if not found.boxed:
+            notes.append("the file names no box: its side is taken as 1")
+        notes.append("positions of the file have single precision, about 7 digits")
+        x = from_corner(x, -0.5 * cell.sum(0), notes)
+        say_outside(notes, x, cell)
     if by_hand:
         sizes = sizes_of(diameters, radii, len(x))
-    return dict(positions=x, diameters=sizes, **box_of(cell), dim=d, **options)
+    return dict(positions=x, diameters=sizes, **box_of(cell), dim=d, **options), notes
 
 
 def _box(cell: Array) -> Array:
@@ -119,10 +132,23 @@ def _read(file: Any, frame: int, bad: Bad, sizes: bool, doubles: bool) -> Found:
     cell = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])
     x = np.asarray(one.particles.position)
     # GSD leaves its default box of side 1 out, so a file without a box holds either that one or none
-    if _chunk(file, frame, "configuration/box") is None and np.abs(x[:, :d]).max() > 0.5 + 1e-6:
+    boxed = _chunk(file, frame, "configuration/box") is not None
+    if not boxed and np.abs(x[:, :d]).max() > 0.5 + 1e-6:
         raise bad("no chunk configuration/box, and some positions lie outside the default box of side 1")
     kept = _doubles(file, frame, one, bad) if doubles else None
-    return Found(d, x, _diameters(file, frame, one, bad) if sizes and kept is None else None, cell, kept)
+    found = Found(d, x, None, cell, kept, boxed)
+    read = _READ | (_SIZES | {"log/" + name for name in _KEPT} if kept else set())
+    if sizes and kept is None:
+        found.diameters, places = _diameters(file, frame, one, bad)
+        read = read | places
+    found.unread = sorted(_names(file, frame) - read)
+    return found
+
+
+def _names(file: Any, frame: int) -> set[str]:
+    """The chunks that this frame has, of its own or from frame 0."""
+    names = file.file.find_matching_chunk_names("")
+    return {name for name in names if any(file.file.chunk_exists(frame=k, name=name) for k in (frame, 0))}
 
 
 def _chunk(file: Any, frame: int, name: str) -> Any:
@@ -166,8 +192,8 @@ def _difference(kept: Doubles, one: Any) -> str:
     return ""
 
 
-def _diameters(file: Any, frame: int, one: Any, bad: Bad) -> Array:
-    """Diameters (n,) from each place of the schema that names some."""
+def _diameters(file: Any, frame: int, one: Any, bad: Bad) -> tuple[Array, set[str]]:
+    """Diameters (n,) from each place of the schema that names some, and the chunks that were read for them."""
     found: dict[str, Array] = {}
     if _chunk(file, frame, "particles/diameter") is not None:
         found["particles/diameter"] = np.asarray(one.particles.diameter, float)
@@ -195,7 +221,7 @@ def _diameters(file: Any, frame: int, one: Any, bad: Bad) -> Array:
                 f"sphere {i} has the diameter {found[first][i]:g} by {first} and {found[name][i]:g} by {name}: "
                 "give diameters=",
             )
-    return found[first]
+    return found[first], set(found) | ({"particles/typeid", "particles/types"} if set(found) - _SIZES else set())
 
 
 def _of_shapes(one: Any, bad: Bad) -> Array | None:

@@ -11,7 +11,7 @@ Progressing = bool | Callable[[Any], Any] | None
 
 
 class Methods:
-    """Calls of the C header on a system, by its conventions: see System.call. Outputs are returned; self.status tells more."""
+    """Calls of the C header on a system, by its conventions: see System.call. Outputs are returned; self.status says more."""
 
     def call(self, name: str, *args: Any, progress: Progressing = None, **named: Any) -> Any:
         raise NotImplementedError
@@ -35,6 +35,23 @@ class Methods:
         ArgumentError, MemoryError, BusyError
         """
         self.call('set_memory_limit', bytes, progress=progress)
+
+    def add_note(self, text: str, *, progress: Progressing = None) -> None:
+        """Adds one sentence to notes(), for programs that read other formats: what they changed or assumed.
+
+        text is one line, not empty.
+
+        Parameters
+        ----------
+        text : str
+        progress : bool or callable, optional
+            True: a line that changes. A callable gets a Progress; a true answer stops the call.
+
+        Raises
+        ------
+        MemoryError, BusyError
+        """
+        self.call('add_note', text, progress=progress)
 
     def checkpoint_write(self, path: str) -> None:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
@@ -531,12 +548,12 @@ class Methods:
         moves.
 
         Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
-        are the null vector of S^T, or the centre of the non-negative ones where there are several states of self-
-        stress. The stored report's `jammed` is the verdict of rigidity(), whatever the tolerance. Status, with the
-        network kept each time: 'ok': one jump stands out, or only this candidate has a single state of self-stress.
-        'ambiguous': another candidate fits too (see second_*), or there are several states of self-stress. Also where
-        gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. 'not_jammed': not
-        collectively jammed even with these contacts closed.
+        are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
+        self-stress. The stored report's `jammed` is the verdict of rigidity(), whatever the tolerance. Status, with
+        the network kept each time: 'ok': one jump stands out, or only this candidate has a single state of self-
+        stress. 'ambiguous': another candidate fits too (see second_*), or there are several states of self-stress.
+        Also where gaps above 1e-7 leave the verdict open, or where coordinates have too few digits for a no.
+        'not_jammed': not collectively jammed even with these contacts closed.
 
         Parameters
         ----------
@@ -1147,8 +1164,11 @@ class Methods:
         return answer
 
     def compare(self, other: Any) -> CompareResult:
-        """Compares two packings of the same n, dim and box: contacts, packing fraction, and displacement out from sys to
-        other, nearest images, without its mean over spheres stable in both.
+        """Compares two packings sphere by sphere.
+
+        out is the displacement from sys to other by nearest images. Its mean over spheres stable in both, or over all
+        when none is, is taken out. n, dim, cell and model must agree. 'ambiguous': ratios of diameters differ, or one
+        of the two has no network.
 
         Parameters
         ----------

@@ -121,7 +121,7 @@ class Ensemble:
         except BaseException:
             if own:
                 pool.shutdown(cancel_futures=True)  # packings under way are dropped, their workers killed
-                with suppress(OSError):  # the error that ended the campaign is the one to tell
+                with suppress(OSError):  # the error that ended the campaign is the one to report
                     remove_abandoned(self.files.parts)  # a worker may have been killed while it wrote
             raise
         if own:

@@ -37,7 +37,7 @@ from .protocol import identity
 
 _REPORT = dtype_of(CrunchReport)
 _REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()
-#: A row of a table: what tells packings apart, the report of the crunch, and the crystal score (nan: not asked for).
+#: A row of a table: what distinguishes packings, the report of the crunch, and the crystal score (nan: not asked for).
 ROW = np.dtype(
     [
         *[("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24")],

@@ -32,6 +32,7 @@ static void call_rigidity(input *in, jam_system *sys) {
   check_status(jam_check_packing(sys, &o, &check));
   jam_check_text(&check);
   check_status(jam_prove(sys, NULL, 0, NULL));
+  check_status(jam_prove_strict(sys, NULL));
   check_status(jam_refined_positions(sys, NULL, 0, values[0], many, values[1], many, &needed));
 }
 

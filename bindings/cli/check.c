@@ -48,7 +48,7 @@ static jam_status read_as_it_is(const options *o, jam_system **sys) {
   create.frame = o->frame;
   create.non_additivity = o->non_additivity;
   create.overlap = JAM_OVERLAP_ALLOW;
-  return status < 0 ? status : jam_read(o->input, &create, sys);
+  return status < 0 ? status : jam_read(o->input, &create, NULL, NULL, sys);
 }
 
 /* The proof speaks of the contacts of the file's packing. */

@@ -90,7 +90,7 @@ static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, 
                                 int *stages_left) {
   jam_info info;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   if (info.paused == JAM_PHASE_CRUNCH) *stages_left = 0;
   t->stage = "resumed stage";
   result->pressure = info.pressure;
@@ -143,7 +143,7 @@ static int ends_job(jam_status status) {
 static int lies_above(const jam_system *sys, double density) {
   jam_info info;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   if (!(density > 0) || info.packing_fraction <= density * (1 + 1e-12)) return 0;
   complain("warning: the packing fraction is %.6g, above the %.6g to grow to: nothing was done", info.packing_fraction,
            density);
@@ -201,7 +201,7 @@ static int write_contacts(const jam_system *sys, const char *path) {
 static int write_all(jam_system *sys, const options *o, outcome *result) {
   int bad = 0;
   result->info.struct_size = sizeof result->info;
-  jam_info_get(sys, &result->info);
+  jam_get_info(sys, &result->info);
   result->notes = jam_notes(sys);
   if (o->output) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
   if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts);

@@ -16,7 +16,7 @@ double seconds_now(void) {
 }
 
 void write_checkpoint(const jam_system *sys, const options *o) {
-  if (o->checkpoint && jam_checkpoint_write(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
+  if (o->checkpoint && jam_write_checkpoint(sys, o->checkpoint) < 0) complain("%s", jam_last_error());
 }
 
 /* A crunch cannot be cut into slices as dynamics can: its checkpoints are written while it runs. */

@@ -258,7 +258,7 @@ int check_formats(const options *o, const jam_system *sys) {
   jam_info info;
   char ending[8];
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   if (o->output) {
     ending_of(o->output, ending);
     if (jam_write(sys, "/dev/null", format_of(ending)) < 0) {

@@ -41,10 +41,10 @@ static int told(jam_status status) {
 
 static int read_law(const char *text, jam_diameters_options *law, double **curve, size_t *curve_len) {
   *curve = NULL;
-  if (told(jam_diameters_parse(text, law, NULL, 0, curve_len))) return -1;
+  if (told(jam_parse_diameters(text, law, NULL, 0, curve_len))) return -1;
   if (!*curve_len) return 0;
   *curve = malloc(*curve_len * sizeof **curve);
-  if (*curve) return told(jam_diameters_parse(text, law, *curve, *curve_len, curve_len));
+  if (*curve) return told(jam_parse_diameters(text, law, *curve, *curve_len, curve_len));
   complain("out of memory");
   return -1;
 }
@@ -118,7 +118,7 @@ int take_sizes(const char *value, options *o) {
   jam_diameters_options law;
   size_t rows;
   jam_status status = jam_diameters_options_init(&law, sizeof law);
-  status = jam_diameters_parse(value, &law, NULL, 0, &rows);
+  status = jam_parse_diameters(value, &law, NULL, 0, &rows);
   if (status >= 0 || status == JAM_E_IO || status == JAM_E_FORMAT)
     o->given.sizes = value;
   else if (*value && !strchr(value, ':'))

@@ -14,7 +14,7 @@ static double start_fraction(const options *o) {
 static int check_resumed(const options *o, const jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   if (o->given.n && o->n != info.n)
     complain("--n is %lld, the checkpoint has %lld spheres", (long long)o->n, (long long)info.n);
   else if (is_named(o, "dim") && o->dim != info.dim)
@@ -40,6 +40,7 @@ static int refused_start(const options *o, jam_status status) {
 
 int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   jam_create_options create;
+  jam_start from = {.struct_size = sizeof from};
   double *diameters = NULL, cell[JAM_MAX_DIM * JAM_MAX_DIM];
   jam_status status = jam_create_options_init(&create, sizeof create);
   create.seed = o->seed;
@@ -51,9 +52,9 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   create.mk_zeta = o->zeta;
   create.non_additivity = o->non_additivity;
   if (o->resume)
-    status = jam_checkpoint_read_watched(o->resume, stop, NULL, sys);
+    status = jam_read_checkpoint(o->resume, stop, NULL, sys);
   else if (o->input)
-    status = jam_read_watched(o->input, &create, stop, NULL, sys);
+    status = jam_read(o->input, &create, stop, NULL, sys);
   else {
     create.n = o->n;
     if (make_diameters(o, &diameters, &create.n)) {
@@ -62,12 +63,15 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
     }
     create.dim = (int32_t)o->dim;
     create.packing_fraction = start_fraction(o);
+    from.diameters = diameters;
+    from.diameters_len = diameters ? (size_t)create.n : 0;
+    from.progress = stop;
     if (o->given.cell_count) {
       fill_cell(o, cell);
-      status = jam_create_in_cell_watched(&create, cell, (size_t)(o->dim * o->dim), NULL, 0, diameters,
-                                          diameters ? (size_t)create.n : 0, stop, NULL, sys);
-    } else
-      status = jam_create_watched(&create, NULL, 0, diameters, diameters ? (size_t)create.n : 0, stop, NULL, sys);
+      from.cell = cell;
+      from.cell_len = (size_t)(o->dim * o->dim);
+    }
+    status = jam_create(&create, &from, sys);
     free(diameters);
   }
   if (status < 0) return refused_start(o, status);

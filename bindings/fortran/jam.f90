@@ -56,6 +56,18 @@ module jam
   integer(c_int32_t), parameter :: JAM_STOP_SADDLE = 15
   integer(c_int32_t), parameter :: JAM_STOP_DUALITY_GAP = 16
 
+  ! jam_phase: Which part reports progress.
+  integer(c_int32_t), parameter :: JAM_PHASE_RUN = 1
+  integer(c_int32_t), parameter :: JAM_PHASE_COMPRESS = 2
+  integer(c_int32_t), parameter :: JAM_PHASE_CRUNCH = 3
+  integer(c_int32_t), parameter :: JAM_PHASE_POLISH = 4
+  integer(c_int32_t), parameter :: JAM_PHASE_ANALYSE = 5
+  integer(c_int32_t), parameter :: JAM_PHASE_RELAX = 6
+  integer(c_int32_t), parameter :: JAM_PHASE_DECOMPRESS = 7
+  integer(c_int32_t), parameter :: JAM_PHASE_MONTE_CARLO = 8
+  integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
+  integer(c_int32_t), parameter :: JAM_PHASE_CREATE = 10
+
   ! jam_overlap_policy: What to do with overlaps in given positions.
   integer(c_int32_t), parameter :: JAM_OVERLAP_REFUSE = 0
   integer(c_int32_t), parameter :: JAM_OVERLAP_SHRINK = 1
@@ -92,18 +104,6 @@ module jam
   integer(c_int32_t), parameter :: JAM_REACH_FARR_GROOT = 1
   integer(c_int32_t), parameter :: JAM_REACH_MEASURED = 2
   integer(c_int32_t), parameter :: JAM_REACH_CRYSTAL = 3
-
-  ! jam_phase: Which part reports progress.
-  integer(c_int32_t), parameter :: JAM_PHASE_RUN = 1
-  integer(c_int32_t), parameter :: JAM_PHASE_COMPRESS = 2
-  integer(c_int32_t), parameter :: JAM_PHASE_CRUNCH = 3
-  integer(c_int32_t), parameter :: JAM_PHASE_POLISH = 4
-  integer(c_int32_t), parameter :: JAM_PHASE_ANALYSE = 5
-  integer(c_int32_t), parameter :: JAM_PHASE_RELAX = 6
-  integer(c_int32_t), parameter :: JAM_PHASE_DECOMPRESS = 7
-  integer(c_int32_t), parameter :: JAM_PHASE_MONTE_CARLO = 8
-  integer(c_int32_t), parameter :: JAM_PHASE_ISOCONFIGURATIONAL = 9
-  integer(c_int32_t), parameter :: JAM_PHASE_CREATE = 10
 
   ! jam_log_level: Log levels.
   integer(c_int32_t), parameter :: JAM_LOG_NONE = 0
@@ -297,22 +297,22 @@ module jam
   integer(c_int32_t), parameter :: JAM_CONTACT_SMALLEST = 2
   integer(c_int32_t), parameter :: JAM_CONTACT_MEDIAN = 4
 
-  ! jam_quantity: What jam_class_values and jam_histogram look at.
-  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE = 0
-  integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_SUM = 1
-  integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_PAIRS = 2
-  integer(c_int32_t), parameter :: JAM_QUANTITY_VECTOR_DOT = 3
-  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_SUM = 4
-  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_PAIRS = 5
-  integer(c_int32_t), parameter :: JAM_QUANTITY_FORCE_DOT = 6
-  integer(c_int32_t), parameter :: JAM_QUANTITY_COORDINATION = 7
+  ! jam_local_quantity: Quantity of which jam_local_values and jam_histogram take the values.
+  integer(c_int32_t), parameter :: JAM_LOCAL_FORCE = 0
+  integer(c_int32_t), parameter :: JAM_LOCAL_VECTOR_SUM = 1
+  integer(c_int32_t), parameter :: JAM_LOCAL_VECTOR_PAIRS = 2
+  integer(c_int32_t), parameter :: JAM_LOCAL_VECTOR_DOT = 3
+  integer(c_int32_t), parameter :: JAM_LOCAL_FORCE_SUM = 4
+  integer(c_int32_t), parameter :: JAM_LOCAL_FORCE_PAIRS = 5
+  integer(c_int32_t), parameter :: JAM_LOCAL_FORCE_DOT = 6
+  integer(c_int32_t), parameter :: JAM_LOCAL_COORDINATION = 7
 
-  ! jam_class: Which of them.
-  integer(c_int32_t), parameter :: JAM_CLASS_ALL = 0
-  integer(c_int32_t), parameter :: JAM_CLASS_LOCALISED = 1
-  integer(c_int32_t), parameter :: JAM_CLASS_EXTENDED = 2
-  integer(c_int32_t), parameter :: JAM_CLASS_SMALLEST = 3
-  integer(c_int32_t), parameter :: JAM_CLASS_MEDIAN = 4
+  ! jam_population: The contacts or spheres that count.
+  integer(c_int32_t), parameter :: JAM_POPULATION_ALL = 0
+  integer(c_int32_t), parameter :: JAM_POPULATION_LOCALISED = 1
+  integer(c_int32_t), parameter :: JAM_POPULATION_EXTENDED = 2
+  integer(c_int32_t), parameter :: JAM_POPULATION_SMALLEST = 3
+  integer(c_int32_t), parameter :: JAM_POPULATION_MEDIAN = 4
 
   ! jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode.
   integer(c_int32_t), parameter :: JAM_FLOPPY_MEDIAN = 0
@@ -329,6 +329,38 @@ module jam
   integer(c_int32_t), parameter :: JAM_DOS_EDGE = 3
   integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE = 4
   integer(c_int32_t), parameter :: JAM_DOS_CUMULATIVE_ERROR = 5
+
+  ! Given to the progress callback; valid during the call only.
+  type, bind(c) :: jam_progress
+    ! sizeof(jam_progress) as the library knows it
+    integer(c_int32_t) :: struct_size = 104
+    ! jam_phase
+    integer(c_int32_t) :: phase = 0
+    ! now
+    real(c_double) :: packing_fraction = 0
+    ! MD: reduced pressure of the last window, NaN before
+    real(c_double) :: pressure = 0
+    ! crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
+    real(c_double) :: gain = 0
+    ! crunch: largest |s_i| over mean diameter
+    real(c_double) :: max_step = 0
+    ! since the call began
+    real(c_double) :: seconds = 0
+    ! of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
+    real(c_double) :: fraction = 0
+    ! MD: so far in this call
+    integer(c_int64_t) :: collisions = 0
+    ! crunch: LPs so far; analysis: items done
+    integer(c_int64_t) :: steps = 0
+    ! crunch: so far
+    integer(c_int64_t) :: factorisations = 0
+    ! number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    integer(c_int64_t) :: snapshot = 0
+    ! until the aim, from how `fraction` grew; NaN before a few reports
+    real(c_double) :: seconds_left = 0
+    ! a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    real(c_double) :: seconds_left_spread = 0
+  end type jam_progress
 
   ! Options of jam_create and jam_read.
   type, bind(c) :: jam_create_options
@@ -365,6 +397,27 @@ module jam
     ! smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units
     real(c_double) :: shrink_min = 0
   end type jam_create_options
+
+  ! Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
+  type, bind(c) :: jam_start
+    ! sizeof(jam_start)
+    integer(c_int32_t) :: struct_size = 72
+    ! 0
+    integer(c_int32_t) :: reserved = 0
+    ! (n, d), Cartesian, unit of `box`, any finite value (wrapped into the cell); NULL: a random sequential start at the packing_fraction of the options
+    type(c_ptr) :: positions = c_null_ptr
+    integer(c_size_t) :: positions_len = 0
+    ! n values, or 1 for all; NULL: all equal. With positions they must be given and are taken as they are. For a random start only their ratios count
+    type(c_ptr) :: diameters = c_null_ptr
+    integer(c_size_t) :: diameters_len = 0
+    ! (d, d), of any positive determinant; `box` must then be 1, the default. A left-handed, singular or flat cell is refused. NULL: a cube
+    type(c_ptr) :: cell = c_null_ptr
+    integer(c_size_t) :: cell_len = 0
+    ! or NULL; a non-zero return ends the call. The new system has no callback
+    type(c_funptr) :: progress = c_null_funptr
+    ! given to progress
+    type(c_ptr) :: user = c_null_ptr
+  end type jam_start
 
   ! What the system is now.
   type, bind(c) :: jam_info
@@ -467,38 +520,6 @@ module jam
     ! estimate of the packing fraction at which these sizes jam in disorder
     real(c_double) :: jammed_fraction = 0
   end type jam_size_report
-
-  ! Given to the progress callback; valid during the call only.
-  type, bind(c) :: jam_progress
-    ! sizeof(jam_progress) as the library knows it
-    integer(c_int32_t) :: struct_size = 104
-    ! jam_phase
-    integer(c_int32_t) :: phase = 0
-    ! now
-    real(c_double) :: packing_fraction = 0
-    ! MD: reduced pressure of the last window, NaN before
-    real(c_double) :: pressure = 0
-    ! crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
-    real(c_double) :: gain = 0
-    ! crunch: largest |s_i| over mean diameter
-    real(c_double) :: max_step = 0
-    ! since the call began
-    real(c_double) :: seconds = 0
-    ! of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
-    real(c_double) :: fraction = 0
-    ! MD: so far in this call
-    integer(c_int64_t) :: collisions = 0
-    ! crunch: LPs so far; analysis: items done
-    integer(c_int64_t) :: steps = 0
-    ! crunch: so far
-    integer(c_int64_t) :: factorisations = 0
-    ! number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
-    integer(c_int64_t) :: snapshot = 0
-    ! until the aim, from how `fraction` grew; NaN before a few reports
-    real(c_double) :: seconds_left = 0
-    ! a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
-    real(c_double) :: seconds_left_spread = 0
-  end type jam_progress
 
   ! Limits of jam_run (NVE). Whichever comes first ends the run.
   type, bind(c) :: jam_run_options
@@ -818,11 +839,11 @@ module jam
     ! motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
-    integer(c_int64_t) :: idle_contacts = 0
+    integer(c_int64_t) :: zero_force_contacts = 0
     ! pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
     integer(c_int64_t) :: undecided_contacts = 0
     ! stable spheres with d force-carrying contacts or fewer
-    integer(c_int64_t) :: bridges = 0
+    integer(c_int64_t) :: undercoordinated = 0
     ! d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     integer(c_int64_t) :: strict_contacts_needed = 0
     ! smallest eigenvalue of S^T S on force-carrying contacts that is no translation
@@ -1170,9 +1191,9 @@ module jam
     ! motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     integer(c_int64_t) :: flexes = 0
     ! spheres of B with d contacts of K+ or fewer
-    integer(c_int64_t) :: bridges = 0
+    integer(c_int64_t) :: undercoordinated = 0
     ! closed pairs that are not in K+
-    integer(c_int64_t) :: idle_contacts = 0
+    integer(c_int64_t) :: zero_force_contacts = 0
     ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
     integer(c_int64_t) :: undecided_contacts = 0
     ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
@@ -1225,7 +1246,7 @@ module jam
     ! pairs with gaps below 1e-10, those of rattlers among them
     integer(c_int64_t) :: closed_pairs = 0
     ! of the pairs that were tested, those without force in every state
-    integer(c_int64_t) :: idle_contacts = 0
+    integer(c_int64_t) :: zero_force_contacts = 0
     ! pairs that may be contacts or not, by rounding or for lack of digits
     integer(c_int64_t) :: undecided_contacts = 0
     ! independent balances of forces; with more than one forces are not unique
@@ -1330,8 +1351,8 @@ module jam
   end type jam_dos_options
 
   ! Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
-  type, bind(c) :: jam_moduli
-    ! set by the caller: sizeof(jam_moduli)
+  type, bind(c) :: jam_moduli_report
+    ! set by the caller: sizeof(jam_moduli_report)
     integer(c_int32_t) :: struct_size = 56
     ! 0
     integer(c_int32_t) :: reserved = 0
@@ -1347,7 +1368,7 @@ module jam
     real(c_double) :: shear_min = 0
     ! largest of them
     real(c_double) :: shear_max = 0
-  end type jam_moduli
+  end type jam_moduli_report
 
   ! What jam_compare found.
   type, bind(c) :: jam_comparison
@@ -1385,7 +1406,7 @@ module jam
 
   abstract interface
     ! Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
-    ! must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves the stage as it
+    ! must not throw or longjmp. On its handle it may call jam_cancel, jam_write_checkpoint (which saves the stage as it
     ! runs) and const getters. These show the state before the call, or the last snapshot.
     function jam_progress_fn(progress, user) &
         bind(c) result(status)
@@ -1488,44 +1509,44 @@ module jam
     end subroutine jam_destroy
 
     ! Fills *info.
-    function jam_info_get(sys, info) &
-        bind(c, name="jam_info_get") result(status)
+    function jam_get_info(sys, info) &
+        bind(c, name="jam_get_info") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_info), intent(inout), optional :: info
       integer(c_int32_t) :: status
-    end function jam_info_get
+    end function jam_get_info
 
     ! View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
     ! content changes only at the end of calls that move spheres.
-    function jam_positions_view(sys, view, view_len) &
-        bind(c, name="jam_positions_view") result(status)
+    function jam_view_positions(sys, view, view_len) &
+        bind(c, name="jam_view_positions") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), intent(out) :: view
       integer(c_size_t), intent(out) :: view_len
       integer(c_int32_t) :: status
-    end function jam_positions_view
+    end function jam_view_positions
 
-    ! View of the n diameters; lifetime as jam_positions_view.
-    function jam_diameters_view(sys, view, view_len) &
-        bind(c, name="jam_diameters_view") result(status)
+    ! View of the n diameters; lifetime as jam_view_positions.
+    function jam_view_diameters(sys, view, view_len) &
+        bind(c, name="jam_view_diameters") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), intent(out) :: view
       integer(c_size_t), intent(out) :: view_len
       integer(c_int32_t) :: status
-    end function jam_diameters_view
+    end function jam_view_diameters
 
-    ! View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view.
-    function jam_velocities_view(sys, view, view_len) &
-        bind(c, name="jam_velocities_view") result(status)
+    ! View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions.
+    function jam_view_velocities(sys, view, view_len) &
+        bind(c, name="jam_view_velocities") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), intent(out) :: view
       integer(c_size_t), intent(out) :: view_len
       integer(c_int32_t) :: status
-    end function jam_velocities_view
+    end function jam_view_velocities
 
     ! Multiplies all diameters by factor > 0; results of crunch are dropped.
     ! Errors: JAM_E_OVERLAP (when growing).
@@ -1580,7 +1601,7 @@ module jam
 
     ! Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
     ! infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
-    ! memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+    ! memory of jam_estimate_crunch with the limit before it begins, and that of each matrix before it factorises it. The
     ! default is half the machine's memory. An option memory_limit can lower the limit for its own call.
     function jam_set_memory_limit(sys, bytes) &
         bind(c, name="jam_set_memory_limit") result(status)
@@ -1661,7 +1682,7 @@ module jam
       integer(c_int32_t) :: status
     end function jam_observe_options_init
 
-    ! From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+    ! From now on jam_run and jam_compress record, over all calls, until jam_stop_observing. What was recorded before is
     ! dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
     ! callback is called with jam_progress.snapshot > 0: every const call works on that state there.
     function jam_observe(sys, o) &
@@ -1673,12 +1694,12 @@ module jam
     end function jam_observe
 
     ! Stops recording; what was recorded can still be read.
-    function jam_observe_stop(sys) &
-        bind(c, name="jam_observe_stop") result(status)
+    function jam_stop_observing(sys) &
+        bind(c, name="jam_stop_observing") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t) :: status
-    end function jam_observe_stop
+    end function jam_stop_observing
 
     ! pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
     ! Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim).
@@ -1704,7 +1725,7 @@ module jam
     ! Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
     ! preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
     ! overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
-    ! dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+    ! dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
     ! Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model).
     function jam_monte_carlo(sys, o, report) &
         bind(c, name="jam_monte_carlo") result(status)
@@ -1725,13 +1746,13 @@ module jam
 
     ! The report of these runs as they are now.
     ! Errors: JAM_E_STATE (no runs).
-    function jam_isoconf_report_get(sys, report) &
-        bind(c, name="jam_isoconf_report_get") result(status)
+    function jam_get_isoconf_report(sys, report) &
+        bind(c, name="jam_get_isoconf_report") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_isoconf_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
-    end function jam_isoconf_report_get
+    end function jam_get_isoconf_report
 
     function jam_crunch_options_init(o, size) &
         bind(c, name="jam_crunch_options_init") result(status)
@@ -1743,7 +1764,7 @@ module jam
 
     ! Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
     ! (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-    ! call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+    ! call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
     ! on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
     ! last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
     ! along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
@@ -1760,24 +1781,24 @@ module jam
     ! Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
     ! same at JAM_LOG_INFO. Takes as long as a few steps.
     ! Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW.
-    function jam_crunch_estimate(sys, o, estimated) &
-        bind(c, name="jam_crunch_estimate") result(status)
+    function jam_estimate_crunch(sys, o, estimated) &
+        bind(c, name="jam_estimate_crunch") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_crunch_options), intent(in), optional :: o
       type(jam_estimate), intent(inout), optional :: estimated
       integer(c_int32_t) :: status
-    end function jam_crunch_estimate
+    end function jam_estimate_crunch
 
     ! The report of the last crunch.
     ! Errors: JAM_E_STATE.
-    function jam_crunch_report_get(sys, report) &
-        bind(c, name="jam_crunch_report_get") result(status)
+    function jam_get_crunch_report(sys, report) &
+        bind(c, name="jam_get_crunch_report") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_crunch_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
-    end function jam_crunch_report_get
+    end function jam_get_crunch_report
 
     function jam_relax_options_init(o, size) &
         bind(c, name="jam_relax_options_init") result(status)
@@ -1852,7 +1873,7 @@ module jam
     end function jam_geometry_options_init
 
     ! Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-    ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+    ! moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
     ! are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
     ! self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
     ! network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
@@ -1968,14 +1989,14 @@ module jam
 
     ! Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
     ! Errors: JAM_E_STATE, JAM_E_SOLVER.
-    function jam_moduli_get(sys, h, moduli) &
-        bind(c, name="jam_moduli_get") result(status)
+    function jam_moduli(sys, h, moduli) &
+        bind(c, name="jam_moduli") result(status)
       import
       type(c_ptr), value :: sys
       type(jam_hessian_options), intent(in), optional :: h
-      type(jam_moduli), intent(inout), optional :: moduli
+      type(jam_moduli_report), intent(inout), optional :: moduli
       integer(c_int32_t) :: status
-    end function jam_moduli_get
+    end function jam_moduli
 
   ! What the procedures of this module call.
     subroutine c_jam_set_error(text) &
@@ -1983,14 +2004,11 @@ module jam
       import
       character(kind=c_char), intent(in) :: text(*)
     end subroutine c_jam_set_error
-    function c_jam_create(o, positions, positions_len, diameters, diameters_len, out) &
+    function c_jam_create(o, start, out) &
         bind(c, name="jam_create") result(status)
       import
       type(jam_create_options), intent(in), optional :: o
-      type(c_ptr), value :: positions
-      integer(c_size_t), value :: positions_len
-      type(c_ptr), value :: diameters
-      integer(c_size_t), value :: diameters_len
+      type(jam_start), intent(in) :: start
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function c_jam_create
@@ -2010,30 +2028,17 @@ module jam
       integer(c_size_t), value :: velocities_len
       integer(c_int32_t) :: status
     end function c_jam_set_velocities
-    function c_jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out) &
-        bind(c, name="jam_create_in_cell") result(status)
-      import
-      type(jam_create_options), intent(in), optional :: o
-      type(c_ptr), value :: cell
-      integer(c_size_t), value :: cell_len
-      type(c_ptr), value :: positions
-      integer(c_size_t), value :: positions_len
-      type(c_ptr), value :: diameters
-      integer(c_size_t), value :: diameters_len
-      type(c_ptr), intent(out) :: out
-      integer(c_int32_t) :: status
-    end function c_jam_create_in_cell
-    function c_jam_cell_get(sys, out, out_len, needed) &
-        bind(c, name="jam_cell_get") result(status)
+    function c_jam_get_cell(sys, out, out_len, needed) &
+        bind(c, name="jam_get_cell") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), value :: out
       integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
-    end function c_jam_cell_get
-    function c_jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) &
-        bind(c, name="jam_cell_set") result(status)
+    end function c_jam_get_cell
+    function c_jam_set_cell(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) &
+        bind(c, name="jam_set_cell") result(status)
       import
       type(c_ptr), value :: sys
       type(c_ptr), value :: cell
@@ -2044,7 +2049,7 @@ module jam
       integer(c_size_t), value :: rotation_len
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
-    end function c_jam_cell_set
+    end function c_jam_set_cell
     function c_jam_strain(sys, strain, strain_len) &
         bind(c, name="jam_strain") result(status)
       import
@@ -2064,8 +2069,8 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_diameters
-    function c_jam_diameters_parse(text, o, curve, curve_len, needed) &
-        bind(c, name="jam_diameters_parse") result(status)
+    function c_jam_parse_diameters(text, o, curve, curve_len, needed) &
+        bind(c, name="jam_parse_diameters") result(status)
       import
       character(kind=c_char), intent(in) :: text(*)
       type(jam_diameters_options), intent(inout), optional :: o
@@ -2073,7 +2078,7 @@ module jam
       integer(c_size_t), value :: curve_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
-    end function c_jam_diameters_parse
+    end function c_jam_parse_diameters
     function c_jam_cell_volume(dim, cell, cell_len, volume) &
         bind(c, name="jam_cell_volume") result(status)
       import
@@ -2083,68 +2088,22 @@ module jam
       real(c_double), intent(out), optional :: volume
       integer(c_int32_t) :: status
     end function c_jam_cell_volume
-    function c_jam_size_report_get(dim, diameters, diameters_len, report) &
-        bind(c, name="jam_size_report_get") result(status)
+    function c_jam_get_size_report(dim, diameters, diameters_len, report) &
+        bind(c, name="jam_get_size_report") result(status)
       import
       integer(c_int32_t), value :: dim
       type(c_ptr), value :: diameters
       integer(c_size_t), value :: diameters_len
       type(jam_size_report), intent(inout), optional :: report
       integer(c_int32_t) :: status
-    end function c_jam_size_report_get
-    function c_jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out) &
-        bind(c, name="jam_create_watched") result(status)
-      import
-      type(jam_create_options), intent(in), optional :: o
-      type(c_ptr), value :: positions
-      integer(c_size_t), value :: positions_len
-      type(c_ptr), value :: diameters
-      integer(c_size_t), value :: diameters_len
-      type(c_funptr), value :: callback
-      type(c_ptr), value :: user
-      type(c_ptr), intent(out) :: out
-      integer(c_int32_t) :: status
-    end function c_jam_create_watched
-    function c_jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, &
-      callback, user, out) &
-        bind(c, name="jam_create_in_cell_watched") result(status)
-      import
-      type(jam_create_options), intent(in), optional :: o
-      type(c_ptr), value :: cell
-      integer(c_size_t), value :: cell_len
-      type(c_ptr), value :: positions
-      integer(c_size_t), value :: positions_len
-      type(c_ptr), value :: diameters
-      integer(c_size_t), value :: diameters_len
-      type(c_funptr), value :: callback
-      type(c_ptr), value :: user
-      type(c_ptr), intent(out) :: out
-      integer(c_int32_t) :: status
-    end function c_jam_create_in_cell_watched
-    function c_jam_read_watched(path, o, callback, user, out) &
-        bind(c, name="jam_read_watched") result(status)
-      import
-      character(kind=c_char), intent(in) :: path(*)
-      type(jam_create_options), intent(in), optional :: o
-      type(c_funptr), value :: callback
-      type(c_ptr), value :: user
-      type(c_ptr), intent(out) :: out
-      integer(c_int32_t) :: status
-    end function c_jam_read_watched
-    function c_jam_checkpoint_read_watched(path, callback, user, out) &
-        bind(c, name="jam_checkpoint_read_watched") result(status)
-      import
-      character(kind=c_char), intent(in) :: path(*)
-      type(c_funptr), value :: callback
-      type(c_ptr), value :: user
-      type(c_ptr), intent(out) :: out
-      integer(c_int32_t) :: status
-    end function c_jam_checkpoint_read_watched
-    function c_jam_read(path, o, out) &
+    end function c_jam_get_size_report
+    function c_jam_read(path, o, callback, user, out) &
         bind(c, name="jam_read") result(status)
       import
       character(kind=c_char), intent(in) :: path(*)
       type(jam_create_options), intent(in), optional :: o
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
     end function c_jam_read
@@ -2183,20 +2142,22 @@ module jam
       integer(c_size_t), value :: values_len
       integer(c_int32_t) :: status
     end function c_jam_write_page
-    function c_jam_checkpoint_write(sys, path) &
-        bind(c, name="jam_checkpoint_write") result(status)
+    function c_jam_write_checkpoint(sys, path) &
+        bind(c, name="jam_write_checkpoint") result(status)
       import
       type(c_ptr), value :: sys
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: status
-    end function c_jam_checkpoint_write
-    function c_jam_checkpoint_read(path, out) &
-        bind(c, name="jam_checkpoint_read") result(status)
+    end function c_jam_write_checkpoint
+    function c_jam_read_checkpoint(path, callback, user, out) &
+        bind(c, name="jam_read_checkpoint") result(status)
       import
       character(kind=c_char), intent(in) :: path(*)
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
       type(c_ptr), intent(out) :: out
       integer(c_int32_t) :: status
-    end function c_jam_checkpoint_read
+    end function c_jam_read_checkpoint
     function c_jam_observed_series(sys, table, table_len, needed) &
         bind(c, name="jam_observed_series") result(status)
       import
@@ -2337,12 +2298,12 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_step_displacements
-    function c_jam_crunch_step_contacts(sys, iout, iout_len, needed) &
+    function c_jam_crunch_step_contacts(sys, out, out_len, needed) &
         bind(c, name="jam_crunch_step_contacts") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: iout
-      integer(c_size_t), value :: iout_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_crunch_step_contacts
@@ -2374,12 +2335,12 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_decompress_history
-    function c_jam_contacts(sys, iout, iout_len, needed) &
+    function c_jam_contacts(sys, out, out_len, needed) &
         bind(c, name="jam_contacts") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: iout
-      integer(c_size_t), value :: iout_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_contacts
@@ -2410,21 +2371,21 @@ module jam
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_forces
-    function c_jam_coordination(sys, iout, iout_len, needed) &
+    function c_jam_coordination(sys, out, out_len, needed) &
         bind(c, name="jam_coordination") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: iout
-      integer(c_size_t), value :: iout_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_coordination
-    function c_jam_hessian_map(sys, iout, iout_len, needed) &
+    function c_jam_hessian_map(sys, out, out_len, needed) &
         bind(c, name="jam_hessian_map") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: iout
-      integer(c_size_t), value :: iout_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_hessian_map
@@ -2536,12 +2497,12 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_gaps
-    function c_jam_contact_classes(sys, iout, iout_len, needed) &
+    function c_jam_contact_classes(sys, out, out_len, needed) &
         bind(c, name="jam_contact_classes") result(status)
       import
       type(c_ptr), value :: sys
-      type(c_ptr), value :: iout
-      integer(c_size_t), value :: iout_len
+      type(c_ptr), value :: out
+      integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
     end function c_jam_contact_classes
@@ -2569,23 +2530,23 @@ module jam
       integer(c_size_t), intent(out), optional :: rows
       integer(c_int32_t) :: status
     end function c_jam_contact_dots
-    function c_jam_class_values(sys, quantity, which, out, out_len, needed) &
-        bind(c, name="jam_class_values") result(status)
+    function c_jam_local_values(sys, quantity, population, out, out_len, needed) &
+        bind(c, name="jam_local_values") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), value :: quantity
-      integer(c_int32_t), value :: which
+      integer(c_int32_t), value :: population
       type(c_ptr), value :: out
       integer(c_size_t), value :: out_len
       integer(c_size_t), intent(out), optional :: needed
       integer(c_int32_t) :: status
-    end function c_jam_class_values
-    function c_jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed) &
+    end function c_jam_local_values
+    function c_jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed) &
         bind(c, name="jam_histogram") result(status)
       import
       type(c_ptr), value :: sys
       integer(c_int32_t), value :: quantity
-      integer(c_int32_t), value :: which
+      integer(c_int32_t), value :: population
       real(c_double), value :: low
       real(c_double), value :: high
       integer(c_int64_t), value :: bins
@@ -2719,36 +2680,16 @@ module jam
     end function c_jam_compare
   end interface
 
-  ! Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
-  ! start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
-  ! given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
-  ! After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c
-  ! Shapes: positions (n, d), diameters (n).
-  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
-  interface jam_create
-    module procedure f_jam_create
-    module procedure l_jam_create
-  end interface jam_create
-
-  ! jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
-  ! or flat cell is refused. positions: Cartesian, in the frame of `cell`.
-  ! Shapes: cell (d, d), positions (n, d), diameters (n).
-  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-  interface jam_create_in_cell
-    module procedure f_jam_create_in_cell
-    module procedure l_jam_create_in_cell
-  end interface jam_create_in_cell
-
   ! Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
   ! frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
   ! times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
   ! vectors, so with other vectors the system is another one.
   ! Shapes: cell (d, d), transform (d, d), rotation (d, d).
   ! Errors: JAM_E_OVERLAP.
-  interface jam_cell_set
-    module procedure f_jam_cell_set
-    module procedure l_jam_cell_set
-  end interface jam_cell_set
+  interface jam_set_cell
+    module procedure f_jam_set_cell
+    module procedure l_jam_set_cell
+  end interface jam_set_cell
 
   ! Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
   ! last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
@@ -2760,26 +2701,6 @@ module jam
     module procedure f_jam_diameters
     module procedure l_jam_diameters
   end interface jam_diameters
-
-  ! jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
-  ! A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
-  ! Shapes: positions (n, d), diameters (n).
-  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
-  interface jam_create_watched
-    module procedure f_jam_create_watched
-    module procedure l_jam_create_watched
-  end interface jam_create_watched
-
-  ! jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
-  ! call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
-  ! take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
-  ! jam_checkpoint_read_watched has no time limit.
-  ! Shapes: cell (d, d), positions (n, d), diameters (n).
-  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-  interface jam_create_in_cell_watched
-    module procedure f_jam_create_in_cell_watched
-    module procedure l_jam_create_in_cell_watched
-  end interface jam_create_in_cell_watched
 
   ! Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n.
   ! Shapes: collisions (n), displacement (n, d).
@@ -2830,7 +2751,7 @@ module jam
   ! resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
   ! of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
   ! sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
-  ! jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move).
+  ! jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
   ! Shapes: instant (instants), kept (k).
   ! Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
   interface jam_isoconfigurational
@@ -2952,30 +2873,33 @@ module jam
     module procedure l_jam_elastic_tensor
   end interface jam_elastic_tensor
 
+  ! Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
+  ! call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
+  ! compared. Example: examples/c/first.c
+  ! Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
+  interface jam_create
+    procedure c_jam_create
+    procedure create_from_arrays
+  end interface jam_create
+
   private :: sizes_of
   private :: checked
-  private :: c_jam_create
   private :: c_jam_set_positions
   private :: c_jam_set_velocities
-  private :: c_jam_create_in_cell
-  private :: c_jam_cell_get
-  private :: c_jam_cell_set
+  private :: c_jam_get_cell
+  private :: c_jam_set_cell
   private :: c_jam_strain
   private :: c_jam_diameters
-  private :: c_jam_diameters_parse
+  private :: c_jam_parse_diameters
   private :: c_jam_cell_volume
-  private :: c_jam_size_report_get
-  private :: c_jam_create_watched
-  private :: c_jam_create_in_cell_watched
-  private :: c_jam_read_watched
-  private :: c_jam_checkpoint_read_watched
+  private :: c_jam_get_size_report
   private :: c_jam_read
   private :: c_jam_add_note
   private :: c_jam_write
   private :: c_jam_write_contacts
   private :: c_jam_write_page
-  private :: c_jam_checkpoint_write
-  private :: c_jam_checkpoint_read
+  private :: c_jam_write_checkpoint
+  private :: c_jam_read_checkpoint
   private :: c_jam_observed_series
   private :: c_jam_observed_spheres
   private :: c_jam_observed_pairs
@@ -3010,7 +2934,7 @@ module jam
   private :: c_jam_contact_classes
   private :: c_jam_sphere_structure
   private :: c_jam_contact_dots
-  private :: c_jam_class_values
+  private :: c_jam_local_values
   private :: c_jam_histogram
   private :: c_jam_pair_correlation
   private :: c_jam_structure_factor
@@ -3023,18 +2947,12 @@ module jam
   private :: c_jam_curvature
   private :: c_jam_elastic_tensor
   private :: c_jam_compare
-  private :: f_jam_create
-  private :: l_jam_create
-  private :: f_jam_create_in_cell
-  private :: l_jam_create_in_cell
-  private :: f_jam_cell_set
-  private :: l_jam_cell_set
+  private :: c_jam_create
+  private :: create_from_arrays
+  private :: f_jam_set_cell
+  private :: l_jam_set_cell
   private :: f_jam_diameters
   private :: l_jam_diameters
-  private :: f_jam_create_watched
-  private :: l_jam_create_watched
-  private :: f_jam_create_in_cell_watched
-  private :: l_jam_create_in_cell_watched
   private :: f_jam_observed_spheres
   private :: l_jam_observed_spheres
   private :: f_jam_observed_pairs
@@ -3076,6 +2994,36 @@ module jam
 
 contains
 
+  ! The second form of jam_create: arrays of any rank, each of which may be left out.
+  function create_from_arrays(o, positions, diameters, cell, out) result(status)
+    type(jam_create_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: positions(..), diameters(..), cell(..)
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(jam_start) :: start
+    integer(c_size_t) :: d
+    out = c_null_ptr
+    d = 3
+    if (present(o)) d = o%dim
+    if (present(positions)) then
+      start%positions = c_loc(positions)
+      start%positions_len = size(positions, kind=c_size_t)
+      status = checked('positions', shape(positions, kind=c_size_t), d, start%positions_len)
+      if (status /= JAM_OK) return
+    end if
+    if (present(diameters)) then
+      start%diameters = c_loc(diameters)
+      start%diameters_len = size(diameters, kind=c_size_t)
+    end if
+    if (present(cell)) then
+      start%cell = c_loc(cell)
+      start%cell_len = size(cell, kind=c_size_t)
+      status = checked('cell', shape(cell, kind=c_size_t), d, start%cell_len)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_create(o, start, out)
+  end function create_from_arrays
+
   ! Spheres and dimension of a system, 0 where C will refuse the handle.
   subroutine sizes_of(sys, n, d)
     type(c_ptr), intent(in) :: sys
@@ -3085,8 +3033,8 @@ contains
     n = 0
     d = 0
     if (.not. c_associated(sys)) return
-    if (jam_diameters_view(sys, view, n) /= JAM_OK) return
-    if (jam_positions_view(sys, view, coordinates) /= JAM_OK) return
+    if (jam_view_diameters(sys, view, n) /= JAM_OK) return
+    if (jam_view_positions(sys, view, coordinates) /= JAM_OK) return
     if (n > 0) d = coordinates/n
   end subroutine sizes_of
 
@@ -3161,84 +3109,6 @@ contains
     call c_jam_set_error(jam_c_string(text))
   end subroutine jam_set_error
 
-  function f_jam_create(o, positions, diameters, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create(o, at_positions, count_positions, at_diameters, count_diameters, out)
-  end function f_jam_create
-
-  function l_jam_create(o, positions, positions_len, diameters, diameters_len, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    integer(c_size_t), intent(in) :: positions_len
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    integer(c_size_t), intent(in) :: diameters_len
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    count_positions = positions_len
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    count_diameters = diameters_len
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create(o, at_positions, count_positions, at_diameters, count_diameters, out)
-  end function l_jam_create
-
   ! Replaces the positions, wrapped into the box; results of crunch are dropped.
   ! Shapes: positions (n, d).
   ! Errors: JAM_E_OVERLAP.
@@ -3291,117 +3161,9 @@ contains
     status = c_jam_set_velocities(sys, at_velocities, count_velocities)
   end function jam_set_velocities
 
-  function f_jam_create_in_cell(o, cell, positions, diameters, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: cell(..)
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_cell
-    integer(c_size_t) :: count_cell
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_cell = c_null_ptr
-    count_cell = 0
-    if (present(cell)) then
-      at_cell = c_loc(cell)
-      count_cell = size(cell, kind=c_size_t)
-    end if
-    if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), d_of_c, count_cell)
-      if (status /= JAM_OK) return
-    end if
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create_in_cell(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
-      count_diameters, out)
-  end function f_jam_create_in_cell
-
-  function l_jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: cell(..)
-    integer(c_size_t), intent(in) :: cell_len
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    integer(c_size_t), intent(in) :: positions_len
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    integer(c_size_t), intent(in) :: diameters_len
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_cell
-    integer(c_size_t) :: count_cell
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_cell = c_null_ptr
-    count_cell = 0
-    if (present(cell)) then
-      at_cell = c_loc(cell)
-      count_cell = size(cell, kind=c_size_t)
-    end if
-    count_cell = cell_len
-    if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), d_of_c, count_cell)
-      if (status /= JAM_OK) return
-    end if
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    count_positions = positions_len
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    count_diameters = diameters_len
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create_in_cell(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
-      count_diameters, out)
-  end function l_jam_create_in_cell
-
   ! Cell vectors in normal form.
   ! Shapes: out (d, d).
-  function jam_cell_get(sys, out, out_len, needed) result(status)
+  function jam_get_cell(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
     integer(c_size_t), intent(in), optional :: out_len
@@ -3422,10 +3184,10 @@ contains
       status = checked('out', shape(out, kind=c_size_t), d_of_c, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_cell_get(sys, at_out, count_out, needed)
-  end function jam_cell_get
+    status = c_jam_get_cell(sys, at_out, count_out, needed)
+  end function jam_get_cell
 
-  function f_jam_cell_set(sys, cell, transform, rotation, rows) result(status)
+  function f_jam_set_cell(sys, cell, transform, rotation, rows) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: cell(..)
     integer(c_int64_t), intent(inout), target, contiguous, optional :: transform(..)
@@ -3470,11 +3232,11 @@ contains
       status = checked('rotation', shape(rotation, kind=c_size_t), d_of_c, count_rotation)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_cell_set(sys, at_cell, count_cell, at_transform, count_transform, at_rotation, &
+    status = c_jam_set_cell(sys, at_cell, count_cell, at_transform, count_transform, at_rotation, &
       count_rotation, rows)
-  end function f_jam_cell_set
+  end function f_jam_set_cell
 
-  function l_jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) result(status)
+  function l_jam_set_cell(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows) result(status)
     type(c_ptr), intent(in) :: sys
     real(c_double), intent(in), target, contiguous, optional :: cell(..)
     integer(c_size_t), intent(in) :: cell_len
@@ -3525,9 +3287,9 @@ contains
       status = checked('rotation', shape(rotation, kind=c_size_t), d_of_c, count_rotation)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_cell_set(sys, at_cell, count_cell, at_transform, count_transform, at_rotation, &
+    status = c_jam_set_cell(sys, at_cell, count_cell, at_transform, count_transform, at_rotation, &
       count_rotation, rows)
-  end function l_jam_cell_set
+  end function l_jam_set_cell
 
   ! Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
   ! reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
@@ -3631,7 +3393,7 @@ contains
   ! (`0.5=0.12`), or a file of two columns, with comments behind #.
   ! Shapes: curve (rows, 2).
   ! Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line).
-  function jam_diameters_parse(text, o, curve, curve_len, needed) result(status)
+  function jam_parse_diameters(text, o, curve, curve_len, needed) result(status)
     character(*), intent(in) :: text
     type(jam_diameters_options), intent(inout), optional :: o
     real(c_double), intent(inout), target, contiguous, optional :: curve(..)
@@ -3651,8 +3413,8 @@ contains
       status = checked('curve', shape(curve, kind=c_size_t), 2_c_size_t, count_curve)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_diameters_parse(jam_c_string(text), o, at_curve, count_curve, needed)
-  end function jam_diameters_parse
+    status = c_jam_parse_diameters(jam_c_string(text), o, at_curve, count_curve, needed)
+  end function jam_parse_diameters
 
   ! volume of a cell of d = dim vectors, row after row, with a positive determinant.
   ! Shapes: cell (m).
@@ -3682,7 +3444,7 @@ contains
   ! Describes diameters > 0 in dimension dim.
   ! Shapes: diameters (n).
   ! Errors: JAM_E_DIMENSION.
-  function jam_size_report_get(dim, diameters, diameters_len, report) result(status)
+  function jam_get_size_report(dim, diameters, diameters_len, report) result(status)
     integer(c_int32_t), intent(in) :: dim
     real(c_double), intent(in), target, contiguous, optional :: diameters(..)
     integer(c_size_t), intent(in), optional :: diameters_len
@@ -3701,242 +3463,30 @@ contains
       status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_size_report_get(dim, at_diameters, count_diameters, report)
-  end function jam_size_report_get
-
-  function f_jam_create_watched(o, positions, diameters, callback, user, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    type(c_funptr), intent(in) :: callback
-    type(c_ptr), intent(in) :: user
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create_watched(o, at_positions, count_positions, at_diameters, count_diameters, callback, &
-      user, out)
-  end function f_jam_create_watched
-
-  function l_jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    integer(c_size_t), intent(in) :: positions_len
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    integer(c_size_t), intent(in) :: diameters_len
-    type(c_funptr), intent(in) :: callback
-    type(c_ptr), intent(in) :: user
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    count_positions = positions_len
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    count_diameters = diameters_len
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create_watched(o, at_positions, count_positions, at_diameters, count_diameters, callback, &
-      user, out)
-  end function l_jam_create_watched
-
-  function f_jam_create_in_cell_watched(o, cell, positions, diameters, callback, user, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: cell(..)
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    type(c_funptr), intent(in) :: callback
-    type(c_ptr), intent(in) :: user
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_cell
-    integer(c_size_t) :: count_cell
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_cell = c_null_ptr
-    count_cell = 0
-    if (present(cell)) then
-      at_cell = c_loc(cell)
-      count_cell = size(cell, kind=c_size_t)
-    end if
-    if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), d_of_c, count_cell)
-      if (status /= JAM_OK) return
-    end if
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create_in_cell_watched(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
-      count_diameters, callback, user, out)
-  end function f_jam_create_in_cell_watched
-
-  function l_jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, &
-    callback, user, out) result(status)
-    type(jam_create_options), intent(in), optional :: o
-    real(c_double), intent(in), target, contiguous, optional :: cell(..)
-    integer(c_size_t), intent(in) :: cell_len
-    real(c_double), intent(in), target, contiguous, optional :: positions(..)
-    integer(c_size_t), intent(in) :: positions_len
-    real(c_double), intent(in), target, contiguous, optional :: diameters(..)
-    integer(c_size_t), intent(in) :: diameters_len
-    type(c_funptr), intent(in) :: callback
-    type(c_ptr), intent(in) :: user
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    type(c_ptr) :: at_cell
-    integer(c_size_t) :: count_cell
-    type(c_ptr) :: at_positions
-    integer(c_size_t) :: count_positions
-    type(c_ptr) :: at_diameters
-    integer(c_size_t) :: count_diameters
-    integer(c_size_t) :: n_of_c, d_of_c
-    n_of_c = 0
-    d_of_c = 3
-    if (present(o)) d_of_c = o%dim
-    at_cell = c_null_ptr
-    count_cell = 0
-    if (present(cell)) then
-      at_cell = c_loc(cell)
-      count_cell = size(cell, kind=c_size_t)
-    end if
-    count_cell = cell_len
-    if (present(cell)) then
-      status = checked('cell', shape(cell, kind=c_size_t), d_of_c, count_cell)
-      if (status /= JAM_OK) return
-    end if
-    at_positions = c_null_ptr
-    count_positions = 0
-    if (present(positions)) then
-      at_positions = c_loc(positions)
-      count_positions = size(positions, kind=c_size_t)
-    end if
-    count_positions = positions_len
-    if (present(positions)) then
-      status = checked('positions', shape(positions, kind=c_size_t), d_of_c, count_positions)
-      if (status /= JAM_OK) return
-    end if
-    at_diameters = c_null_ptr
-    count_diameters = 0
-    if (present(diameters)) then
-      at_diameters = c_loc(diameters)
-      count_diameters = size(diameters, kind=c_size_t)
-    end if
-    count_diameters = diameters_len
-    if (present(diameters)) then
-      status = checked('diameters', shape(diameters, kind=c_size_t), 0_c_size_t, count_diameters)
-      if (status /= JAM_OK) return
-    end if
-    status = c_jam_create_in_cell_watched(o, at_cell, count_cell, at_positions, count_positions, at_diameters, &
-      count_diameters, callback, user, out)
-  end function l_jam_create_in_cell_watched
-
-  ! See jam_create_in_cell_watched.
-  ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-  function jam_read_watched(path, o, callback, user, out) result(status)
-    character(*), intent(in) :: path
-    type(jam_create_options), intent(in), optional :: o
-    type(c_funptr), intent(in) :: callback
-    type(c_ptr), intent(in) :: user
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    status = c_jam_read_watched(jam_c_string(path), o, callback, user, out)
-  end function jam_read_watched
-
-  ! See jam_create_in_cell_watched.
-  ! Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
-  function jam_checkpoint_read_watched(path, callback, user, out) result(status)
-    character(*), intent(in) :: path
-    type(c_funptr), intent(in) :: callback
-    type(c_ptr), intent(in) :: user
-    type(c_ptr), intent(out) :: out
-    integer(c_int32_t) :: status
-    status = c_jam_checkpoint_read_watched(jam_c_string(path), callback, user, out)
-  end function jam_checkpoint_read_watched
+    status = c_jam_get_size_report(dim, at_diameters, count_diameters, report)
+  end function jam_get_size_report
 
   ! Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
   ! by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
   ! model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
   ! what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
   ! order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
-  ! lost digits.
+  ! lost digits. callback, user: as in jam_start.
   ! Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-  function jam_read(path, o, out) result(status)
+  function jam_read(path, o, callback, user, out) result(status)
     character(*), intent(in) :: path
     type(jam_create_options), intent(in), optional :: o
+    type(c_funptr), intent(in), optional :: callback
+    type(c_ptr), intent(in), optional :: user
     type(c_ptr), intent(out) :: out
     integer(c_int32_t) :: status
-    status = c_jam_read(jam_c_string(path), o, out)
+    type(c_funptr) :: c_callback
+    type(c_ptr) :: c_user
+    c_callback = c_null_funptr
+    if (present(callback)) c_callback = callback
+    c_user = c_null_ptr
+    if (present(user)) c_user = user
+    status = c_jam_read(jam_c_string(path), o, c_callback, c_user, out)
   end function jam_read
 
   ! Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
@@ -3951,7 +3501,7 @@ contains
   ! Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
   ! then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
   ! a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-  ! same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+  ! same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
   ! non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
   ! Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
   function jam_write(sys, path, format) result(status)
@@ -4013,21 +3563,29 @@ contains
   ! under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
   ! crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
   ! Errors: JAM_E_IO.
-  function jam_checkpoint_write(sys, path) result(status)
+  function jam_write_checkpoint(sys, path) result(status)
     type(c_ptr), intent(in) :: sys
     character(*), intent(in) :: path
     integer(c_int32_t) :: status
-    status = c_jam_checkpoint_write(sys, jam_c_string(path))
-  end function jam_checkpoint_write
+    status = c_jam_write_checkpoint(sys, jam_c_string(path))
+  end function jam_write_checkpoint
 
-  ! Makes a system from such a file.
+  ! Makes a system from such a file. callback, user: as in jam_start.
   ! Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
-  function jam_checkpoint_read(path, out) result(status)
+  function jam_read_checkpoint(path, callback, user, out) result(status)
     character(*), intent(in) :: path
+    type(c_funptr), intent(in), optional :: callback
+    type(c_ptr), intent(in), optional :: user
     type(c_ptr), intent(out) :: out
     integer(c_int32_t) :: status
-    status = c_jam_checkpoint_read(jam_c_string(path), out)
-  end function jam_checkpoint_read
+    type(c_funptr) :: c_callback
+    type(c_ptr) :: c_user
+    c_callback = c_null_funptr
+    if (present(callback)) c_callback = callback
+    c_user = c_null_ptr
+    if (present(user)) c_user = user
+    status = c_jam_read_checkpoint(jam_c_string(path), c_callback, c_user, out)
+  end function jam_read_checkpoint
 
   ! Series of samples.
   ! Shapes: table (samples, jam_series_column).
@@ -4789,28 +4347,28 @@ contains
   end function jam_crunch_step_displacements
 
   ! Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
-  ! Shapes: iout (m, 2).
+  ! Shapes: out (m, 2).
   ! Errors: JAM_E_STATE.
-  function jam_crunch_step_contacts(sys, iout, iout_len, needed) result(status)
+  function jam_crunch_step_contacts(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
-    integer(c_size_t), intent(in), optional :: iout_len
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_iout
-    integer(c_size_t) :: count_iout
-    at_iout = c_null_ptr
-    count_iout = 0
-    if (present(iout)) then
-      at_iout = c_loc(iout)
-      count_iout = size(iout, kind=c_size_t)
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
     end if
-    if (present(iout_len)) count_iout = iout_len
-    if (present(iout)) then
-      status = checked('iout', shape(iout, kind=c_size_t), 2_c_size_t, count_iout)
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 2_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_crunch_step_contacts(sys, at_iout, count_iout, needed)
+    status = c_jam_crunch_step_contacts(sys, at_out, count_out, needed)
   end function jam_crunch_step_contacts
 
   ! r_ij of these pairs before the step, unit of box.
@@ -4894,28 +4452,28 @@ contains
 
   ! Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
   ! cell. Each stands for both opposite images, so it adds 2 to the coordination.
-  ! Shapes: iout (contacts, 2).
+  ! Shapes: out (contacts, 2).
   ! Errors: JAM_E_STATE (no crunch yet).
-  function jam_contacts(sys, iout, iout_len, needed) result(status)
+  function jam_contacts(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
-    integer(c_size_t), intent(in), optional :: iout_len
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_iout
-    integer(c_size_t) :: count_iout
-    at_iout = c_null_ptr
-    count_iout = 0
-    if (present(iout)) then
-      at_iout = c_loc(iout)
-      count_iout = size(iout, kind=c_size_t)
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
     end if
-    if (present(iout_len)) count_iout = iout_len
-    if (present(iout)) then
-      status = checked('iout', shape(iout, kind=c_size_t), 2_c_size_t, count_iout)
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 2_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_contacts(sys, at_iout, count_iout, needed)
+    status = c_jam_contacts(sys, at_out, count_out, needed)
   end function jam_contacts
 
   ! Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
@@ -4999,53 +4557,53 @@ contains
   end function jam_forces
 
   ! Number of contacts of each sphere; 0 for rattlers.
-  ! Shapes: iout (n).
+  ! Shapes: out (n).
   ! Errors: JAM_E_STATE.
-  function jam_coordination(sys, iout, iout_len, needed) result(status)
+  function jam_coordination(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
-    integer(c_size_t), intent(in), optional :: iout_len
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_iout
-    integer(c_size_t) :: count_iout
-    at_iout = c_null_ptr
-    count_iout = 0
-    if (present(iout)) then
-      at_iout = c_loc(iout)
-      count_iout = size(iout, kind=c_size_t)
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
     end if
-    if (present(iout_len)) count_iout = iout_len
-    if (present(iout)) then
-      status = checked('iout', shape(iout, kind=c_size_t), 0_c_size_t, count_iout)
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_coordination(sys, at_iout, count_iout, needed)
+    status = c_jam_coordination(sys, at_out, count_out, needed)
   end function jam_coordination
 
-  ! The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
-  ! Shapes: iout (N').
+  ! The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k].
+  ! Shapes: out (N').
   ! Errors: JAM_E_STATE.
-  function jam_hessian_map(sys, iout, iout_len, needed) result(status)
+  function jam_hessian_map(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
-    integer(c_size_t), intent(in), optional :: iout_len
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_iout
-    integer(c_size_t) :: count_iout
-    at_iout = c_null_ptr
-    count_iout = 0
-    if (present(iout)) then
-      at_iout = c_loc(iout)
-      count_iout = size(iout, kind=c_size_t)
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
     end if
-    if (present(iout_len)) count_iout = iout_len
-    if (present(iout)) then
-      status = checked('iout', shape(iout, kind=c_size_t), 0_c_size_t, count_iout)
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_hessian_map(sys, at_iout, count_iout, needed)
+    status = c_jam_hessian_map(sys, at_out, count_out, needed)
   end function jam_hessian_map
 
   function f_jam_hessian(sys, h, row_start, column, value, rows) result(status)
@@ -5667,28 +5225,28 @@ contains
   end function l_jam_gaps
 
   ! Flags (jam_contact_class) of every contact.
-  ! Shapes: iout (n_c).
+  ! Shapes: out (n_c).
   ! Errors: JAM_E_STATE.
-  function jam_contact_classes(sys, iout, iout_len, needed) result(status)
+  function jam_contact_classes(sys, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
-    integer(c_int32_t), intent(inout), target, contiguous, optional :: iout(..)
-    integer(c_size_t), intent(in), optional :: iout_len
+    integer(c_int32_t), intent(inout), target, contiguous, optional :: out(..)
+    integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed
     integer(c_int32_t) :: status
-    type(c_ptr) :: at_iout
-    integer(c_size_t) :: count_iout
-    at_iout = c_null_ptr
-    count_iout = 0
-    if (present(iout)) then
-      at_iout = c_loc(iout)
-      count_iout = size(iout, kind=c_size_t)
+    type(c_ptr) :: at_out
+    integer(c_size_t) :: count_out
+    at_out = c_null_ptr
+    count_out = 0
+    if (present(out)) then
+      at_out = c_loc(out)
+      count_out = size(out, kind=c_size_t)
     end if
-    if (present(iout_len)) count_iout = iout_len
-    if (present(iout)) then
-      status = checked('iout', shape(iout, kind=c_size_t), 0_c_size_t, count_iout)
+    if (present(out_len)) count_out = out_len
+    if (present(out)) then
+      status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_contact_classes(sys, at_iout, count_iout, needed)
+    status = c_jam_contact_classes(sys, at_out, count_out, needed)
   end function jam_contact_classes
 
   function f_jam_sphere_structure(sys, weighted, c, s, rows) result(status)
@@ -5839,13 +5397,13 @@ contains
     status = c_jam_contact_dots(sys, weighted, at_dot, count_dot, at_sphere, count_sphere, rows)
   end function l_jam_contact_dots
 
-  ! Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots.
+  ! Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
   ! Shapes: out (values).
   ! Errors: JAM_E_STATE.
-  function jam_class_values(sys, quantity, which, out, out_len, needed) result(status)
+  function jam_local_values(sys, quantity, population, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: quantity
-    integer(c_int32_t), intent(in) :: which
+    integer(c_int32_t), intent(in) :: population
     real(c_double), intent(inout), target, contiguous, optional :: out(..)
     integer(c_size_t), intent(in), optional :: out_len
     integer(c_size_t), intent(out), optional :: needed
@@ -5863,17 +5421,17 @@ contains
       status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_class_values(sys, quantity, which, at_out, count_out, needed)
-  end function jam_class_values
+    status = c_jam_local_values(sys, quantity, population, at_out, count_out, needed)
+  end function jam_local_values
 
-  ! Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
+  ! Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
   ! values there.
   ! Shapes: out (bins).
   ! Errors: JAM_E_STATE.
-  function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed) result(status)
+  function jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed) result(status)
     type(c_ptr), intent(in) :: sys
     integer(c_int32_t), intent(in) :: quantity
-    integer(c_int32_t), intent(in) :: which
+    integer(c_int32_t), intent(in) :: population
     real(c_double), intent(in) :: low
     real(c_double), intent(in) :: high
     integer(c_int64_t), intent(in) :: bins
@@ -5894,7 +5452,7 @@ contains
       status = checked('out', shape(out, kind=c_size_t), 0_c_size_t, count_out)
       if (status /= JAM_OK) return
     end if
-    status = c_jam_histogram(sys, quantity, which, low, high, bins, at_out, count_out, needed)
+    status = c_jam_histogram(sys, quantity, population, low, high, bins, at_out, count_out, needed)
   end function jam_histogram
 
   function f_jam_pair_correlation(sys, kind, a, b, r_max, bins, out, needed) result(status)

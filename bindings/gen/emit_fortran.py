@@ -14,8 +14,40 @@ module jam
   implicit none
 '''
 
+# Calls whose second form, from Fortran's own arrays, stands in TAIL.
+BY_HAND = {"jam_create": "create_from_arrays"}
 TAIL = '''
 contains
+
+  ! The second form of jam_create: arrays of any rank, each of which may be left out.
+  function create_from_arrays(o, positions, diameters, cell, out) result(status)
+    type(jam_create_options), intent(in), optional :: o
+    real(c_double), intent(in), target, contiguous, optional :: positions(..), diameters(..), cell(..)
+    type(c_ptr), intent(out) :: out
+    integer(c_int32_t) :: status
+    type(jam_start) :: start
+    integer(c_size_t) :: d
+    out = c_null_ptr
+    d = 3
+    if (present(o)) d = o%dim
+    if (present(positions)) then
+      start%positions = c_loc(positions)
+      start%positions_len = size(positions, kind=c_size_t)
+      status = checked('positions', shape(positions, kind=c_size_t), d, start%positions_len)
+      if (status /= JAM_OK) return
+    end if
+    if (present(diameters)) then
+      start%diameters = c_loc(diameters)
+      start%diameters_len = size(diameters, kind=c_size_t)
+    end if
+    if (present(cell)) then
+      start%cell = c_loc(cell)
+      start%cell_len = size(cell, kind=c_size_t)
+      status = checked('cell', shape(cell, kind=c_size_t), d, start%cell_len)
+      if (status /= JAM_OK) return
+    end if
+    status = c_jam_create(o, start, out)
+  end function create_from_arrays
 
   ! Spheres and dimension of a system, 0 where C will refuse the handle.
   subroutine sizes_of(sys, n, d)
@@ -26,8 +58,8 @@ contains
     n = 0
     d = 0
     if (.not. c_associated(sys)) return
-    if (jam_diameters_view(sys, view, n) /= JAM_OK) return
-    if (jam_positions_view(sys, view, coordinates) /= JAM_OK) return
+    if (jam_view_diameters(sys, view, n) /= JAM_OK) return
+    if (jam_view_positions(sys, view, coordinates) /= JAM_OK) return
     if (n > 0) d = coordinates/n
   end subroutine sizes_of
 
@@ -108,6 +140,7 @@ def fortran_type(arg):
         "callback": f"type(c_funptr), value :: {name}",
         "user": f"type(c_ptr), value :: {name}",
         "struct_in": f"type({t.base}), intent(in), optional :: {name}",
+        "start": f"type({t.base}), intent(in) :: {name}",
         "struct_out": f"type({t.base}), intent(inout), optional :: {name}",
         "string": f"character(kind=c_char), intent(in) :: {name}(*)",
         "view": f"type(c_ptr), intent(out) :: {name}",
@@ -175,6 +208,8 @@ def _wrapper_argument(a, lengths):
         intent = "in" if a.role == "array_in" else "inout"
         return f"{TYPES[a.type.scalar][2]}, intent({intent}), target, contiguous, optional :: {a.name}(..)"
     text = fortran_type(a).replace(", value ::", ", intent(in) ::")
+    if a.role in ("callback", "user"):
+        return text.replace(" ::", ", optional ::")
     return text.replace(" ::", ", optional ::") if a.role == "len" and lengths == "optional" else text
 
 
@@ -225,6 +260,11 @@ def _wrapper(f, name, lengths, api):
         lines.append(f"    {_result(f.result)} :: status")
     for a in arrays:
         lines += [f"    type(c_ptr) :: at_{a.name}", f"    integer(c_size_t) :: count_{a.name}"]
+    pointers = {"callback": ("type(c_funptr)", "c_null_funptr"), "user": ("type(c_ptr)", "c_null_ptr")}
+    left_out = [a for a in f.args if a.role in pointers]
+    lines += [f"    {pointers[a.role][0]} :: c_{a.name}" for a in left_out]
+    for a in left_out:
+        lines += [f"    c_{a.name} = {pointers[a.role][1]}", f"    if (present({a.name})) c_{a.name} = {a.name}"]
     needs = {letter for a in arrays for letter in _extent(f, a, api)[1] if isinstance(letter, str)}
     if needs:
         lines.append("    integer(c_size_t) :: n_of_c, d_of_c")
@@ -234,7 +274,7 @@ def _wrapper(f, name, lengths, api):
             lines += ["    n_of_c = 0", "    d_of_c = 3", "    if (present(o)) d_of_c = o%dim"]
     for a in arrays:
         lines += _array_lines(f, a, api, lengths)
-    passed = {"array_in": "at_{}", "array_out": "at_{}", "string": "jam_c_string({})"}
+    passed = {"array_in": "at_{}", "array_out": "at_{}", "string": "jam_c_string({})", "callback": "c_{}", "user": "c_{}"}
     values = [
         f"count_{a.name[:-4]}" if a.role == "len" and any(b.name == a.name[:-4] for b in arrays) else
         passed.get(a.role, "{}").format(a.name)
@@ -272,7 +312,8 @@ def emit(api):
         out.append(f"  type, bind(c) :: {s.name}")
         for m in s.members:
             size_known = m.name == "struct_size" and s.name not in inits  # options must be filled by jam_defaults
-            value = str(s.size) if size_known else "0"
+            null = {"pointer": "c_null_ptr", "callback": "c_null_funptr"}
+            value = str(s.size) if size_known else null.get(m.type, "0")
             if m.doc:
                 out += _comment(m.doc, "    ")
             out.append(f"    {TYPES[m.type][2]} :: {m.name} = {value}")
@@ -291,19 +332,24 @@ def emit(api):
     out += ["  end interface", "", "  interface"]
     wrapped = [f for f in api.functions if _has_wrapper(f)]
     for f in api.functions:
-        if f not in wrapped:
+        if f not in wrapped and f.name not in BY_HAND:
             out += [""] + _comment(f.doc, "    ")
             out += _procedure(f.name, _result(f.result), f.args, fortran_type, f'bind(c, name="{f.name}")', "    ")
     out += ["", "  ! What the procedures of this module call."]
-    for f in wrapped:
+    for f in [f for f in api.functions if f in wrapped or f.name in BY_HAND]:
         out += _procedure(f"c_{f.name}", _result(f.result), f.args, _c_argument, f'bind(c, name="{f.name}")', "    ")
     out += ["  end interface"]
     for f in wrapped:
         if len(_forms(f)) > 1:
             out += [""] + _comment(f.doc, "  ") + [f"  interface {f.name}"]
             out += [f"    module procedure {name}" for name, _ in _forms(f)] + [f"  end interface {f.name}"]
+    for f in [f for f in api.functions if f.name in BY_HAND]:
+        out += [""] + _comment(f.doc, "  ")
+        out += [f"  interface {f.name}", f"    procedure c_{f.name}", f"    procedure {BY_HAND[f.name]}"]
+        out += [f"  end interface {f.name}"]
     # gfortran warns where a subroutine of C is private
     hidden = ["sizes_of", "checked"] + [f"c_{f.name}" for f in wrapped if f.result.base != "void"]
+    hidden += [name for raw, own in BY_HAND.items() for name in (f"c_{raw}", own)]
     hidden += [name for f in wrapped for name, _ in _forms(f) if name != f.name]
     out += [""] + [f"  private :: {name}" for name in hidden]
     out += [TAIL]

@@ -26,6 +26,7 @@ def julia_type(arg):
         "callback": ("Ptr{Cvoid}", f"_ptr({name})"),
         "user": ("Ptr{Cvoid}", f"_ptr({name})"),
         "struct_in": (f"Ref{{{t.base}}}", f"_ref({t.base}, {name})"),
+        "start": (f"Ref{{{t.base}}}", f"_ref({t.base}, {name})"),
         "struct_out": (f"Ref{{{t.base}}}", f"_ref({t.base}, {name})"),
         "string": ("Cstring", name),
         "view": (f"Ref{{Ptr{{{scalar}}}}}", name),
@@ -54,7 +55,9 @@ def emit(api):
     for s in api.structs:
         out.append("\n" + _doc(s.doc) + f"mutable struct {s.name}")
         out += [f"    {m.name}::{TYPES[m.type][1]}" + (f"  # {m.doc}" if m.doc else "") for m in s.members]
-        zeros = ", ".join([str(s.size) if s.members[0].name == "struct_size" else "0"] + ["0"] * (len(s.members) - 1))
+        zeros = ", ".join(
+            str(s.size) if m.name == "struct_size" else "C_NULL" if m.type in ("pointer", "callback") else "0" for m in s.members
+        )
         out.append(f"    {s.name}() = new({zeros})\nend")
     for f in api.functions:
         pairs = [julia_type(a) for a in f.args]

@@ -48,11 +48,11 @@ def _call(name: str, *args: Any, **named: Any) -> Any:
 
 '''
 SHOWN = "\n\n    def __repr__(self) -> str:\n        return _by_shapes(self)"
-SKIP = {"jam_destroy", "jam_copy", "jam_set_progress", "jam_set_log", "jam_set_positions", "jam_set_velocities", "jam_info_get",
-        "jam_crunch_report_get", "jam_positions_view", "jam_velocities_view", "jam_diameters_view", "jam_run", "jam_compress", "jam_crunch", "jam_relax", "jam_decompress",
-        "jam_scale_diameters", "jam_cell_get", "jam_cell_set", "jam_strain", "jam_cancel", "jam_write", "jam_write_page", "jam_write_contacts", "jam_contacts", "jam_forces", "jam_coordination", "jam_hessian",
+SKIP = {"jam_destroy", "jam_copy", "jam_set_progress", "jam_set_log", "jam_set_positions", "jam_set_velocities", "jam_get_info",
+        "jam_get_crunch_report", "jam_view_positions", "jam_view_velocities", "jam_view_diameters", "jam_run", "jam_compress", "jam_crunch", "jam_relax", "jam_decompress",
+        "jam_scale_diameters", "jam_get_cell", "jam_set_cell", "jam_strain", "jam_cancel", "jam_write", "jam_write_page", "jam_write_contacts", "jam_contacts", "jam_forces", "jam_coordination", "jam_hessian",
         "jam_modes", "jam_notes", "jam_check_packing", "jam_pair_correlation", "jam_isoconfigurational",
-        "jam_diameters", "jam_diameters_parse", "jam_size_report_get"}  # written by hand
+        "jam_diameters", "jam_parse_diameters", "jam_get_size_report"}  # written by hand
 PLAIN = ("scalar", "string", "array_in", "handle")
 
 
@@ -77,7 +77,7 @@ class Call:
 
     def __init__(self, f, api):
         self.f, self.api = f, api
-        self.name = f.name.removeprefix("jam_").removesuffix("_get")
+        self.name = f.name.removeprefix("jam_").removeprefix("get_")
         self.on_system = bool(f.args) and f.args[0].role == "handle"
         args = f.args[1:] if self.on_system else f.args
         self.plain = [a for a in args if a.role in PLAIN]

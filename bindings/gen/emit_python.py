@@ -103,6 +103,7 @@ def emit(api):
     from numpydoc import spoken
 
     inits = options_init(api)
+    structs = [s for s in api.structs if not s.has_pointers]
     out = [HEAD]
     for name, value in api.constants:
         out.append(f"{name} = {value}")
@@ -110,7 +111,7 @@ def emit(api):
         out += ["", "", f"class {camel(e.name)}(IntEnum):", _doc(e.doc)]
         out += [f"    {n} = {v}" + (f"  # {d}" if d else "") for n, (_, v, d) in zip(item_names(e), e.items)]
     out.append(REPORT)
-    for s in api.structs:
+    for s in structs:
         if s.name in inits:
             continue
         members = [m for m in s.members if m.name not in ("struct_size", "reserved")]
@@ -119,7 +120,7 @@ def emit(api):
         for m in members:  # a field of the name of one of Report's would take its default
             out.append(f"    {m.name}: {member_type(m)}" + (" = field()" if m.name == "status" else ""))
     out += ["", "", "# option structs: {C name: {member: (type, meaning)}}", "OPTIONS = {"]
-    for s in api.structs:
+    for s in structs:
         if s.name in inits:
             out.append(f'    "{s.name}": {{')
             out += [
@@ -129,16 +130,20 @@ def emit(api):
             ]
             out.append("    },")
     out += ["}", "", "# report structs: {C name: dataclass}", "REPORTS = {"]
-    out += [f'    "{s.name}": {camel(s.name)},' for s in api.structs if s.name not in inits]
+    out += [f'    "{s.name}": {camel(s.name)},' for s in structs if s.name not in inits]
     out += ["}", "", "# rows: {C name: numpy dtype}, for arrays of structs", "ROWS: dict[str, list[tuple[str, str]]] = {"]
     rows = {a.type.base for f in api.functions for a in f.args if a.role == "array_out" and a.type.base not in TYPES}
-    for s in api.structs:
+    for s in structs:
         if s.name in rows:
             out.append(
                 f'    "{s.name}": [' + ", ".join(f'("{m.name}", "{TYPES[m.type][4]}")' for m in s.members) + "],"
             )
     out += ["}", "", "# tables: {C name: number of columns}", "TABLES = {"]
     out += [f'    "{f.name}": {len(columns_of(f, api).items)},' for f in api.functions if columns_of(f, api)]
+    out += ["}", "", "# extents of arrays that calls fill: {C name: {array: extents}}", "EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {"]
+    for f in api.functions:
+        filled = {a.name: f.shapes[a.name] for a in f.args if a.role == "array_out" and a.name != "table"}
+        out += [f'    "{f.name}": {filled},'] * bool(filled)
     out += [
         "}",
         "",

@@ -29,7 +29,16 @@ def emit(api):
         {a.type.base for f in api.functions for a in f.args if a.role == "array_out" and a.type.base not in TYPES}
     )
     out += [f"FILL_TYPE({k}, \"V\")" for k in kinds] + list(applied)
+    # what makes a system with a callback: jam.i has it with a callable
+    out += [f"%ignore {s.name};" for s in api.structs if s.has_pointers]
+    out += [
+        f"%ignore {f.name};"
+        for f in api.functions
+        if {"callback", "start"} & {a.role for a in f.args} and "new_handle" in {a.role for a in f.args}
+    ]
     for s in api.structs:
+        if s.has_pointers:
+            continue
         fill = f"{inits[s.name]}(made, sizeof *made);" if s.name in inits else "made->struct_size = sizeof *made;"
         if s.members[0].name != "struct_size":
             fill = ""

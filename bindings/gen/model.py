@@ -22,6 +22,8 @@ TYPES = {
     "uint64_t": (8, "UInt64", "integer(c_int64_t)", "int", "uint64"),
     "size_t": (8, "Csize_t", "integer(c_size_t)", "int", "uint64"),
     "char": (1, "Cchar", "character(kind=c_char)", "str", None),
+    "pointer": (8, "Ptr{Cvoid}", "type(c_ptr)", None, None),  # of a struct, as is the next
+    "callback": (8, "Ptr{Cvoid}", "type(c_funptr)", None, None),
 }
 ALIASES = {"jam_status": "int32_t"}  # typedefs of scalars in the header
 HANDLE = "jam_system"
@@ -76,6 +78,11 @@ class Struct:
     members: list
     size: int = 0
     doc: str = ""
+
+    @property
+    def has_pointers(self):
+        """Each language fills such a struct by hand, from arrays of its own."""
+        return any(m.type in ("pointer", "callback") for m in self.members)
 
 
 @dataclass
@@ -142,7 +149,7 @@ def _layout(struct):
     struct.size = (at + align - 1) // align * align
 
 
-def classify(args, callbacks, structs):
+def classify(args, callbacks, structs, pointing):
     """Names the role of each argument by the header's conventions."""
     names = {a.name: a for a in args}
     for k, a in enumerate(args):
@@ -155,6 +162,8 @@ def classify(args, callbacks, structs):
             a.role = "user"
         elif t.stars == 1 and after == a.name + "_len" and args[k + 1].type.stars == 0:
             a.role = "array_in" if t.const else "array_out"
+        elif t.base in pointing:
+            a.role = "start"
         elif t.base in structs:
             a.role = "struct_in" if t.const else "struct_out"
         elif t.base == "char" and t.stars == 1 and t.const:
@@ -228,12 +237,14 @@ def read_header(header, swig="swig"):
                 b = _attributes(m)
                 if b.get("kind") != "variable":
                     continue
-                if b["type"] not in TYPES or b.get("decl"):
+                kind = "pointer" if b.get("decl") == "p." else b["type"]
+                kind = "callback" if kind in [c.name for c in api.callbacks] else kind
+                if kind not in TYPES or b.get("decl") not in ("", None, "p."):
                     raise HeaderError(
                         f"{name}.{b['name']}: members are flat and of fixed width, not {b.get('decl')}{b['type']}"
                     )
                 tags = annotations.of_member(f"{name}.{b['name']}", docs.get((name, b["name"]), ""))
-                members.append(Member(b["name"], b["type"], 0, *tags))
+                members.append(Member(b["name"], kind, 0, *tags))
             struct = Struct(name, members, doc=docs.get(name, ""))
             _layout(struct)
             api.structs.append(struct)
@@ -254,7 +265,7 @@ def read_header(header, swig="swig"):
             api.functions[-1].doc = annotations.readable(api.functions[-1])
     callbacks, structs = {c.name for c in api.callbacks}, {s.name for s in api.structs}
     for f in api.functions:
-        classify(f.args, callbacks, structs)
+        classify(f.args, callbacks, structs, {s.name for s in api.structs if s.has_pointers})
     annotations.check(api)
     lower = [
         n.lower()

@@ -14,7 +14,7 @@ Kinds: what a value may be and where it goes.
     output        the name of a file that is written; `after_crunch` marks those that show its network
     stage         RATE[:P], repeatable
     fraction      a number above 0 and below 1
-    sizes         a law of jam_diameters_parse, or a file of diameters
+    sizes         a law of jam_parse_diameters, or a file of diameters
     cell          d or d d numbers, parted by commas
 """
 from dataclasses import dataclass

@@ -213,29 +213,25 @@ void set_error_factory(PyObject *callable) {
 %typemap(freearg) const char *path { Py_XDECREF(bytes$argnum); }
 
 %include "jam_gen.i"
-%ignore jam_create_watched;
-%ignore jam_create_in_cell_watched;
-%ignore jam_read_watched;
-%ignore jam_checkpoint_read_watched;
+%apply (const double *IN, size_t IN_LEN) {(const double *diameters, size_t diameters_len)};
+%rename(jam_create) make_from_arrays;
+%rename(jam_read) make_from_file;
+%rename(jam_read_checkpoint) make_from_checkpoint;
+%feature("docstring") make_from_arrays "jam_create(options, positions (n, d), diameters (n), cell (d, d), callable), each or None";
 %inline %{
-/* jam_create with callable(progress), or None: Ctrl-C alone is looked at. */
-jam_status create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
-                          const double *diameters, size_t diameters_len, PyObject *callable, jam_system **out) {
-  return jam_create_watched(o, positions, positions_len, diameters, diameters_len, jam_on_progress,
-                            callable == Py_None ? NULL : (void *)callable, out);
+/* What makes a system, with callable(progress), or None: Ctrl-C alone is looked at. */
+jam_status make_from_arrays(const jam_create_options *o, const double *positions, size_t positions_len,
+                            const double *diameters, size_t diameters_len, const double *cell, size_t cell_len,
+                            PyObject *callable, jam_system **out) {
+  jam_start start = {sizeof start, 0, positions, positions_len, diameters, diameters_len, cell, cell_len,
+                     jam_on_progress, callable == Py_None ? NULL : (void *)callable};
+  return jam_create(o, &start, out);
 }
-/* The same of the other calls that make a system. */
-jam_status create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
-                                  const double *positions, size_t positions_len, const double *diameters,
-                                  size_t diameters_len, PyObject *callable, jam_system **out) {
-  return jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len,
-                                    jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
+jam_status make_from_file(const char *path, const jam_create_options *o, PyObject *callable, jam_system **out) {
+  return jam_read(path, o, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
 }
-jam_status read_watched(const char *path, const jam_create_options *o, PyObject *callable, jam_system **out) {
-  return jam_read_watched(path, o, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
-}
-jam_status checkpoint_read_watched(const char *path, PyObject *callable, jam_system **out) {
-  return jam_checkpoint_read_watched(path, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
+jam_status make_from_checkpoint(const char *path, PyObject *callable, jam_system **out) {
+  return jam_read_checkpoint(path, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
 }
 %}
 %include "jam/jam.h"

@@ -19,9 +19,10 @@ int main(int argc, char **argv) {
     fprintf(stderr, "usage: %s IN OUT\n", argv[0]);
     return 2;
   }
-  if (jam_read(argv[1], NULL, &sys) < 0) return failed(sys); /* plain text or extended XYZ; the text names a bad line */
+  if (jam_read(argv[1], NULL, NULL, NULL, &sys) < 0)
+    return failed(sys); /* plain text or extended XYZ; the text names a bad line */
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   printf("%s: %lld spheres in d = %d, packing fraction %.6f\n", argv[1], (long long)info.n, (int)info.dim,
          info.packing_fraction);
 

@@ -12,10 +12,13 @@ static void pack(int64_t seed) {
   jam_create_options create;
   jam_compress_options grow;
   jam_crunch_report report;
+  jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
   double size[N];
   int k;
   for (k = 0; k < N; ++k) size[k] = k < N / 2 ? 1.0 : 1.4;
+  start.diameters = size;
+  start.diameters_len = N;
   jam_create_options_init(&create, sizeof create);
   create.n = N;
   create.dim = 2;
@@ -24,8 +27,7 @@ static void pack(int64_t seed) {
   grow.growth_rate = 3e-2;
   grow.pressure = 1e4;
   report.struct_size = sizeof report;
-  if (jam_create(&create, NULL, 0, size, N, &sys) < 0 || jam_compress(sys, &grow, NULL) < 0 ||
-      jam_crunch(sys, NULL, &report) < 0)
+  if (jam_create(&create, &start, &sys) < 0 || jam_compress(sys, &grow, NULL) < 0 || jam_crunch(sys, NULL, &report) < 0)
     fprintf(stderr, "seed %lld: %s\n", (long long)seed, jam_last_error()); /* the text is this thread's own */
   else if (report.jammed)
     phi[seed - 1] = report.packing_fraction;

@@ -16,7 +16,7 @@ int main(void) {
   jam_create_options_init(&o, sizeof o); /* all defaults: d = 3, unit box, random start at packing fraction 0.2 */
   o.n = 128;
   o.seed = 1;
-  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0) return failed(sys);
+  if (jam_create(&o, NULL, &sys) < 0) return failed(sys);
   if (jam_compress(sys, NULL, NULL) < 0) return failed(sys); /* grow slowly to reduced pressure 1e7 */
   report.struct_size = sizeof report;
   if (jam_crunch(sys, NULL, &report) < 0) return failed(sys); /* linear programs down to the jamming point */

@@ -14,8 +14,7 @@ int main(void) {
   jam_create_options_init(&o, sizeof o);
   o.n = 128;
   o.dim = d;
-  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0 || jam_compress(sys, NULL, NULL) < 0 ||
-      jam_crunch(sys, NULL, NULL) < 0) {
+  if (jam_create(&o, NULL, &sys) < 0 || jam_compress(sys, NULL, NULL) < 0 || jam_crunch(sys, NULL, NULL) < 0) {
     fprintf(stderr, "%s\n", jam_last_error());
     jam_destroy(sys);
     return 1;

@@ -13,16 +13,19 @@ int main(void) {
   enum { N = 200, K = 8 };
   jam_create_options o;
   jam_modes_options choose;
-  jam_moduli moduli;
+  jam_moduli_report moduli;
+  jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
   double size[N], lambda[K], participation[K];
   size_t m = 0, spheres = 0, k;
 
   for (k = 0; k < N; ++k) size[k] = k < N / 2 ? 1.0 : 1.4; /* two sizes, so that disks do not crystallise */
+  start.diameters = size;
+  start.diameters_len = N;
   jam_create_options_init(&o, sizeof o);
   o.n = N;
   o.dim = 2;
-  if (jam_create(&o, NULL, 0, size, N, &sys) < 0 || jam_crunch(sys, NULL, NULL) < 0) return failed(sys);
+  if (jam_create(&o, &start, &sys) < 0 || jam_crunch(sys, NULL, NULL) < 0) return failed(sys);
 
   jam_modes_options_init(&choose, sizeof choose);
   choose.which = JAM_MODES_LOWEST;
@@ -34,7 +37,7 @@ int main(void) {
   for (k = 0; k < m; ++k) printf("  %.5f  %.4f\n", sqrt(fmax(lambda[k], 0.0)), participation[k]);
 
   moduli.struct_size = sizeof moduli;
-  if (jam_moduli_get(sys, NULL, &moduli) < 0) return failed(sys);
+  if (jam_moduli(sys, NULL, &moduli) < 0) return failed(sys);
   printf("bulk modulus %.4f (%.4f were all displacements affine), shear modulus %.4f\n", moduli.bulk,
          moduli.bulk_affine, moduli.shear);
   jam_destroy(sys);

@@ -12,6 +12,7 @@ static int failed(const char *text) {
 int main(int argc, char **argv) {
   enum { N = 200 };
   jam_create_options o;
+  jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
   const double *x = NULL, *sigma = NULL;
   double size[N], *f, *n;
@@ -20,10 +21,12 @@ int main(int argc, char **argv) {
   FILE *svg;
 
   for (k = 0; k < N; ++k) size[k] = k < N / 2 ? 1.0 : 1.4;
+  start.diameters = size;
+  start.diameters_len = N;
   jam_create_options_init(&o, sizeof o);
   o.n = N;
   o.dim = 2;
-  if (jam_create(&o, NULL, 0, size, N, &sys) < 0 || jam_crunch(sys, NULL, NULL) < 0) return failed(jam_last_error());
+  if (jam_create(&o, &start, &sys) < 0 || jam_crunch(sys, NULL, NULL) < 0) return failed(jam_last_error());
   jam_forces(sys, NULL, 0, &contacts);
   f = malloc((contacts + 1) * sizeof *f);
   n = malloc((2 * contacts + 1) * sizeof *n);
@@ -32,8 +35,8 @@ int main(int argc, char **argv) {
   if (jam_forces(sys, f, contacts, NULL) < 0 || jam_contact_vectors(sys, n, 2 * contacts, NULL) < 0 ||
       jam_contacts(sys, pair, 2 * contacts, NULL) < 0 || jam_coordination(sys, z, N, NULL) < 0)
     return failed(jam_last_error());
-  jam_positions_view(sys, &x, &length); /* no copy: the library's own memory */
-  jam_diameters_view(sys, &sigma, &length);
+  jam_view_positions(sys, &x, &length); /* no copy: the library's own memory */
+  jam_view_diameters(sys, &sigma, &length);
 
   svg = fopen(argc > 1 ? argv[1] : "picture.svg", "w");
   if (!svg) return failed("cannot write the picture");

@@ -20,16 +20,16 @@ int main(void) {
 
   jam_create_options_init(&o, sizeof o);
   o.n = 256;
-  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0) return 1;
+  if (jam_create(&o, NULL, &sys) < 0) return 1;
   jam_set_progress(sys, watch, &enough);
   status = jam_compress(sys, NULL, NULL);
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   printf("first call: %s at packing fraction %.4f\n", jam_status_string(status), info.packing_fraction);
 
   enough = 2.0; /* never */
   if (status >= 0) status = jam_compress(sys, NULL, NULL);
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   printf("second call: %s at packing fraction %.4f, p %.3g\n", jam_status_string(status), info.packing_fraction,
          info.pressure);
   jam_destroy(sys);

@@ -16,6 +16,7 @@ int main(void) {
   jam_compress_options compress;
   jam_md_report md = {.struct_size = sizeof md};
   jam_size_report sizes = {.struct_size = sizeof sizes};
+  jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
   double *diameters;
   size_t n;
@@ -27,13 +28,15 @@ int main(void) {
   if (jam_diameters(&law, curve, curve_len, NULL, 0, &n) < 0) return failed("sizes");
   diameters = malloc(n * sizeof *diameters);
   if (!diameters || jam_diameters(&law, curve, curve_len, diameters, n, &n) < 0) return failed("sizes");
-  if (jam_size_report_get(3, diameters, n, &sizes) < 0) return failed("report");
+  if (jam_get_size_report(3, diameters, n, &sizes) < 0) return failed("report");
   printf("%zu grains, D10 %.3f, D50 %.3f, D90 %.3f mm, jamming near a porosity of %.3f\n", n, sizes.d10, sizes.d50,
          sizes.d90, 1.0 - sizes.jammed_fraction);
 
   jam_create_options_init(&create, sizeof create);
   create.box = 8.0;
-  if (jam_create(&create, NULL, 0, diameters, n, &sys) < 0) return failed("start"); /* smaller, at random */
+  start.diameters = diameters;
+  start.diameters_len = n;
+  if (jam_create(&create, &start, &sys) < 0) return failed("start"); /* smaller, at random */
   jam_compress_options_init(&compress, sizeof compress);
   compress.packing_fraction = 1.0 - 0.42;
   if (jam_compress(sys, &compress, &md) < 0) return failed("growth");

@@ -12,18 +12,21 @@ int main(void) {
   jam_create_options o;
   jam_relax_report minimum;
   jam_hessian_options stiffness;
-  jam_moduli moduli;
+  jam_moduli_report moduli;
   jam_decompress_report down;
+  jam_start start = {.struct_size = sizeof start};
   jam_system *sys = NULL;
   double size[100];
   int k;
 
   for (k = 0; k < 100; ++k) size[k] = k % 2 ? 1.4 : 1.0; /* so few equal spheres would order */
+  start.diameters = size;
+  start.diameters_len = 100;
   jam_create_options_init(&o, sizeof o);
   o.n = 100;
   o.packing_fraction = 0.72;     /* above jamming */
   o.overlap = JAM_OVERLAP_ALLOW; /* independent uniform points */
-  if (jam_create(&o, NULL, 0, size, 100, &sys) < 0) return failed(sys);
+  if (jam_create(&o, &start, &sys) < 0) return failed(sys);
 
   minimum.struct_size = sizeof minimum;
   if (jam_relax(sys, NULL, &minimum) < 0) return failed(sys); /* NULL: harmonic, forces balanced to 1e-12 */
@@ -34,7 +37,7 @@ int main(void) {
   stiffness.stiffness = JAM_STIFFNESS_SOFT; /* of the energy that was minimised */
   stiffness.prestress = 1.0;                /* all of its pre-stress */
   moduli.struct_size = sizeof moduli;
-  if (jam_moduli_get(sys, &stiffness, &moduli) < 0) return failed(sys);
+  if (jam_moduli(sys, &stiffness, &moduli) < 0) return failed(sys);
   printf("bulk modulus %.4g, shear modulus %.4g\n", moduli.bulk, moduli.shear);
 
   down.struct_size = sizeof down;

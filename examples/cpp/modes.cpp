@@ -18,8 +18,8 @@ int main() try {
   for (std::size_t k = 0; k < m; ++k)
     std::printf("omega %.5f  participation %.4f\n", std::sqrt(std::fmax(lambda[k], 0)), participation[k]);
 
-  jam_moduli moduli = jam::report<jam_moduli>();
-  jam::check(jam_moduli_get(packing.get(), nullptr, &moduli));
+  jam_moduli_report moduli = jam::report<jam_moduli_report>();
+  jam::check(jam_moduli(packing.get(), nullptr, &moduli));
   std::printf("bulk modulus %.4f, shear modulus %.4f\n", moduli.bulk, moduli.shear);
   return m == 8 ? 0 : 1;
 } catch (const std::exception &e) {

@@ -14,7 +14,7 @@ program crunch_file
     call get_command_argument(k, name(k))
   end do
   call jam_check(jam_read(name(1), out=sys))  ! plain text or extended XYZ
-  call jam_check(jam_info_get(sys, info))
+  call jam_check(jam_get_info(sys, info))
   print '(a, i0, a, i0, a, f9.6)', 'spheres ', info%n, ', d = ', info%dim, ', phi ', info%packing_fraction
 
   call jam_defaults(options)

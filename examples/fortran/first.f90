@@ -29,7 +29,7 @@ program first
   call jam_check(jam_crunch(sys, report=report))  ! options left out: the defaults
   print '(a, f10.7, 3(a, i0))', 'phi_J ', report%packing_fraction, ', contacts ', report%contacts, ', rattlers ', &
     report%rattlers, ', excess ', report%excess_contacts
-  call jam_check(jam_positions_view(sys, view, length))  ! the library's own memory, good as long as sys
+  call jam_check(jam_view_positions(sys, view, length))  ! the library's own memory, good as long as sys
   call c_f_pointer(view, x, [d, n])
   print '(a, 2f8.4)', 'first sphere at ', x(:, 1)
 

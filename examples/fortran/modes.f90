@@ -6,7 +6,7 @@ program modes
   type(c_ptr) :: sys
   type(jam_create_options) :: create
   type(jam_modes_options) :: choose
-  type(jam_moduli) :: moduli
+  type(jam_moduli_report) :: moduli
   real(c_double) :: sizes(n), lambda(k), participation(k)
   real(c_double), allocatable :: vector(:, :, :)
   integer(c_size_t) :: spheres
@@ -20,7 +20,7 @@ program modes
   call jam_check(jam_create(create, diameters=sizes, out=sys))
   call jam_check(jam_crunch(sys))
 
-  call jam_check(jam_hessian_map(sys, iout_len=0_c_size_t, needed=spheres))  ! stable spheres: rattlers have no modes
+  call jam_check(jam_hessian_map(sys, out_len=0_c_size_t, needed=spheres))  ! stable spheres: rattlers have no modes
   call jam_defaults(choose)
   choose%count = k
   allocate (vector(d, spheres, k))
@@ -29,7 +29,7 @@ program modes
   do m = 1, k
     print '(f10.5, 2f9.4)', sqrt(max(lambda(m), 0.0_c_double)), participation(m), maxval(norm2(vector(:, :, m), 1))
   end do
-  call jam_check(jam_moduli_get(sys, moduli=moduli))
+  call jam_check(jam_moduli(sys, moduli=moduli))
   print '(2(a, f8.4))', 'bulk modulus ', moduli%bulk, ', shear modulus ', moduli%shear
   call jam_destroy(sys)
   if (.not. (lambda(1) > 0 .and. lambda(k) >= lambda(1))) error stop 'modes are missing'

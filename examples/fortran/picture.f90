@@ -19,9 +19,9 @@ program picture
   create%n = n
   call jam_check(jam_create(create, diameters=sizes, out=sys))
   call jam_check(jam_crunch(sys))
-  call jam_check(jam_positions_view(sys, view, length))  ! no copies
+  call jam_check(jam_view_positions(sys, view, length))  ! no copies
   call c_f_pointer(view, x, [d, n])
-  call jam_check(jam_diameters_view(sys, view, length))
+  call jam_check(jam_view_diameters(sys, view, length))
   call c_f_pointer(view, sigma, [n])
   call jam_check(jam_coordination(sys, contacts))
 

@@ -4,12 +4,12 @@
  *
  * Typical use: jam_create or jam_read makes a system. jam_run and jam_compress move it by
  * event-driven molecular dynamics. jam_crunch brings it to its jamming point by linear
- * programming. jam_crunch_report_get, jam_contacts, jam_forces, jam_hessian and jam_modes
+ * programming. jam_get_crunch_report, jam_contacts, jam_forces, jam_hessian and jam_modes
  * then describe the jammed packing.
  *
  * Units
  * - Lengths are in the user's unit. The box is a periodic cube of side `box` (default 1), or
- *   any periodic cell (jam_create_in_cell); then `box` is V^(1/d), V its volume.
+ *   any periodic cell (jam_start); then `box` is V^(1/d), V its volume.
  * - m = k_B T = 1: a velocity component has unit variance.
  * - Packing fraction, reduced pressure p = beta P / rho, gaps h = r / sigma_ij - 1 and growth
  *   rates are dimensionless.
@@ -196,9 +196,50 @@ JAM_API const char *jam_last_error(void);
  * themselves. Long texts are truncated. */
 JAM_API void jam_set_error(const char *text);
 
+/* ------------------------------------------------------------------ progress */
+
+/* Which part reports progress. */
+typedef enum jam_phase {
+  JAM_PHASE_RUN = 1,                /* NVE molecular dynamics */
+  JAM_PHASE_COMPRESS = 2,           /* molecular dynamics with growth */
+  JAM_PHASE_CRUNCH = 3,             /* one LP or re-linearised Newton step done */
+  JAM_PHASE_POLISH = 4,             /* refinement of the final network */
+  JAM_PHASE_ANALYSE = 5,            /* long analysis calls, and setters that search for overlaps */
+  JAM_PHASE_RELAX = 6,              /* minimising the energy of soft spheres */
+  JAM_PHASE_DECOMPRESS = 7,         /* soft spheres on their way down to jamming; steps: decompressions so far */
+  JAM_PHASE_MONTE_CARLO = 8,        /* Metropolis sweeps */
+  JAM_PHASE_ISOCONFIGURATIONAL = 9, /* runs from one configuration; steps counts those that are done */
+  JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
+} jam_phase;
+
+/* Given to the progress callback; valid during the call only. */
+typedef struct jam_progress {
+  uint32_t struct_size;    /* sizeof(jam_progress) as the library knows it */
+  int32_t phase;           /* @enum jam_phase */
+  double packing_fraction; /* now */
+  double pressure;         /* MD: reduced pressure of the last window, NaN before */
+  double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
+  double max_step;         /* crunch: largest |s_i| over mean diameter */
+  double seconds;          /* since the call began */
+  double fraction;    /* of the call, 0..1: never falls, an estimate where the length of the way is not known (growth,
+                       * crunch); NaN before the first estimate and in calls without one. wall_time is not in it */
+  int64_t collisions; /* MD: so far in this call */
+  int64_t steps;      /* crunch: LPs so far; analysis: items done */
+  int64_t factorisations;     /* crunch: so far */
+  int64_t snapshot;           /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
+  double seconds_left;        /* until the aim, from how `fraction` grew; NaN before a few reports */
+  double seconds_left_spread; /* a factor above 1: at least two of three calls end between seconds_left divided by it
+                               * and seconds_left times it; NaN with seconds_left */
+} jam_progress;
+
+/* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
+ * must not throw or longjmp. On its handle it may call jam_cancel, jam_write_checkpoint (which saves the stage as it
+ * runs) and const getters. These show the state before the call, or the last snapshot. */
+typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
+
 /* ------------------------------------------------------------------ the system */
 
-/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read or jam_copy. */
+/* N spheres in a periodic cell; opaque. Made by jam_create, jam_read, jam_read_checkpoint or jam_copy. */
 typedef struct jam_system jam_system;
 
 /* What to do with overlaps in given positions. */
@@ -248,13 +289,28 @@ typedef struct jam_create_options {
 /* Fills *o with the defaults. size = sizeof *o as the caller compiled it. */
 JAM_API jam_status jam_create_options_init(jam_create_options *o, size_t size);
 
-/* Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
- * start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
- * given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
- * After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c @shape positions (n, d), diameters (n) @errors
- * DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach) */
-JAM_API jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
-                              const double *diameters, size_t diameters_len, jam_system **out);
+/* Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube. */
+typedef struct jam_start {
+  uint32_t struct_size;    /* sizeof(jam_start) */
+  int32_t reserved;        /* 0 */
+  const double *positions; /* (n, d), Cartesian, unit of `box`, any finite value (wrapped into the cell); NULL: a random
+                            * sequential start at the packing_fraction of the options */
+  size_t positions_len;
+  const double *diameters; /* n values, or 1 for all; NULL: all equal. With positions they must be given and are taken
+                            * as they are. For a random start only their ratios count */
+  size_t diameters_len;
+  const double *cell; /* (d, d), of any positive determinant; `box` must then be 1, the default. A left-handed, singular
+                       * or flat cell is refused. NULL: a cube */
+  size_t cell_len;
+  jam_progress_fn progress; /* or NULL; a non-zero return ends the call. The new system has no callback */
+  void *user;               /* given to progress */
+} jam_start;
+
+/* Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
+ * call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
+ * compared. Example: examples/c/first.c @errors DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach)
+ */
+JAM_API jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_system **out);
 /* Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
  * the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
  * give the copy its own velocities by jam_set_velocities. */
@@ -280,15 +336,15 @@ typedef struct jam_info {
 } jam_info;
 
 /* Fills *info. */
-JAM_API jam_status jam_info_get(const jam_system *sys, jam_info *info);
+JAM_API jam_status jam_get_info(const jam_system *sys, jam_info *info);
 
 /* View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
  * content changes only at the end of calls that move spheres. */
-JAM_API jam_status jam_positions_view(const jam_system *sys, const double **view, size_t *view_len);
-/* View of the n diameters; lifetime as jam_positions_view. */
-JAM_API jam_status jam_diameters_view(const jam_system *sys, const double **view, size_t *view_len);
-/* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view. */
-JAM_API jam_status jam_velocities_view(const jam_system *sys, const double **view, size_t *view_len);
+JAM_API jam_status jam_view_positions(const jam_system *sys, const double **view, size_t *view_len);
+/* View of the n diameters; lifetime as jam_view_positions. */
+JAM_API jam_status jam_view_diameters(const jam_system *sys, const double **view, size_t *view_len);
+/* View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions. */
+JAM_API jam_status jam_view_velocities(const jam_system *sys, const double **view, size_t *view_len);
 
 /* Replaces the positions, wrapped into the box; results of crunch are dropped. @shape positions (n, d) @errors
  * OVERLAP */
@@ -301,20 +357,14 @@ JAM_API jam_status jam_scale_diameters(jam_system *sys, double factor);
 
 /* ------------------------------------------------------------------ the cell */
 
-/* jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
- * or flat cell is refused. positions: Cartesian, in the frame of `cell`. @shape cell (d, d), positions (n, d),
- * diameters (n) @errors DIMENSION, OVERLAP, UNPLACEABLE */
-JAM_API jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len,
-                                      const double *positions, size_t positions_len, const double *diameters,
-                                      size_t diameters_len, jam_system **out);
 /* Cell vectors in normal form. @shape out (d, d) */
-JAM_API jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed);
+JAM_API jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
  * frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
  * times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
  * vectors, so with other vectors the system is another one. @shape cell (d, d), transform (d, d), rotation (d, d)
  * @errors OVERLAP */
-JAM_API jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
+JAM_API jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform,
                                 size_t transform_len, double *rotation, size_t rotation_len, size_t *rows);
 /* Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
  * reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction. @shape strain
@@ -387,7 +437,7 @@ JAM_API jam_status jam_diameters(const jam_diameters_options *o, const double *c
  * (`0.5=0.12`), or a file of two columns, with comments behind #.
  * @shape curve (rows, 2)
  * @errors IO, FORMAT (the text names the line) */
-JAM_API jam_status jam_diameters_parse(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
+JAM_API jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
                                        size_t *needed);
 
 /* *volume of a cell of d = dim vectors, row after row, with a positive determinant. @shape cell (m) @errors DIMENSION
@@ -425,78 +475,15 @@ typedef struct jam_size_report {
 /* Describes diameters > 0 in dimension dim.
  * @shape diameters (n)
  * @errors DIMENSION */
-JAM_API jam_status jam_size_report_get(int32_t dim, const double *diameters, size_t diameters_len,
+JAM_API jam_status jam_get_size_report(int32_t dim, const double *diameters, size_t diameters_len,
                                        jam_size_report *report);
 
 /* ------------------------------------------------------------------ progress, log, cancel */
 
-/* Which part reports progress. */
-typedef enum jam_phase {
-  JAM_PHASE_RUN = 1,                /* NVE molecular dynamics */
-  JAM_PHASE_COMPRESS = 2,           /* molecular dynamics with growth */
-  JAM_PHASE_CRUNCH = 3,             /* one LP or re-linearised Newton step done */
-  JAM_PHASE_POLISH = 4,             /* refinement of the final network */
-  JAM_PHASE_ANALYSE = 5,            /* long analysis calls, and setters that search for overlaps */
-  JAM_PHASE_RELAX = 6,              /* minimising the energy of soft spheres */
-  JAM_PHASE_DECOMPRESS = 7,         /* soft spheres on their way down to jamming; steps: decompressions so far */
-  JAM_PHASE_MONTE_CARLO = 8,        /* Metropolis sweeps */
-  JAM_PHASE_ISOCONFIGURATIONAL = 9, /* runs from one configuration; steps counts those that are done */
-  JAM_PHASE_CREATE = 10             /* making a system; steps counts the spheres placed */
-} jam_phase;
-
-/* Given to the progress callback; valid during the call only. */
-typedef struct jam_progress {
-  uint32_t struct_size;    /* sizeof(jam_progress) as the library knows it */
-  int32_t phase;           /* @enum jam_phase */
-  double packing_fraction; /* now */
-  double pressure;         /* MD: reduced pressure of the last window, NaN before */
-  double gain;             /* crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap */
-  double max_step;         /* crunch: largest |s_i| over mean diameter */
-  double seconds;          /* since the call began */
-  double fraction;    /* of the call, 0..1: never falls, an estimate where the length of the way is not known (growth,
-                       * crunch); NaN before the first estimate and in calls without one. wall_time is not in it */
-  int64_t collisions; /* MD: so far in this call */
-  int64_t steps;      /* crunch: LPs so far; analysis: items done */
-  int64_t factorisations;     /* crunch: so far */
-  int64_t snapshot;           /* number of the snapshot (jam_observe) that the views show now; 0: an ordinary report */
-  double seconds_left;        /* until the aim, from how `fraction` grew; NaN before a few reports */
-  double seconds_left_spread; /* a factor above 1: at least two of three calls end between seconds_left divided by it
-                               * and seconds_left times it; NaN with seconds_left */
-} jam_progress;
-
-/* Progress callback, on the calling thread. A non-zero return stops the call with JAM_CANCELLED and a valid state. It
- * must not throw or longjmp. On this handle it may call jam_cancel, jam_checkpoint_write (which saves the stage as it
- * runs) and const getters. These show the state before the call, or the last snapshot. */
-typedef int32_t (*jam_progress_fn)(const jam_progress *progress, void *user);
 /* Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
  * too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
  * its handle does not call it again. */
 JAM_API jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *user);
-/* jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
- * A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback. @shape positions
- * (n, d), diameters (n) @errors DIMENSION, OVERLAP, UNPLACEABLE (the text gives the fraction in reach) */
-JAM_API jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
-                                      const double *diameters, size_t diameters_len, jam_progress_fn callback,
-                                      void *user, jam_system **out);
-
-/* jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
- * call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
- * take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
- * jam_checkpoint_read_watched has no time limit. @shape cell (d, d), positions (n, d), diameters (n) @errors DIMENSION,
- * OVERLAP, UNPLACEABLE */
-JAM_API jam_status jam_create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
-                                              const double *positions, size_t positions_len, const double *diameters,
-                                              size_t diameters_len, jam_progress_fn callback, void *user,
-                                              jam_system **out);
-/* See jam_create_in_cell_watched. @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION,
- * OVERLAP, UNPLACEABLE */
-JAM_API jam_status jam_read_watched(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
-                                    jam_system **out);
-/* See jam_create_in_cell_watched. @errors IO, FORMAT (no checkpoint, or damaged, or from a machine with another byte
- * order), OVERLAP */
-JAM_API jam_status jam_checkpoint_read_watched(const char *path, jam_progress_fn callback, void *user,
-                                               jam_system **out);
-
 /* Log levels. */
 typedef enum jam_log_level {
   JAM_LOG_NONE = 0,    /* silent, the default */
@@ -515,7 +502,7 @@ JAM_API jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t lev
 JAM_API jam_status jam_cancel(jam_system *sys);
 /* Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
  * infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
- * memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+ * memory of jam_estimate_crunch with the limit before it begins, and that of each matrix before it factorises it. The
  * default is half the machine's memory. An option memory_limit can lower the limit for its own call. */
 JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 
@@ -540,9 +527,10 @@ typedef enum jam_format {
  * model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
  * what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
  * order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
- * lost digits. @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP,
- * UNPLACEABLE */
-JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out);
+ * lost digits. callback, user: as in jam_start. @errors IO, FORMAT (line named), UNSUPPORTED (a box that is not
+ * periodic), DIMENSION, OVERLAP, UNPLACEABLE */
+JAM_API jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
+                            jam_system **out);
 /* What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
  * diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
  * jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
@@ -554,7 +542,7 @@ JAM_API jam_status jam_add_note(jam_system *sys, const char *text);
 /* Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
  * then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
  * a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
- * same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+ * same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
  * non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED. @enum
  * format jam_format @errors UNSUPPORTED, IO */
 JAM_API jam_status jam_write(const jam_system *sys, const char *path, int32_t format);
@@ -662,10 +650,10 @@ JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, 
  * checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
  * under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
  * crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits. @errors IO */
-JAM_API jam_status jam_checkpoint_write(const jam_system *sys, const char *path);
-/* Makes a system from such a file. @errors IO, FORMAT (no checkpoint, or damaged, or from a machine with another byte
- * order), OVERLAP */
-JAM_API jam_status jam_checkpoint_read(const char *path, jam_system **out);
+JAM_API jam_status jam_write_checkpoint(const jam_system *sys, const char *path);
+/* Makes a system from such a file. callback, user: as in jam_start. @errors IO, FORMAT (no checkpoint, or damaged, or
+ * from a machine with another byte order), OVERLAP */
+JAM_API jam_status jam_read_checkpoint(const char *path, jam_progress_fn callback, void *user, jam_system **out);
 
 /* What jam_observe records. */
 typedef struct jam_observe_options {
@@ -682,12 +670,12 @@ typedef struct jam_observe_options {
 } jam_observe_options;
 
 JAM_API jam_status jam_observe_options_init(jam_observe_options *o, size_t size);
-/* From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+/* From now on jam_run and jam_compress record, over all calls, until jam_stop_observing. What was recorded before is
  * dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
  * callback is called with jam_progress.snapshot > 0: every const call works on that state there. */
 JAM_API jam_status jam_observe(jam_system *sys, const jam_observe_options *o);
 /* Stops recording; what was recorded can still be read. */
-JAM_API jam_status jam_observe_stop(jam_system *sys);
+JAM_API jam_status jam_stop_observing(jam_system *sys);
 /* Columns of jam_observed_series. */
 typedef enum jam_series_column {
   JAM_SERIES_TIME = 0,       /* simulated time, unit box / sqrt(kT/m) */
@@ -797,7 +785,7 @@ JAM_API jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size
 /* Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
  * preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
  * overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
- * dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+ * dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
  * @errors STATE, UNSUPPORTED (Mari-Kurchan model) */
 JAM_API jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report);
 
@@ -864,13 +852,13 @@ JAM_API jam_status jam_isoconf_options_init(jam_isoconf_options *o, size_t size)
  * resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
  * of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
  * sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
- * jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE
+ * jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move). @shape instant (instants), kept (k) @errors STATE
  * (nothing to resume, or not the same), OVERLAP, UNSUPPORTED */
 JAM_API jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
                                           const jam_monte_carlo_options *m, const double *instant, size_t instant_len,
                                           const int32_t *kept, size_t kept_len, jam_isoconf_report *report);
 /* The report of these runs as they are now. @errors STATE (no runs) */
-JAM_API jam_status jam_isoconf_report_get(const jam_system *sys, jam_isoconf_report *report);
+JAM_API jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report);
 /* Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
  * distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n. @shape displacement (instants, n,
  * d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n) @errors STATE */
@@ -972,12 +960,12 @@ typedef struct jam_crunch_report {
   int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic.
                                * Amorphous packings have 0, but disks of two sizes one for each disk whose six
                                * neighbours are its equals: the seven close twelve contacts, and eleven fix them */
-  int64_t flexes;        /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
-  int64_t idle_contacts; /* closed pairs without force in every state of self-stress, those of rattlers too */
+  int64_t flexes; /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
+  int64_t zero_force_contacts;    /* closed pairs without force in every state of self-stress, those of rattlers too */
   int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list. After
                                    * JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean
                                    * is within a factor of 1e4 of twice their gap */
-  int64_t bridges;                /* stable spheres with d force-carrying contacts or fewer */
+  int64_t undercoordinated;       /* stable spheres with d force-carrying contacts or fewer */
   int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
   double rigidity_margin;         /* smallest eigenvalue of S^T S on force-carrying contacts that is no translation */
   int64_t lp_solves;              /* LPs solved in full */
@@ -1019,7 +1007,7 @@ typedef struct jam_crunch_report {
 JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
  * (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
- * call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+ * call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
  * on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
  * last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
  * along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why. @errors
@@ -1041,9 +1029,9 @@ typedef struct jam_estimate {
 
 /* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
  * same at JAM_LOG_INFO. Takes as long as a few steps. @errors OVERLAP, TOO_FEW */
-JAM_API jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
+JAM_API jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated);
 /* The report of the last crunch. @errors STATE */
-JAM_API jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_report *report);
+JAM_API jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *report);
 
 /* What kind of step a row of the history is. */
 typedef enum jam_step_phase {
@@ -1086,8 +1074,8 @@ JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t column, dou
  * steps = 1, when a step has just ended. @shape out (n, d) @errors STATE */
 JAM_API jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
- * @shape iout (m, 2) @errors STATE */
-JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+ * @shape out (m, 2) @errors STATE */
+JAM_API jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* r_ij of these pairs before the step, unit of box. @shape out (m, d) @errors STATE */
 JAM_API jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
@@ -1250,9 +1238,9 @@ JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t column,
 /* ------------------------------------------------------------------ contact network */
 
 /* Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
- * cell. Each stands for both opposite images, so it adds 2 to the coordination. @shape iout (contacts, 2) @errors STATE
+ * cell. Each stands for both opposite images, so it adds 2 to the coordination. @shape out (contacts, 2) @errors STATE
  * (no crunch yet) */
-JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+JAM_API jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair. @shape out (contacts, d) @errors STATE */
 JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Gaps h of the contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the
@@ -1263,8 +1251,8 @@ JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t o
  * (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
  * none is negative, else the LP's. @shape out (contacts) @errors STATE */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
-/* Number of contacts of each sphere; 0 for rattlers. @shape iout (n) @errors STATE */
-JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+/* Number of contacts of each sphere; 0 for rattlers. @shape out (n) @errors STATE */
+JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 
 /* ------------------------------------------------------------------ analysis of the contact network */
 /* In this section N' = report.stable, n_c = report.contacts; rows and modes run over stable spheres only, in the order
@@ -1311,9 +1299,9 @@ typedef struct jam_modes_options {
 
 JAM_API jam_status jam_hessian_options_init(jam_hessian_options *o, size_t size);
 JAM_API jam_status jam_modes_options_init(jam_modes_options *o, size_t size);
-/* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k]. @shape iout (N')
+/* The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k]. @shape out (N')
  * @errors STATE */
-JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+JAM_API jam_status jam_hessian_map(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force. @shape row_start (d
  * N' + 1), column (entries), value (entries) @errors STATE */
 JAM_API jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int32_t *row_start,
@@ -1361,7 +1349,7 @@ typedef struct jam_geometry_report {
 
 JAM_API jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size);
 /* Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
- * moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+ * moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
  * are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
  * self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
  * network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
@@ -1407,22 +1395,22 @@ typedef enum jam_verdict {
 /* What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
  * that they touch, N' their number. */
 typedef struct jam_rigidity_report {
-  uint32_t struct_size;       /* set by the caller: sizeof(jam_rigidity_report) */
-  int32_t kind;               /* @enum jam_rigidity_kind that was tested */
-  int32_t jammed;             /* @enum jam_verdict */
-  int32_t stationary;         /* @enum jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
-  int64_t stable;             /* N' */
-  int64_t contacts;           /* |K+| */
-  int64_t contacts_needed;    /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
-  int64_t self_stresses;      /* independent balances of forces on K+, signs free */
-  int64_t flexes;             /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
-  int64_t bridges;            /* spheres of B with d contacts of K+ or fewer */
-  int64_t idle_contacts;      /* closed pairs that are not in K+ */
-  int64_t undecided_contacts; /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those
-                               * that the digits of the coordinates cannot distinguish from contacts */
-  double rigidity_margin;     /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere
-                               * that touches its own images alone: with strains */
-  double force_residual;      /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
+  uint32_t struct_size;        /* set by the caller: sizeof(jam_rigidity_report) */
+  int32_t kind;                /* @enum jam_rigidity_kind that was tested */
+  int32_t jammed;              /* @enum jam_verdict */
+  int32_t stationary;          /* @enum jam_verdict: K+ is not empty, so no small motion lets the diameters grow */
+  int64_t stable;              /* N' */
+  int64_t contacts;            /* |K+| */
+  int64_t contacts_needed;     /* collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2 */
+  int64_t self_stresses;       /* independent balances of forces on K+, signs free */
+  int64_t flexes;              /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
+  int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
+  int64_t zero_force_contacts; /* closed pairs that are not in K+ */
+  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those
+                                * that the digits of the coordinates cannot distinguish from contacts */
+  double rigidity_margin;      /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere
+                                * that touches its own images alone: with strains */
+  double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
 } jam_rigidity_report;
 
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
@@ -1480,7 +1468,7 @@ typedef struct jam_check_report {
   int64_t excess_contacts;        /* contacts - (d (N' - 1) + 1), 0 without contacts */
   int64_t rattlers;               /* n - N': spheres without force */
   int64_t closed_pairs;           /* pairs with gaps below 1e-10, those of rattlers among them */
-  int64_t idle_contacts;          /* of the pairs that were tested, those without force in every state */
+  int64_t zero_force_contacts;    /* of the pairs that were tested, those without force in every state */
   int64_t undecided_contacts;     /* pairs that may be contacts or not, by rounding or for lack of digits */
   int64_t self_stresses;          /* independent balances of forces; with more than one forces are not unique */
   int64_t flexes;                 /* motions beyond translations that keep all contacts with force closed */
@@ -1598,8 +1586,8 @@ typedef enum jam_contact_class {
  * rattlers count too and no network is needed. @shape gap (gaps), pair (gaps, 2) @errors STATE */
 JAM_API jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, double *gap, size_t gap_len,
                             int32_t *pair, size_t pair_len, size_t *rows);
-/* Flags (jam_contact_class) of every contact. @shape iout (n_c) @errors STATE */
-JAM_API jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed);
+/* Flags (jam_contact_class) of every contact. @shape out (n_c) @errors STATE */
+JAM_API jam_status jam_contact_classes(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
 /* c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n. @shape
  * c (n, d), s (n) @errors STATE */
 JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double *c, size_t c_len, double *s,
@@ -1608,32 +1596,33 @@ JAM_API jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted,
  * @shape dot (pairs), sphere (pairs) @errors STATE */
 JAM_API jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot, size_t dot_len,
                                     int32_t *sphere, size_t sphere_len, size_t *rows);
-/* What jam_class_values and jam_histogram look at. */
-typedef enum jam_quantity {
-  JAM_QUANTITY_FORCE = 0,        /* contacts: f over its mean in the class */
-  JAM_QUANTITY_VECTOR_SUM = 1,   /* stable spheres: |C_i| */
-  JAM_QUANTITY_VECTOR_PAIRS = 2, /* stable spheres: S_i */
-  JAM_QUANTITY_VECTOR_DOT = 3,   /* pairs of contacts of a sphere: n_ij . n_ik */
-  JAM_QUANTITY_FORCE_SUM = 4,    /* stable spheres: sum_j f_ij */
-  JAM_QUANTITY_FORCE_PAIRS = 5,  /* stable spheres: S_i with f n for n */
-  JAM_QUANTITY_FORCE_DOT = 6,    /* pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik */
-  JAM_QUANTITY_COORDINATION = 7  /* stable spheres: z_i */
-} jam_quantity;
-/* Which of them. */
-typedef enum jam_class {
-  JAM_CLASS_ALL = 0,
-  JAM_CLASS_LOCALISED = 1, /* contacts that touch a buckler; spheres and their pairs: the bucklers */
-  JAM_CLASS_EXTENDED = 2,  /* contacts that do not; spheres and their pairs: all other stable ones */
-  JAM_CLASS_SMALLEST = 3,  /* forces only: the smallest of one of its spheres */
-  JAM_CLASS_MEDIAN = 4     /* forces only: the (lower) median of one of its spheres */
-} jam_class;
-/* Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots. @shape out (values)
- * @enum quantity jam_quantity, which jam_class @errors STATE */
-JAM_API jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
-                                    size_t *needed);
-/* Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
- * values there. @shape out (bins) @enum quantity jam_quantity, which jam_class @errors STATE */
-JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high,
+/* Quantity of which jam_local_values and jam_histogram take the values. */
+typedef enum jam_local_quantity {
+  JAM_LOCAL_FORCE = 0,        /* contacts: f over its mean in the population */
+  JAM_LOCAL_VECTOR_SUM = 1,   /* stable spheres: |C_i| */
+  JAM_LOCAL_VECTOR_PAIRS = 2, /* stable spheres: S_i */
+  JAM_LOCAL_VECTOR_DOT = 3,   /* pairs of contacts of a sphere: n_ij . n_ik */
+  JAM_LOCAL_FORCE_SUM = 4,    /* stable spheres: sum_j f_ij */
+  JAM_LOCAL_FORCE_PAIRS = 5,  /* stable spheres: S_i with f n for n */
+  JAM_LOCAL_FORCE_DOT = 6,    /* pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik */
+  JAM_LOCAL_COORDINATION = 7  /* stable spheres: z_i */
+} jam_local_quantity;
+/* The contacts or spheres that count. */
+typedef enum jam_population {
+  JAM_POPULATION_ALL = 0,
+  JAM_POPULATION_LOCALISED = 1, /* contacts that touch a buckler; spheres and their pairs: the bucklers */
+  JAM_POPULATION_EXTENDED = 2,  /* contacts that do not; spheres and their pairs: all other stable ones */
+  JAM_POPULATION_SMALLEST = 3,  /* forces only: the smallest of one of its spheres */
+  JAM_POPULATION_MEDIAN = 4     /* forces only: the (lower) median of one of its spheres */
+} jam_population;
+/* Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots. @shape out
+ * (values)
+ * @enum quantity jam_local_quantity, population jam_population @errors STATE */
+JAM_API jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out,
+                                    size_t out_len, size_t *needed);
+/* Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
+ * values there. @shape out (bins) @enum quantity jam_local_quantity, population jam_population @errors STATE */
+JAM_API jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
                                  int64_t bins, double *out, size_t out_len, size_t *needed);
 /* ------------- structure of the packing */
 /* g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
@@ -1687,8 +1676,8 @@ typedef struct jam_dos_options {
 } jam_dos_options;
 
 /* Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included. */
-typedef struct jam_moduli {
-  uint32_t struct_size; /* set by the caller: sizeof(jam_moduli) */
+typedef struct jam_moduli_report {
+  uint32_t struct_size; /* set by the caller: sizeof(jam_moduli_report) */
   int32_t reserved;     /* 0 */
   double bulk;          /* K */
   double bulk_affine;   /* K without the non-affine part */
@@ -1696,7 +1685,7 @@ typedef struct jam_moduli {
   double shear_affine;  /* G without the non-affine part */
   double shear_min;     /* smallest of the planes, both directions averaged */
   double shear_max;     /* largest of them */
-} jam_moduli;
+} jam_moduli_report;
 
 /* What jam_compare found. */
 typedef struct jam_comparison {
@@ -1735,7 +1724,7 @@ JAM_API jam_status jam_project(const jam_system *sys, const double *vector, size
 JAM_API jam_status jam_curvature(const jam_system *sys, const jam_hessian_options *h, const double *u, size_t u_len,
                                  double *value);
 /* Elastic moduli; JAM_E_STATE also when prestress makes the network unstable. @errors STATE, SOLVER */
-JAM_API jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli);
+JAM_API jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli);
 /* Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
  * jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
  * c_bacd differ: a rotation of stressed contacts counts. @shape affine (d, d, d, d), relaxed (d, d, d, d) @errors

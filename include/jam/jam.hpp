@@ -108,7 +108,10 @@ class System {
   explicit System(const jam_create_options &o, const std::vector<double> &positions = {},
                   const std::vector<double> &diameters = {}) {
     adopt([&](jam_system **out) {
-      return jam_create(&o, positions.data(), positions.size(), diameters.data(), diameters.size(), out);
+      jam_start start = report<jam_start>();
+      start.positions = positions.data(), start.positions_len = positions.size();
+      start.diameters = diameters.data(), start.diameters_len = diameters.size();
+      return jam_create(&o, &start, out);
     });
   }
   // Takes ownership of a C handle.
@@ -134,17 +137,17 @@ class System {
   }
   static System read(const std::string &path, const jam_create_options &o = create_options()) {
     System made;
-    made.adopt([&](jam_system **out) { return jam_read(path.c_str(), &o, out); });
+    made.adopt([&](jam_system **out) { return jam_read(path.c_str(), &o, nullptr, nullptr, out); });
     return made;
   }
   std::string notes() const { return jam_notes(get()); }
   // From a file of checkpoint(): dynamics go on to the same bits.
   static System from_checkpoint(const std::string &path) {
     System made;
-    made.adopt([&](jam_system **out) { return jam_checkpoint_read(path.c_str(), out); });
+    made.adopt([&](jam_system **out) { return jam_read_checkpoint(path.c_str(), nullptr, nullptr, out); });
     return made;
   }
-  void checkpoint(const std::string &path) const { done(jam_checkpoint_write(get(), path.c_str())); }
+  void checkpoint(const std::string &path) const { done(jam_write_checkpoint(get(), path.c_str())); }
   System copy() const {
     System made;
     made.adopt([&](jam_system **out) { return jam_copy(get(), out); });
@@ -157,12 +160,12 @@ class System {
   }
   jam_info info() const {
     jam_info made = report<jam_info>();
-    check(jam_info_get(get(), &made));
+    check(jam_get_info(get(), &made));
     return made;
   }
-  View positions() const { return view(jam_positions_view, static_cast<std::size_t>(info().dim)); }
-  View velocities() const { return view(jam_velocities_view, static_cast<std::size_t>(info().dim)); }
-  View diameters() const { return view(jam_diameters_view, 1); }
+  View positions() const { return view(jam_view_positions, static_cast<std::size_t>(info().dim)); }
+  View velocities() const { return view(jam_view_velocities, static_cast<std::size_t>(info().dim)); }
+  View diameters() const { return view(jam_view_diameters, 1); }
   void set_positions(const std::vector<double> &x) { done(jam_set_positions(get(), x.data(), x.size())); }
   void set_velocities(const std::vector<double> &v) { done(jam_set_velocities(get(), v.data(), v.size())); }
   void scale_diameters(double factor) { done(jam_scale_diameters(get(), factor)); }
@@ -202,7 +205,7 @@ class System {
   // The network of the last crunch.
   jam_crunch_report last_report() const {
     jam_crunch_report made = report<jam_crunch_report>();
-    check(jam_crunch_report_get(get(), &made));
+    check(jam_get_crunch_report(get(), &made));
     return made;
   }
   std::vector<std::int32_t> contacts() const { return array<std::int32_t>(jam_contacts); }    // (contacts, 2)

@@ -15,10 +15,11 @@ std::vector<double> class_forces(const Packing &p, const ContactNetwork &net, in
   const std::vector<int32_t> flags = classify_contacts(p, net);
   std::vector<double> out;
   for (size_t k = 0; k < net.size(); ++k) {
-    const bool in = which == JAM_CLASS_ALL || (which == JAM_CLASS_LOCALISED && (flags[k] & JAM_CONTACT_LOCALISED)) ||
-                    (which == JAM_CLASS_EXTENDED && !(flags[k] & JAM_CONTACT_LOCALISED)) ||
-                    (which == JAM_CLASS_SMALLEST && (flags[k] & JAM_CONTACT_SMALLEST)) ||
-                    (which == JAM_CLASS_MEDIAN && (flags[k] & JAM_CONTACT_MEDIAN));
+    const bool in = which == JAM_POPULATION_ALL ||
+                    (which == JAM_POPULATION_LOCALISED && (flags[k] & JAM_CONTACT_LOCALISED)) ||
+                    (which == JAM_POPULATION_EXTENDED && !(flags[k] & JAM_CONTACT_LOCALISED)) ||
+                    (which == JAM_POPULATION_SMALLEST && (flags[k] & JAM_CONTACT_SMALLEST)) ||
+                    (which == JAM_POPULATION_MEDIAN && (flags[k] & JAM_CONTACT_MEDIAN));
     if (in) out.push_back(net.force[k]);
   }
   double mean = 0.0;
@@ -30,11 +31,11 @@ std::vector<double> class_forces(const Packing &p, const ContactNetwork &net, in
 
 // One value of every sphere.
 std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, int32_t quantity) {
-  const bool weighted = quantity == JAM_QUANTITY_FORCE_PAIRS;
+  const bool weighted = quantity == JAM_LOCAL_FORCE_PAIRS;
   std::vector<double> out(p.n(), 0.0);
-  if (quantity == JAM_QUANTITY_COORDINATION) {
+  if (quantity == JAM_LOCAL_COORDINATION) {
     std::copy(net.coordination.begin(), net.coordination.end(), out.begin());
-  } else if (quantity == JAM_QUANTITY_FORCE_SUM) {
+  } else if (quantity == JAM_LOCAL_FORCE_SUM) {
     if (net.force.size() != net.size()) fail(JAM_E_STATE, "the network has no forces");
     for (size_t k = 0; k < net.size(); ++k) {
       out[net.pairs.i[k]] += net.force[k];
@@ -42,7 +43,7 @@ std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, i
     }
   } else {
     const SphereStructure t = sphere_structure(p, net, weighted);
-    if (quantity != JAM_QUANTITY_VECTOR_SUM) return t.s;
+    if (quantity != JAM_LOCAL_VECTOR_SUM) return t.s;
     for (size_t i = 0; i < out.size(); ++i) {
       double c2 = 0.0;
       for (int c = 0; c < p.dim; ++c) c2 += t.c[i * p.dim + c] * t.c[i * p.dim + c];
@@ -54,20 +55,21 @@ std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, i
 
 }  // namespace
 
-std::vector<double> class_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
-  if (quantity < JAM_QUANTITY_FORCE || quantity > JAM_QUANTITY_COORDINATION)
-    fail(JAM_E_ARGUMENT, "quantity is %d, not a jam_quantity", quantity);
-  if (which < JAM_CLASS_ALL || which > JAM_CLASS_MEDIAN) fail(JAM_E_ARGUMENT, "which is %d, not a jam_class", which);
-  if (quantity == JAM_QUANTITY_FORCE) return class_forces(p, net, which);
-  if (which == JAM_CLASS_SMALLEST || which == JAM_CLASS_MEDIAN)
-    fail(JAM_E_ARGUMENT, "which is %d: smallest and median are classes of forces only", which);
+std::vector<double> local_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
+  if (quantity < JAM_LOCAL_FORCE || quantity > JAM_LOCAL_COORDINATION)
+    fail(JAM_E_ARGUMENT, "quantity is %d, not a jam_local_quantity", quantity);
+  if (which < JAM_POPULATION_ALL || which > JAM_POPULATION_MEDIAN)
+    fail(JAM_E_ARGUMENT, "population is %d, not a jam_population", which);
+  if (quantity == JAM_LOCAL_FORCE) return class_forces(p, net, which);
+  if (which == JAM_POPULATION_SMALLEST || which == JAM_POPULATION_MEDIAN)
+    fail(JAM_E_ARGUMENT, "population is %d: smallest and median are populations of forces only", which);
   auto in = [&](size_t i) {
     const int32_t z = net.coordination[i];
-    return z > 0 && (which == JAM_CLASS_ALL || (z == p.dim + 1) == (which == JAM_CLASS_LOCALISED));
+    return z > 0 && (which == JAM_POPULATION_ALL || (z == p.dim + 1) == (which == JAM_POPULATION_LOCALISED));
   };
   std::vector<double> out;
-  if (quantity == JAM_QUANTITY_VECTOR_DOT || quantity == JAM_QUANTITY_FORCE_DOT) {
-    const ContactDots dots = contact_dots(p, net, quantity == JAM_QUANTITY_FORCE_DOT);
+  if (quantity == JAM_LOCAL_VECTOR_DOT || quantity == JAM_LOCAL_FORCE_DOT) {
+    const ContactDots dots = contact_dots(p, net, quantity == JAM_LOCAL_FORCE_DOT);
     for (size_t k = 0; k < dots.dot.size(); ++k)
       if (in(static_cast<size_t>(dots.sphere[k]))) out.push_back(dots.dot[k]);
     return out;

@@ -87,9 +87,9 @@ ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const Co
 
 // With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round. Bulk:
 // K = V d^2 E / dV^2 = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
-jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                          const CancellationPoint &cancel_point) {
-  jam_moduli m{};
+jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                                 const CancellationPoint &cancel_point) {
+  jam_moduli_report m{};
   const size_t d = static_cast<size_t>(p.dim);
   const double dim = p.dim, directions = dim * (dim - 1.0);
   const ElasticTensor tensor = elastic_tensor(p, g, w, cancel_point);

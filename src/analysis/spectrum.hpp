@@ -24,7 +24,7 @@ struct ElasticTensor {
 ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
                              const CancellationPoint &cancel_point = CancellationPoint());
 // Moduli from that tensor.
-jam_moduli elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                          const CancellationPoint &cancel_point = CancellationPoint());
+jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
+                                 const CancellationPoint &cancel_point = CancellationPoint());
 
 }  // namespace jam

@@ -35,8 +35,8 @@ struct ContactDots {
 };
 ContactDots contact_dots(const Packing &p, const ContactNetwork &network, bool weighted);
 
-// Values of a jam_quantity that belong to a jam_class; JAM_E_ARGUMENT for an unknown combination.
-std::vector<double> class_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
+// Values of a jam_local_quantity that belong to a jam_population; JAM_E_ARGUMENT for an unknown combination.
+std::vector<double> local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
 // Their density in equal bins of [low, high): its integral is the share of values there.
 std::vector<double> histogram(const std::vector<double> &values, double low, double high, size_t bins);
 

@@ -14,11 +14,11 @@ jam_status jam_modes_options_init(jam_modes_options *o, size_t size) {
   return init_options(o, size, default_modes_options());
 }
 
-jam_status jam_hessian_map(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+jam_status jam_hessian_map(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    return give_array(g.sphere.data(), g.sphere.size(), iout, iout_len, needed);
+    return give_array(g.sphere.data(), g.sphere.size(), out, out_len, needed);
   });
 }
 

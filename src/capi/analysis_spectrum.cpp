@@ -72,7 +72,7 @@ jam_status jam_project(const jam_system *sys, const double *vector, size_t vecto
   });
 }
 
-jam_status jam_moduli_get(jam_system *sys, const jam_hessian_options *h, jam_moduli *moduli) {
+jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli) {
   return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need(moduli, "moduli");

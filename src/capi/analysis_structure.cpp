@@ -21,11 +21,11 @@ jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, do
   });
 }
 
-jam_status jam_contact_classes(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+jam_status jam_contact_classes(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
     const std::vector<int32_t> flags = classify_contacts(sys->packing, sys->contacts);
-    return give_array(flags.data(), flags.size(), iout, iout_len, needed);
+    return give_array(flags.data(), flags.size(), out, out_len, needed);
   });
 }
 
@@ -59,23 +59,23 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
   });
 }
 
-jam_status jam_class_values(const jam_system *sys, int32_t quantity, int32_t which, double *out, size_t out_len,
+jam_status jam_local_values(const jam_system *sys, int32_t quantity, int32_t population, double *out, size_t out_len,
                             size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     need_network(sys);
-    const std::vector<double> v = class_values(sys->packing, sys->contacts, quantity, which);
+    const std::vector<double> v = local_values(sys->packing, sys->contacts, quantity, population);
     return give_array(v.data(), v.size(), out, out_len, needed);
   });
 }
 
-jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t which, double low, double high, int64_t bins,
-                         double *out, size_t out_len, size_t *needed) {
+jam_status jam_histogram(const jam_system *sys, int32_t quantity, int32_t population, double low, double high,
+                         int64_t bins, double *out, size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     if (bins < 1 || bins > 100000000)
       fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
     need_network(sys);
-    const std::vector<double> density =
-        histogram(class_values(sys->packing, sys->contacts, quantity, which), low, high, static_cast<size_t>(bins));
+    const std::vector<double> density = histogram(local_values(sys->packing, sys->contacts, quantity, population), low,
+                                                  high, static_cast<size_t>(bins));
     return give_array(density.data(), density.size(), out, out_len, needed);
   });
 }

@@ -20,14 +20,14 @@ void take_cell(jam_system *sys, Packing &p) {
 
 extern "C" {
 
-jam_status jam_cell_get(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
+jam_status jam_get_cell(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     const std::vector<double> rows = sys->packing.cell.rows();
     return give_array(rows.data(), rows.size(), out, out_len, needed);
   });
 }
 
-jam_status jam_cell_set(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform, size_t transform_len,
+jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, int64_t *transform, size_t transform_len,
                         double *rotation, size_t rotation_len, size_t *rows) {
   return guard_set(sys, [&]() -> jam_status {
     need(cell, "cell");

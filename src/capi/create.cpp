@@ -71,44 +71,24 @@ jam_status jam_create_options_init(jam_create_options *o, size_t size) {
   return init_options(o, size, default_create_options());
 }
 
-jam_status jam_create(const jam_create_options *o, const double *positions, size_t positions_len,
-                      const double *diameters, size_t diameters_len, jam_system **out) {
-  return jam_create_watched(o, positions, positions_len, diameters, diameters_len, nullptr, nullptr, out);
-}
-
-jam_status jam_create_watched(const jam_create_options *o, const double *positions, size_t positions_len,
-                              const double *diameters, size_t diameters_len, jam_progress_fn callback, void *user,
-                              jam_system **out) {
+jam_status jam_create(const jam_create_options *o, const jam_start *start, jam_system **out) {
   return guard([&]() -> Answer {
     need(out, "out");
     jam_create_options full = default_create_options();
     take_options(o, full);
-    return make_system(full, callback, user, out, [&](jam_system &sys) {
-      sys.packing = make_packing(full, positions, positions_len, diameters, diameters_len, nullptr, &sys.notes);
-    });
-  });
-}
-
-jam_status jam_create_in_cell(const jam_create_options *o, const double *cell, size_t cell_len, const double *positions,
-                              size_t positions_len, const double *diameters, size_t diameters_len, jam_system **out) {
-  return jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, nullptr,
-                                    nullptr, out);
-}
-
-jam_status jam_create_in_cell_watched(const jam_create_options *o, const double *cell, size_t cell_len,
-                                      const double *positions, size_t positions_len, const double *diameters,
-                                      size_t diameters_len, jam_progress_fn callback, void *user, jam_system **out) {
-  return guard([&]() -> Answer {
-    need(out, "out");
-    need(cell, "cell");
-    jam_create_options full = default_create_options();
-    take_options(o, full);
-    check_dim(full.dim);
-    check_matrix_len("cell", cell_len, full.dim);
-    if (full.box != default_create_options().box)
-      fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which give the box: leave box at 1", full.box);
-    return make_system(full, callback, user, out, [&](jam_system &sys) {
-      sys.packing = make_packing(full, positions, positions_len, diameters, diameters_len, cell, &sys.notes);
+    jam_start from{};
+    take_options(start, from);
+    if (from.cell) {
+      check_dim(full.dim);
+      check_matrix_len("cell", from.cell_len, full.dim);
+      if (full.box != default_create_options().box)
+        fail(JAM_E_ARGUMENT, "box is %g beside cell vectors, which give the box: leave box at 1", full.box);
+    } else if (from.cell_len != 0) {
+      fail(JAM_E_NULL, "cell is NULL, and cell_len is %zu", from.cell_len);
+    }
+    return make_system(full, from.progress, from.user, out, [&](jam_system &sys) {
+      sys.packing = make_packing(full, from.positions, from.positions_len, from.diameters, from.diameters_len,
+                                 from.cell, &sys.notes);
     });
   });
 }
@@ -124,7 +104,7 @@ jam_status jam_copy(const jam_system *src, jam_system **out) {
 
 void jam_destroy(jam_system *sys) { delete sys; }
 
-jam_status jam_info_get(const jam_system *sys, jam_info *info) {
+jam_status jam_get_info(const jam_system *sys, jam_info *info) {
   return guard_read(sys, [&]() -> jam_status {
     need(info, "info");
     check_out_struct(info, "info");
@@ -147,13 +127,13 @@ jam_status jam_info_get(const jam_system *sys, jam_info *info) {
   });
 }
 
-jam_status jam_positions_view(const jam_system *sys, const double **v, size_t *len) {
+jam_status jam_view_positions(const jam_system *sys, const double **v, size_t *len) {
   return view(sys, &Packing::position, v, len);
 }
-jam_status jam_diameters_view(const jam_system *sys, const double **v, size_t *len) {
+jam_status jam_view_diameters(const jam_system *sys, const double **v, size_t *len) {
   return view(sys, &Packing::diameter, v, len);
 }
-jam_status jam_velocities_view(const jam_system *sys, const double **v, size_t *len) {
+jam_status jam_view_velocities(const jam_system *sys, const double **v, size_t *len) {
   return view(sys, &Packing::velocity, v, len);
 }
 

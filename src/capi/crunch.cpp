@@ -79,7 +79,7 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
   });
 }
 
-jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated) {
+jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *o, jam_estimate *estimated) {
   return guard_const(sys, [&]() -> jam_status {
     need(estimated, "estimated");
     check_out_struct(estimated, "estimated");
@@ -90,7 +90,7 @@ jam_status jam_crunch_estimate(const jam_system *sys, const jam_crunch_options *
   });
 }
 
-jam_status jam_crunch_report_get(const jam_system *sys, jam_crunch_report *report) {
+jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *report) {
   return with_contacts(sys, [&](const ContactNetwork &) -> jam_status {
     need(report, "report");
     check_out_struct(report, "report");
@@ -115,9 +115,9 @@ jam_status jam_crunch_step_displacements(const jam_system *sys, double *out, siz
     return give_array(s.displacement.data(), s.displacement.size(), out, out_len, needed);
   });
 }
-jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
-  return with_step(
-      sys, [&](const CrunchStep &s) { return give_array(s.pair.data(), s.pair.size(), iout, iout_len, needed); });
+jam_status jam_crunch_step_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
+  return with_step(sys,
+                   [&](const CrunchStep &s) { return give_array(s.pair.data(), s.pair.size(), out, out_len, needed); });
 }
 jam_status jam_crunch_step_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
   return with_step(
@@ -129,12 +129,12 @@ jam_status jam_crunch_step_duals(const jam_system *sys, double *out, size_t out_
   });
 }
 
-jam_status jam_contacts(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+jam_status jam_contacts(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
   return with_contacts(sys, [&](const ContactNetwork &c) {
     std::vector<int32_t> flat;
     flat.reserve(2 * c.size());
     for (size_t k = 0; k < c.size(); ++k) flat.push_back(c.pairs.i[k]), flat.push_back(c.pairs.j[k]);
-    return give_array(flat.data(), flat.size(), iout, iout_len, needed);
+    return give_array(flat.data(), flat.size(), out, out_len, needed);
   });
 }
 jam_status jam_contact_vectors(const jam_system *sys, double *out, size_t out_len, size_t *needed) {
@@ -149,9 +149,9 @@ jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t
   return with_contacts(
       sys, [&](const ContactNetwork &c) { return give_array(c.force.data(), c.force.size(), out, out_len, needed); });
 }
-jam_status jam_coordination(const jam_system *sys, int32_t *iout, size_t iout_len, size_t *needed) {
+jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed) {
   return with_contacts(sys, [&](const ContactNetwork &c) {
-    return give_array(c.coordination.data(), c.coordination.size(), iout, iout_len, needed);
+    return give_array(c.coordination.data(), c.coordination.size(), out, out_len, needed);
   });
 }
 

@@ -166,7 +166,7 @@ jam_status guard_verb(jam_system *sys, F &&f) noexcept {
   });
 }
 
-// Shows a simulation to callbacks (jam_checkpoint_write) while it runs.
+// Shows a simulation to callbacks (jam_write_checkpoint) while it runs.
 class Running {
  public:
   Running(jam_system *sys, const Dynamics *dynamics) : sys_(sys) { sys->live = dynamics; }

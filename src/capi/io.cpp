@@ -49,12 +49,8 @@ void settle_options(const char *path, const FileContent &file, jam_create_option
 
 extern "C" {
 
-jam_status jam_read(const char *path, const jam_create_options *o, jam_system **out) {
-  return jam_read_watched(path, o, nullptr, nullptr, out);
-}
-
-jam_status jam_read_watched(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
-                            jam_system **out) {
+jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_fn callback, void *user,
+                    jam_system **out) {
   return guard([&]() -> Answer {
     need(path, "path");
     need(out, "out");

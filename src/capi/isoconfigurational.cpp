@@ -70,7 +70,7 @@ jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
   });
 }
 
-jam_status jam_isoconf_report_get(const jam_system *sys, jam_isoconf_report *report) {
+jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *report) {
   return with_runs(sys, [&](const Isoconfigurational &runs) -> jam_status {
     need(report, "report");
     check_out_struct(report, "report");

@@ -17,7 +17,7 @@ using namespace jam;
 
 namespace {
 
-// While a stage runs, callbacks may read it: jam_checkpoint_write saves its state between two events. Snapshots appear
+// While a stage runs, callbacks may read it: jam_write_checkpoint saves its state between two events. Snapshots appear
 // in the views, and then the handle has no results. If the call fails later, it gets its earlier state back.
 class Live {
  public:
@@ -166,7 +166,7 @@ jam_status jam_compress(jam_system *sys, const jam_compress_options *o, jam_md_r
                          [&] { return verb(sys, o, default_compress_options(), check_compress_options, report); });
 }
 
-jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
+jam_status jam_write_checkpoint(const jam_system *sys, const char *path) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
     Moving moving;
@@ -180,11 +180,7 @@ jam_status jam_checkpoint_write(const jam_system *sys, const char *path) {
   });
 }
 
-jam_status jam_checkpoint_read(const char *path, jam_system **out) {
-  return jam_checkpoint_read_watched(path, nullptr, nullptr, out);
-}
-
-jam_status jam_checkpoint_read_watched(const char *path, jam_progress_fn callback, void *user, jam_system **out) {
+jam_status jam_read_checkpoint(const char *path, jam_progress_fn callback, void *user, jam_system **out) {
   return guard([&]() -> Answer {
     need(path, "path");
     need(out, "out");

@@ -62,7 +62,7 @@ jam_status jam_observe(jam_system *sys, const jam_observe_options *o) {
   });
 }
 
-jam_status jam_observe_stop(jam_system *sys) {
+jam_status jam_stop_observing(jam_system *sys) {
   return guard_set(sys, [&]() -> jam_status {
     sys->observing = false;
     return JAM_OK;

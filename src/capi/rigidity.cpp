@@ -58,8 +58,8 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
     r.contacts_needed = v.result.contacts_needed;
     r.self_stresses = v.result.self_stresses;
     r.flexes = v.result.flexes;
-    r.bridges = v.result.bridges;
-    r.idle_contacts = v.result.idle_contacts;
+    r.undercoordinated = v.result.undercoordinated;
+    r.zero_force_contacts = v.result.zero_force_contacts;
     r.undecided_contacts = v.undecided_contacts;
     r.rigidity_margin = v.result.margin;
     r.force_residual = v.result.force_residual;

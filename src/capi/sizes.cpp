@@ -27,7 +27,7 @@ jam_status jam_diameters(const jam_diameters_options *o, const double *curve, si
   });
 }
 
-jam_status jam_diameters_parse(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
+jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, double *curve, size_t curve_len,
                                size_t *needed) {
   return guard([&]() -> jam_status {
     need(text, "text");
@@ -55,7 +55,7 @@ jam_status jam_cell_volume(int32_t dim, const double *cell, size_t cell_len, dou
   });
 }
 
-jam_status jam_size_report_get(int32_t dim, const double *diameters, size_t diameters_len, jam_size_report *report) {
+jam_status jam_get_size_report(int32_t dim, const double *diameters, size_t diameters_len, jam_size_report *report) {
   return guard([&]() -> jam_status {
     need(report, "report");
     check_out_struct(report, "report");

@@ -140,7 +140,7 @@ static void look_ahead(const Packing &start, const jam_crunch_options &o, Monito
                 e.bytes / 1e6, static_cast<long long>(e.pairs), e.flops, e.seconds, e.factorisations);
   // An estimate may be too high: between this and the limit each matrix decides before it is factorised.
   if (e.bytes > Tuning().estimate_too_high * CallScope::memory_limit())
-    CallScope::need_memory(e.bytes, "the linear programs of this packing, as jam_crunch_estimate gives it,");
+    CallScope::need_memory(e.bytes, "the linear programs of this packing, as jam_estimate_crunch gives it,");
 }
 
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,

@@ -74,9 +74,9 @@ void report_verdict(const PackingVerdict &v, int d, jam_crunch_report &report) {
   report.stationary = v.result.stressed == Verdict::yes;
   report.strictly_jammed = JAM_VERDICT_UNTESTED;
   report.flexes = v.result.flexes;
-  report.idle_contacts = v.result.idle_contacts;
+  report.zero_force_contacts = v.result.zero_force_contacts;
   report.undecided_contacts = v.undecided_contacts;
-  report.bridges = v.result.bridges;
+  report.undercoordinated = v.result.undercoordinated;
   report.strict_contacts_needed = v.result.spheres > 0 ? d * (v.result.spheres - 1) + d * (d + 1) / 2 : 0;
   report.rigidity_margin = v.result.margin;
 }

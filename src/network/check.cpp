@@ -58,7 +58,7 @@ void take_verdict(const Packing &p, const PackingVerdict &v, const ContactNetwor
   r.contacts = static_cast<int64_t>(net.size());
   r.rattlers = static_cast<int64_t>(p.n()) - stable_spheres(net.coordination);
   r.excess_contacts = excess_contacts(net, p.dim);
-  r.idle_contacts = v.result.idle_contacts;
+  r.zero_force_contacts = v.result.zero_force_contacts;
   r.undecided_contacts = v.undecided_contacts;
   r.self_stresses = v.result.self_stresses;
   r.flexes = v.result.flexes;

@@ -60,7 +60,7 @@ ContactNetwork network_of(const Packing &p, const GapList &g, double tolerance) 
   return subset(net, on, p.dim);
 }
 
-// The contacts between spheres that carry force, idle ones among them too.
+// The contacts between spheres that carry force, those without force among them too.
 ContactNetwork between_carrying(const ContactNetwork &net, const std::vector<char> &carrying, int d) {
   std::vector<char> stable(net.coordination.size(), 0), on(net.size());
   for (size_t k = 0; k < net.size(); ++k)

@@ -77,13 +77,13 @@ void count_carrying(const RigidityMatrix &carrying, int strains, RigidityResult 
   const int d = carrying.dim;
   out.spheres = carrying.nodes;
   out.contacts = static_cast<int64_t>(carrying.contacts());
-  out.idle_contacts -= out.contacts;
+  out.zero_force_contacts -= out.contacts;
   const int64_t motions = d * (out.spheres - 1) + strains;
   out.contacts_needed = motions + 1;
   out.self_stresses = out.contacts - (motions - out.flexes);
   std::vector<int32_t> z(carrying.nodes, 0);
   for (size_t k = 0; k < carrying.contacts(); ++k) ++z[carrying.a[k]], ++z[carrying.b[k]];
-  out.bridges = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
+  out.undercoordinated = std::count_if(z.begin(), z.end(), [d](int32_t c) { return c <= d; });
 }
 
 // Flags and forces of the rows that are `on` into those of all.
@@ -105,7 +105,7 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const 
   const std::vector<Release> released = release_unbalanced(g.dim, static_cast<size_t>(g.nodes), g.a, g.b, g.normal, on);
   const RigidityMatrix sub = subset(g, on);
   const ConstraintRows rows(sub, strain);
-  out.idle_contacts = static_cast<int64_t>(m);
+  out.zero_force_contacts = static_cast<int64_t>(m);
   if (sub.contacts() == 0) {
     complete_flex(g, sub, rows, {}, released, strain, out);
     return out;
@@ -185,7 +185,7 @@ static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, const
   out = part;
   out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
   spread(on, part.carrying, part.force, out);
-  out.idle_contacts = static_cast<int64_t>(g.contacts()) - out.contacts;
+  out.zero_force_contacts = static_cast<int64_t>(g.contacts()) - out.contacts;
   return true;
 }
 
@@ -200,7 +200,7 @@ RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const Cancel
   if (stressed && useless) {
     out = RigidityResult();
     out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
-    out.idle_contacts = static_cast<int64_t>(g.contacts());
+    out.zero_force_contacts = static_cast<int64_t>(g.contacts());
   }
   out.jammed = Verdict::undecided;
   if (!stressed || !(out.force_residual < most_residual) || useless) out.stressed = Verdict::undecided;

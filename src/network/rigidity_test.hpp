@@ -32,17 +32,17 @@ enum class Verdict { no = 0, yes = 1, undecided = 2 };
 // Of a fixed list of contacts, all taken as closed.
 struct RigidityResult {
   Verdict jammed = Verdict::no;
-  Verdict stressed = Verdict::no;  // K+ is not empty: no motion grows the diameters to first order (stationary)
-  std::vector<char> carrying;      // K+, one flag a contact
-  std::vector<double> force;       // in the middle of all non-negative states, mean 1 over K+, 0 on all others
-  double force_residual = 0.0;     // largest |sum_j f_ij n_ij| over the mean force
-  int64_t spheres = 0;             // N'
-  int64_t contacts = 0;            // |K+|
-  int64_t idle_contacts = 0;       // contacts without force in every state
-  int64_t contacts_needed = 0;     // collective: d (N' - 1) + 1; strict: d (N' - 1) + d (d + 1) / 2
-  int64_t self_stresses = 0;       // states of self-stress on K+
-  int64_t flexes = 0;              // motions of B with S v = 0 on K+ beyond translations; 0 without a stress
-  int64_t bridges = 0;             // spheres of B with d contacts of K+ or fewer
+  Verdict stressed = Verdict::no;   // K+ is not empty: no motion grows the diameters to first order (stationary)
+  std::vector<char> carrying;       // K+, one flag a contact
+  std::vector<double> force;        // in the middle of all non-negative states, mean 1 over K+, 0 on all others
+  double force_residual = 0.0;      // largest |sum_j f_ij n_ij| over the mean force
+  int64_t spheres = 0;              // N'
+  int64_t contacts = 0;             // |K+|
+  int64_t zero_force_contacts = 0;  // contacts without force in every state
+  int64_t contacts_needed = 0;      // collective: d (N' - 1) + 1; strict: d (N' - 1) + d (d + 1) / 2
+  int64_t self_stresses = 0;        // states of self-stress on K+
+  int64_t flexes = 0;               // motions of B with S v = 0 on K+ beyond translations; 0 without a stress
+  int64_t undercoordinated = 0;     // spheres of B with d contacts of K+ or fewer
   double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
   std::vector<double> strain;  // (dim, dim) that goes with it; strict only

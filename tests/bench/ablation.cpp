@@ -34,7 +34,7 @@ Packing grown(int n, int dim, int64_t seed) {
   jam_compress_options md;
   jam_compress_options_init(&md, sizeof md);
   md.growth_rate = 1e-2, md.pressure = 500.0;
-  if (jam_create(&o, nullptr, 0, nullptr, 0, &sys) < 0 || jam_compress(sys, &md, nullptr) < 0)
+  if (jam_create(&o, nullptr, &sys) < 0 || jam_compress(sys, &md, nullptr) < 0)
     std::fprintf(stderr, "%s\n", jam_last_error());
   return packing_of(sys);
 }

@@ -123,7 +123,7 @@ RawCrunch crunch_without_polish(const char *file) {
   jam_crunch_options o;
   jam_crunch_options_init(&o, sizeof o);
   o.polish = 0;
-  if (jam_read(file, nullptr, &sys) != JAM_OK) return out;
+  if (jam_read(file, nullptr, nullptr, nullptr, &sys) != JAM_OK) return out;
   out.seconds = timed(1, [&] { jam_crunch(sys, &o, nullptr); }).cpu;
   out.force = sys->contacts.force;
   jam_destroy(sys);
@@ -162,7 +162,7 @@ void floppy_blocks(const Packing &p, const ContactNetwork &net, const RigidityMa
 int main(int argc, char **argv) {
   jam_system *sys = nullptr;
   const char *file = argc > 1 ? argv[1] : JAM_TEST_SHARED "/ls-n1024-d3.dat";
-  if (jam_read(file, nullptr, &sys) != JAM_OK) {
+  if (jam_read(file, nullptr, nullptr, nullptr, &sys) != JAM_OK) {
     std::fprintf(stderr, "%s\n", jam_last_error());
     return 1;
   }

@@ -27,7 +27,7 @@ def stopped(n, seed, at, file):
     """Factorisations until the stop and after it, the report at the end."""
     system = start(n, seed)
     first = system.crunch(progress=lambda p: p.factorisations >= at)
-    system.checkpoint_write(file)
+    system.write_checkpoint(file)
     system = jam.System.from_checkpoint(file)
     return first.factorisations, system.crunch(), system
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Memory and time that `jam_crunch_estimate` tells before a crunch, against what the crunch takes.
+"""Memory and time that `jam_estimate_crunch` tells before a crunch, against what the crunch takes.
 
 usage: estimate.py OUT.json [PICTURE.png]
 
@@ -35,7 +35,7 @@ def measure(dim, n, stages, threads, options, seed):
     packing = jam.System.random(n, dim, seed)
     if stages:
         packing.compress(stages)
-    estimate = packing.crunch_estimate(threads=threads, **options)
+    estimate = packing.estimate_crunch(threads=threads, **options)
     with open("/proc/self/statm", encoding="ascii") as file:
         before = int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     clock = time.process_time if threads == 1 else time.perf_counter

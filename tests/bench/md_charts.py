@@ -107,7 +107,7 @@ def measure_accuracy(library, budget):
         system, o, c = ctypes.c_void_p(), CreateOptions(), CompressOptions()
         jam.jam_create_options_init(ctypes.byref(o), ctypes.c_size_t(ctypes.sizeof(o)))
         o.n = 256
-        jam.jam_create(ctypes.byref(o), None, ctypes.c_size_t(0), None, ctypes.c_size_t(0), ctypes.byref(system))
+        jam.jam_create(ctypes.byref(o), None, ctypes.byref(system))
         jam.jam_compress_options_init(ctypes.byref(c), ctypes.c_size_t(ctypes.sizeof(c)))
         start = time.process_time()
         jam.jam_compress(system, ctypes.byref(c), None)
@@ -126,7 +126,7 @@ def measure_accuracy(library, budget):
             status = jam.jam_crunch(copy, None, None)
             crunch = time.process_time() - start
             info.struct_size = ctypes.sizeof(info)
-            jam.jam_info_get(copy, ctypes.byref(info))
+            jam.jam_get_info(copy, ctypes.byref(info))
             jam.jam_destroy(copy)
             rows.append(
                 {

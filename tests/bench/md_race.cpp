@@ -27,7 +27,7 @@ struct Library {
   decltype(&jam_destroy) destroy;
   decltype(&jam_run) run;
   decltype(&jam_compress) compress;
-  decltype(&jam_positions_view) positions_view;
+  decltype(&jam_view_positions) view_positions;
 
   explicit Library(const char *path) {
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
@@ -50,7 +50,7 @@ struct Library {
     find(destroy, "jam_destroy");
     find(run, "jam_run");
     find(compress, "jam_compress");
-    find(positions_view, "jam_positions_view");
+    find(view_positions, "jam_view_positions");
   }
 };
 
@@ -110,8 +110,10 @@ jam_system *make(const Library &jam, const Scene &s) {
   std::vector<double> diameters;
   if (s.ratio != 1.0)
     for (int64_t i = 0; i < s.n; ++i) diameters.push_back(i % 2 ? s.ratio : 1.0);
+  jam_start start{};
+  start.struct_size = sizeof start, start.diameters = diameters.data(), start.diameters_len = diameters.size();
   jam_system *sys = nullptr;
-  jam_status status = jam.create(&o, nullptr, 0, diameters.data(), diameters.size(), &sys);
+  jam_status status = jam.create(&o, &start, &sys);
   if (status == JAM_OK && s.fraction > s.start) {
     jam_compress_options c;
     set_defaults(jam.compress_options_init, c);
@@ -183,7 +185,7 @@ void race(const Library (&jam)[2], const Scene &s, double seconds, const char *c
   const double *x[2] = {nullptr, nullptr};
   for (int k = 0; k < 2; ++k) {
     size_t length = 0;
-    jam[k].positions_view(sys[k], &x[k], &length);
+    jam[k].view_positions(sys[k], &x[k], &length);
   }
   for (size_t c = 0; c < words; ++c) {
     const double d = x[0][c] - x[1][c];

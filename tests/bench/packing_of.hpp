@@ -14,9 +14,9 @@ inline Packing packing_of(jam_system *sys) {
   size_t nx = 0, ns = 0;
   jam_info info;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
-  jam_positions_view(sys, &x, &nx);
-  jam_diameters_view(sys, &s, &ns);
+  jam_get_info(sys, &info);
+  jam_view_positions(sys, &x, &nx);
+  jam_view_diameters(sys, &s, &ns);
   p.set_cube(info.dim, info.box);
   p.position.assign(x, x + nx);
   p.diameter.assign(s, s + ns);
@@ -28,7 +28,7 @@ inline Packing packing_of(jam_system *sys) {
 // From a file in any format that jam_read takes. Ends the program where that fails.
 inline Packing packing_of(const char *path) {
   jam_system *sys = nullptr;
-  if (jam_read(path, nullptr, &sys) < 0) {
+  if (jam_read(path, nullptr, nullptr, nullptr, &sys) < 0) {
     std::fprintf(stderr, "%s\n", jam_last_error());
     std::exit(1);
   }

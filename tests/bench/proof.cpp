@@ -9,6 +9,8 @@
 #include "proof/newton.hpp"
 #include "proof/theorem.hpp"
 
+#include "../start.h"
+
 using namespace jam;
 
 namespace {
@@ -23,7 +25,7 @@ jam_system *jammed(int n, int dim, int seed, double &seconds) {
   std::vector<double> sizes;
   for (int i = 0; i < n; ++i) sizes.push_back(dim == 2 && i % 2 ? 1.4 : 1.0);
   jam_system *sys = nullptr;
-  if (jam_create(&o, nullptr, 0, sizes.data(), sizes.size(), &sys) < 0 || jam_compress(sys, nullptr, nullptr) < 0)
+  if (create_from(&o, nullptr, 0, sizes.data(), sizes.size(), &sys) < 0 || jam_compress(sys, nullptr, nullptr) < 0)
     std::exit((std::fprintf(stderr, "%s\n", jam_last_error()), 1));
   const double before = processor();
   if (jam_crunch(sys, nullptr, nullptr) < 0) std::exit((std::fprintf(stderr, "%s\n", jam_last_error()), 1));

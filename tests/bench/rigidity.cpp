@@ -55,13 +55,13 @@ void measure(const std::string &name, const Packing &p, Jamming kind) {
   std::printf(
       "%s{\"name\": \"%s\", \"family\": \"%s\", \"kind\": \"%s\", \"dim\": %d, \"n\": %zu, \"cpu\": %.4g, \"jammed\": "
       "\"%s\", "
-      "\"contacts\": %lld, \"excess\": %lld, \"idle\": %lld, \"undecided\": %lld, \"flexes\": %lld, "
-      "\"bridges\": %lld, \"margin\": %.4g, \"residual\": %.2g, \"spheres\": %lld}",
+      "\"contacts\": %lld, \"excess\": %lld, \"zero_force\": %lld, \"undecided\": %lld, \"flexes\": %lld, "
+      "\"undercoordinated\": %lld, \"margin\": %.4g, \"residual\": %.2g, \"spheres\": %lld}",
       first ? "[" : ",\n ", name.c_str(), family(p, r), kind == Jamming::strict ? "strict" : "collective", p.dim, p.n(),
       t[t.size() / 2], verdict[static_cast<int>(r.jammed)], static_cast<long long>(r.contacts),
-      static_cast<long long>(r.contacts - r.contacts_needed), static_cast<long long>(r.idle_contacts),
-      static_cast<long long>(v.undecided_contacts), static_cast<long long>(r.flexes), static_cast<long long>(r.bridges),
-      r.margin, r.force_residual, static_cast<long long>(r.spheres));
+      static_cast<long long>(r.contacts - r.contacts_needed), static_cast<long long>(r.zero_force_contacts),
+      static_cast<long long>(v.undecided_contacts), static_cast<long long>(r.flexes),
+      static_cast<long long>(r.undercoordinated), r.margin, r.force_residual, static_cast<long long>(r.spheres));
   std::fflush(stdout);
   first = false;
 }

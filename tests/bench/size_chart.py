@@ -26,7 +26,7 @@ PUBLISHED = {
 
 def run(start, md, n, seed, method, args):
     s = start.copy()
-    estimate = s.crunch_estimate(method=method, threads=args.threads)
+    estimate = s.estimate_crunch(method=method, threads=args.threads)
     clock = time.process_time if args.threads == 1 else time.perf_counter
     began = clock()
     r = s.crunch(method=method, threads=args.threads)

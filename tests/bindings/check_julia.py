@@ -20,7 +20,7 @@ SCALARS = {
     "jam_status": "Int32",
     "char": "Cchar",
 }
-BYTES = {"Cdouble": 8, "Int32": 4, "UInt32": 4, "Int64": 8, "UInt64": 8, "Csize_t": 8}
+BYTES = {"Cdouble": 8, "Int32": 4, "UInt32": 4, "Int64": 8, "UInt64": 8, "Csize_t": 8, "Ptr{Cvoid}": 8}
 
 
 def allowed(c, name):
@@ -93,7 +93,7 @@ def main():
         else:
             offsets.setdefault(a, []).append((b, int(rest[0]), int(rest[1])))
     structs = {
-        n: re.findall(r"^    (\w+)::(\w+)", body, re.M)
+        n: re.findall(r"^    (\w+)::([\w{}]+)", body, re.M)
         for n, body in re.findall(r"mutable struct (\w+)\n(.*?)\nend", text, re.S)
     }
     if set(structs) != set(sizes):

@@ -22,6 +22,7 @@ program fortran_layer
   integer, parameter :: d = 2, n = 60
   type(c_ptr) :: sys, other, view
   type(jam_create_options) :: create
+  type(jam_start) :: start
   type(jam_crunch_options) :: options
   type(jam_crunch_report) :: report
   type(jam_info) :: info
@@ -43,13 +44,12 @@ program fortran_layer
   create%dim = d
   create%n = n
   create%seed = 3
-  status = jam_create(create, positions_len=0_c_size_t, diameters=sizes, &
-                      diameters_len=size(sizes, kind=c_size_t), out=sys)
+  status = jam_create(create, diameters=sizes, out=sys)
   call expect(status == JAM_OK, 'create')
-  status = jam_info_get(sys, info)
+  status = jam_get_info(sys, info)
   call expect(info%n == n .and. info%dim == d, 'info')
   call expect(jam_text(jam_notes(sys)) == '', 'nothing was changed')
-  status = jam_positions_view(sys, view, view_len)
+  status = jam_view_positions(sys, view, view_len)
   call expect(view_len == d*n, 'view length')
   call c_f_pointer(view, seen, [d, n])
   x = modulo(seen + 0.25_c_double, 1.0_c_double)
@@ -90,7 +90,7 @@ program fortran_layer
   call jam_destroy(other)
   create%n = 300
   create%dim = 3
-  status = jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys)
+  status = jam_create(create, out=sys)
   status = jam_set_progress(sys, c_funloc(stop_at_third), c_null_ptr)
   call jam_defaults(options)
   status = jam_crunch(sys, options, report)
@@ -98,7 +98,7 @@ program fortran_layer
   call jam_destroy(sys)
 
   create%dim = 9
-  status = jam_create(create, positions_len=0_c_size_t, diameters_len=0_c_size_t, out=sys)
+  status = jam_create(create, start, sys)
   call expect(status == JAM_E_DIMENSION .and. index(jam_message(), '9') > 0, 'error text')
   options%struct_size = 0
   call jam_destroy(c_null_ptr)
@@ -120,7 +120,7 @@ contains
     call expect(jam_diameters(law, curve, needed=count) == JAM_OK .and. count == 300, 'number of diameters')
     allocate (drawn(count))
     call expect(jam_diameters(law, curve, drawn) == JAM_OK, 'diameters')
-    call expect(jam_size_report_get(3_c_int32_t, drawn, report=found) == JAM_OK, 'size report')
+    call expect(jam_get_size_report(3_c_int32_t, drawn, report=found) == JAM_OK, 'size report')
     call expect(abs(found%d50 - 2.0_c_double**(5.0_c_double/6.0_c_double)) < 0.02_c_double, 'd50 of the curve')
     curve(2, 2) = 120
     call expect(jam_diameters(law, curve, needed=count) == JAM_E_ARGUMENT, 'falling curve')
@@ -147,25 +147,23 @@ contains
     end do
     right = transpose(turned)
     made = c_null_ptr
-    call expect(jam_create(three, turned, size_one, made) == JAM_E_ARGUMENT, 'x(n, 3) is refused')
+    call expect(jam_create(three, turned, size_one, out=made) == JAM_E_ARGUMENT, 'x(n, 3) is refused')
     call expect(.not. c_associated(made), 'and nothing is made')
     call expect(index(jam_message(), 'positions(10, 3)') > 0, 'its shape')
     call expect(index(jam_message(), 'first extent 3') > 0, 'and the right one')
     call expect(index(jam_message(), 'transpose') > 0, 'the way out')
-    call expect(jam_create(three, turned, size(turned, kind=c_size_t), size_one, 1_c_size_t, made) == JAM_E_ARGUMENT, &
-                'also with lengths')
     call expect(jam_create(positions=turned(1:9, :), diameters=size_one, out=made) == JAM_E_ARGUMENT, 'default dim')
     cell = 0
     do i = 1, 3
       cell(i, i) = 1
     end do
-    call expect(jam_create_in_cell(three, cell, turned, size_one, made) == JAM_E_ARGUMENT, 'in a cell')
-    call expect(jam_create_in_cell(three, cell(:, 1:2), right, size_one, made) == JAM_E_ARGUMENT, 'two vectors')
+    call expect(jam_create(three, turned, size_one, cell, made) == JAM_E_ARGUMENT, 'in a cell')
+    call expect(jam_create(three, right, size_one, cell(:, 1:2), made) == JAM_E_ARGUMENT, 'two vectors')
     three%box = 2
-    call expect(jam_create_in_cell(three, cell, right, size_one, made) == JAM_E_ARGUMENT, 'box and cell')
+    call expect(jam_create(three, right, size_one, cell, made) == JAM_E_ARGUMENT, 'box and cell')
     call expect(index(jam_message(), 'box is 2') > 0, 'both are named: '//jam_message())
     three%box = 1
-    call expect(jam_create(three, right, size_one, made) == JAM_OK, 'x(3, n)')
+    call expect(jam_create(three, right, size_one, out=made) == JAM_OK, 'x(3, n)')
     call expect(jam_set_positions(made, turned) == JAM_E_ARGUMENT, 'positions')
     call expect(jam_set_velocities(made, turned) == JAM_E_ARGUMENT, 'velocities')
     call expect(jam_set_positions(made, reshape(right, [30])) == JAM_OK, 'one dimension is C''s order')

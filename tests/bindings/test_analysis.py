@@ -40,18 +40,18 @@ class Network(unittest.TestCase):
 
     def test_distributions(self):
         s, r = self.s, self.r
-        local, extended = s.class_values("force", "localised"), s.class_values("force", "extended")
+        local, extended = s.local_values("force", "localised"), s.local_values("force", "extended")
         flags = s.contact_classes()
         self.assertEqual(len(local), (flags & 1 != 0).sum())
         np.testing.assert_allclose(local, s.forces[flags & 1 != 0] / s.forces[flags & 1 != 0].mean(), rtol=1e-12)
         self.assertAlmostEqual(extended.mean(), 1, 12)
-        z = s.class_values("coordination", "all")
+        z = s.local_values("coordination", "all")
         self.assertEqual((len(z), z.sum()), (r.stable, 2 * r.contacts))
         density = s.histogram("vector_dot", "all", -1.013, 1.017, 37)  # no edge at the cosines of equal disks in touch
         expected, _ = np.histogram(s.contact_dots(weighted=0).dot, 37, (-1.013, 1.017), density=True)
         np.testing.assert_allclose(density, expected, rtol=1e-10)
         with self.assertRaises(jam.errors.ArgumentError):
-            s.class_values("coordination", "median")
+            s.local_values("coordination", "median")
 
     def test_projections_and_cumulative_spectrum(self):
         s = self.s
@@ -87,9 +87,9 @@ class Network(unittest.TestCase):
         self.assertEqual(len(g), 30)
         kinds = np.arange(s.n) % 2
         self.assertTrue((s.pair_correlation(2.0, 30, kind=kinds, a=0, b=1) != g).any())
-        big = s.class_values("force", "extended")
+        big = s.local_values("force", "extended")
         np.testing.assert_allclose(
-            s.histogram("force", jam.Class.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12
+            s.histogram("force", jam.Population.EXTENDED, 0, 10, 40).sum() * 0.25, (big < 10).mean(), rtol=1e-12
         )
         moduli = s.moduli()
         self.assertGreater(moduli.bulk, 0)

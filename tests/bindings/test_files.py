@@ -218,7 +218,7 @@ class CommandLine(unittest.TestCase):
                 s = jam.System.random(60, 2, 4, diameters=[1.0, 1.5, 2.0] * 20)
                 s.compress(growth_rate=0.1, pressure=30, collisions_per_particle=5)  # cut off amid the first stage
                 self.assertEqual(s.info.paused, jam.Phase.COMPRESS)
-                s.checkpoint_write(f"{folder}/cut.state")
+                s.write_checkpoint(f"{folder}/cut.state")
                 self.assertEqual(run(first, "a", "--resume", f"{folder}/cut.state"), whole)
                 self.assertEqual(run(second, "b", "--resume", f"{folder}/a.state"), whole)  # nothing is left to do
             self.assertEqual(run(programs[1], "c", *begin), whole)

@@ -19,7 +19,7 @@ class Interrupts(unittest.TestCase):
         cls.quenched = jam.System.random(n=N, seed=1, packing_fraction=1e-6, model="mk", mk_zeta=0.0)
         cls.file, cls.state = (os.path.join(cls.folder.name, name) for name in ("packing.dat", "state"))
         cls.quenched.write(cls.file)
-        cls.quenched.checkpoint_write(cls.state)
+        cls.quenched.write_checkpoint(cls.state)
         cls.positions = np.array(cls.quenched.positions)
 
     @classmethod
@@ -61,7 +61,7 @@ class Interrupts(unittest.TestCase):
         for call in (
             lambda: s.bond_order(64, 3.0),
             lambda: s.call("pair_correlation", None, -1, -1, 9.0, 100),
-            lambda: s.crunch_estimate(neighbour_radius=4.0),
+            lambda: s.estimate_crunch(neighbour_radius=4.0),
         ):
             self.check_interrupted(call)
 

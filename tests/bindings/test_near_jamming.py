@@ -212,7 +212,7 @@ def test_checkpoint(packing):
     packing.isoconfigurational([2, 10], runs=3, **options)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "state")
-        packing.checkpoint_write(file)
+        packing.write_checkpoint(file)
         again = jam.System.from_checkpoint(file)
     assert nj.take_runs(again).runs == 3
     rest = again.isoconfigurational([2, 10], runs=8, resume=1, **options)

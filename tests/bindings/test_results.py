@@ -23,7 +23,7 @@ def loaded(s):
     """The system, its pickle, and the same from an HDF5 file and a checkpoint."""
     with tempfile.TemporaryDirectory() as folder:
         s.save(folder + "/a.h5")
-        s.checkpoint_write(folder + "/a.state")
+        s.write_checkpoint(folder + "/a.state")
         return [
             pickle.loads(pickle.dumps(s)),
             jam.load(folder + "/a.h5"),

@@ -113,7 +113,7 @@ class Views(unittest.TestCase):
         s = jam.System.random(n=10)
         a, b = s.positions, s.positions
         self.assertEqual(a.ctypes.data, b.ctypes.data)
-        self.assertEqual(a.ctypes.data, jam.raw.jam_positions_view(s.handle)[1][0])
+        self.assertEqual(a.ctypes.data, jam.raw.jam_view_positions(s.handle)[1][0])
         with self.assertRaises(ValueError):
             a[0, 0] = 1
         with self.assertRaises(ValueError):
@@ -197,7 +197,7 @@ class Copies(unittest.TestCase):
             a = jam.System.random(n=64, seed=7, **options)
             a.compress(growth_rate=0.1, pressure=30)
             with tempfile.TemporaryDirectory() as folder:
-                a.checkpoint_write(folder + "/c")
+                a.write_checkpoint(folder + "/c")
                 b = jam.System.from_checkpoint(folder + "/c")
             c = pickle.loads(pickle.dumps(a))
             self.assertEqual((b.info, c.info), (a.info, a.info))

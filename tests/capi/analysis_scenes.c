@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <jam/jam.h>
+#include "start.h"
 #include "test.h"
 
 static jam_system *spheres(int dim, int n, double box, double diameter, const double *x) {
@@ -12,7 +13,7 @@ static jam_system *spheres(int dim, int n, double box, double diameter, const do
   jam_system *s = NULL;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = dim, o.n = n, o.box = box;
-  assert_int_equal(jam_create(&o, x, (size_t)(n * dim), &diameter, 1, &s), JAM_OK);
+  assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &s), JAM_OK);
   return s;
 }
 
@@ -130,7 +131,7 @@ static void three_disks_have_one_self_stress(void **state) {
   (void)state;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = 2, o.n = 3, o.packing_fraction = 0.4;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &s), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &s), JAM_OK);
   assert_int_equal(jam_crunch(s, NULL, &r), JAM_OK);
   assert_true(r.contacts == 5 && r.excess_contacts == 0);
   assert_int_equal(jam_forces(s, f, 8, &m), JAM_OK);

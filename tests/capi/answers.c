@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -27,7 +28,7 @@ static jam_system *start(int64_t n, double fraction, int32_t overlap) {
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.dim = 2, o.n = n, o.packing_fraction = fraction, o.overlap = overlap, o.seed = 3;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
   return sys;
 }
@@ -42,7 +43,7 @@ static jam_system *square(void) {
   for (k = 0; k < 36; ++k) x[2 * k] = (k % 6) / 6.0, x[2 * k + 1] = (k / 6) / 6.0;
   jam_create_options_init(&o, sizeof o);
   o.dim = 2, o.n = 36;
-  assert_int_equal(jam_create(&o, x, 72, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 72, &sigma, 1, &sys), JAM_OK);
   assert_int_equal(jam_set_log(sys, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
   return sys;
 }
@@ -104,14 +105,14 @@ static void reports_keep_their_status(void **state) {
   jam_crunch_options_init(&o, sizeof o);
   o.max_lps = 1, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   assert_int_equal(jam_crunch(sys, &o, NULL), JAM_LIMIT);
-  assert_int_equal(jam_crunch_report_get(sys, &r), JAM_OK);
+  assert_int_equal(jam_get_crunch_report(sys, &r), JAM_OK);
   assert_int_equal(r.status, JAM_LIMIT);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_crunch_report_get(sys, &r), JAM_OK);
+  assert_int_equal(jam_get_crunch_report(sys, &r), JAM_OK);
   assert_int_equal(r.status, JAM_OK);
   status = jam_contacts_from_geometry(lattice, NULL, NULL);
   assert_true(status > 0);
-  assert_int_equal(jam_crunch_report_get(lattice, &r), JAM_OK);
+  assert_int_equal(jam_get_crunch_report(lattice, &r), JAM_OK);
   assert_int_equal(r.status, status);
   jam_destroy(lattice);
   jam_destroy(sys);

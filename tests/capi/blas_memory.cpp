@@ -19,7 +19,7 @@ jam_system *start() {
   jam_create_options_init(&o, sizeof o);
   o.n = 100, o.packing_fraction = 0.2;
   jam_system *sys = nullptr;
-  if (jam_create(&o, nullptr, 0, nullptr, 0, &sys) != JAM_OK) std::abort();
+  if (jam_create(&o, nullptr, &sys) != JAM_OK) std::abort();
   return sys;
 }
 jam_status crunch(int threads) {

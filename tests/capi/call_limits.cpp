@@ -8,6 +8,7 @@
 #include <vector>
 
 extern "C" {
+#include "start.h"
 #include "test.h"
 }
 #include "failing_new.hpp"
@@ -26,7 +27,7 @@ jam_create_options options(int64_t n, double fraction) {
 jam_system *make(int64_t n, double fraction) {
   const jam_create_options o = options(n, fraction);
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   return sys;
 }
 
@@ -43,13 +44,20 @@ int32_t watch(const jam_progress *p, void *user) {
   return ++seen->calls >= seen->stop_at;
 }
 
+jam_start watched_by(Seen &seen) {
+  jam_start start = start_at(nullptr, 0, nullptr, 0);
+  start.progress = watch, start.user = &seen;
+  return start;
+}
+
 // Near its limit a random start takes minutes.
 void slow_start_is_watched_and_stopped(void **) {
   jam_create_options o = options(20000, 0.38);
   Seen seen;
   seen.stop_at = 3;
+  const jam_start start = watched_by(seen);
   jam_system *sys = reinterpret_cast<jam_system *>(1);
-  assert_int_equal(jam_create_watched(&o, nullptr, 0, nullptr, 0, watch, &seen, &sys), JAM_CANCELLED);
+  assert_int_equal(jam_create(&o, &start, &sys), JAM_CANCELLED);
   assert_null(sys);
   assert_int_equal(seen.calls, 3);
   assert_true(seen.fraction > 0.0 && seen.fraction < 0.38 && seen.steps > 0);
@@ -57,23 +65,24 @@ void slow_start_is_watched_and_stopped(void **) {
   o.wall_time = 0.1;
   sys = reinterpret_cast<jam_system *>(1);
   const double begin = now();
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_LIMIT);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_LIMIT);
   assert_true(now() - begin < 10.0);
   assert_null(sys);
   o.wall_time = 0.0;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_E_ARGUMENT);
   o.wall_time = 1.0, o.memory_limit = -1.0;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_E_ARGUMENT);
 }
 
 void watching_changes_nothing(void **) {
   const jam_create_options o = options(500, 0.25);
   Seen seen;
+  const jam_start start = watched_by(seen);
   jam_system *plain = make(500, 0.25), *watched = nullptr;
-  assert_int_equal(jam_create_watched(&o, nullptr, 0, nullptr, 0, watch, &seen, &watched), JAM_OK);
+  assert_int_equal(jam_create(&o, &start, &watched), JAM_OK);
   const double *a = nullptr, *b = nullptr;
   size_t len = 0;
-  jam_positions_view(plain, &a, &len), jam_positions_view(watched, &b, &len);
+  jam_view_positions(plain, &a, &len), jam_view_positions(watched, &b, &len);
   assert_memory_equal(a, b, len * sizeof *a);
   jam_destroy(plain), jam_destroy(watched);
 }
@@ -84,7 +93,7 @@ void planting_stops_in_time(void **) {
   o.model = JAM_MODEL_MK, o.wall_time = 0.1;
   jam_system *sys = nullptr;
   const double begin = now();
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_LIMIT);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_LIMIT);
   assert_true(now() - begin < 10.0);
   assert_null(sys);
 }
@@ -97,7 +106,7 @@ void fractions_out_of_reach(void **) {
     o.dim = dim;
     jam_system *sys = nullptr;
     const double begin = now();
-    assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_E_UNPLACEABLE);
+    assert_int_equal(jam_create(&o, nullptr, &sys), JAM_E_UNPLACEABLE);
     assert_true(now() - begin < 5.0);
     assert_non_null(strstr(jam_last_error(), "ends near"));
   }
@@ -128,7 +137,7 @@ void memory_limit_of_a_call(void **) {
   jam_create_options o = options(2000, 0.2);
   o.memory_limit = 1e5;
   sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
   jam_destroy(sys);
 }
@@ -139,11 +148,11 @@ void memory_limit_of_factors(void **) {
   jam_system *sys = make(6000, 0.3);
   const double *view = nullptr;
   size_t len = 0;
-  jam_positions_view(sys, &view, &len);
+  jam_view_positions(sys, &view, &len);
   const std::vector<double> before(view, view + len);
   jam_estimate e;
   e.struct_size = sizeof e;
-  assert_int_equal(jam_crunch_estimate(sys, nullptr, &e), JAM_OK);
+  assert_int_equal(jam_estimate_crunch(sys, nullptr, &e), JAM_OK);
   jam_crunch_options o;
   jam_crunch_options_init(&o, sizeof o);
   o.wall_time = 1.0;
@@ -155,7 +164,7 @@ void memory_limit_of_factors(void **) {
   assert_non_null(strstr(jam_last_error(), "need"));
   assert_true(static_cast<double>(largest) < 0.25 * e.bytes);
   assert_memory_equal(view, before.data(), len * sizeof *view);
-  assert_int_equal(jam_crunch_report_get(sys, &r), JAM_E_STATE);
+  assert_int_equal(jam_get_crunch_report(sys, &r), JAM_E_STATE);
   assert_int_equal(jam_set_memory_limit(sys, 0.6 * e.bytes), JAM_OK);
   const jam_status between = jam_crunch(sys, &o, &r);
   assert_true(between == JAM_LIMIT || between == JAM_E_MEMORY);
@@ -167,9 +176,9 @@ void memory_limit_of_factors(void **) {
   sys = make(400, 0.3);  // the rigidity test, and modes of its network
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   assert_int_equal(jam_set_memory_limit(sys, 1e5), JAM_OK);
-  jam_moduli moduli;
+  jam_moduli_report moduli;
   moduli.struct_size = sizeof moduli;
-  assert_int_equal(jam_moduli_get(sys, nullptr, &moduli), JAM_E_MEMORY);
+  assert_int_equal(jam_moduli(sys, nullptr, &moduli), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "factorised"));
   jam_destroy(sys);
 }
@@ -183,7 +192,7 @@ void memory_limit_of_one_sphere(void **) {
   jam_create_options_init(&o, sizeof o);
   o.n = 6, o.memory_limit = 1e8;
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, x, 18, diameters, 6, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 18, diameters, 6, &sys), JAM_OK);
   size_t rows = 0;
   largest = 0;
   assert_int_equal(jam_gaps(sys, 100.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
@@ -214,10 +223,10 @@ void lists_of_verbs_are_left(void **) {
   jam_create_options o = options(20000, 0.1);
   o.dim = 8, o.overlap = JAM_OVERLAP_ALLOW;  // in so few diameters a side, every search takes all pairs
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   const double *view = nullptr;
   size_t len = 0;
-  jam_positions_view(sys, &view, &len);
+  jam_view_positions(sys, &view, &len);
   const std::vector<double> before(view, view + len);
   for (const bool by_callback : {true, false}) {
     jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
@@ -238,7 +247,7 @@ void lists_of_verbs_are_left(void **) {
   // Outer lists of the Mari-Kurchan model.
   jam_create_options quenched = options(15000, 0.01);
   quenched.model = JAM_MODEL_MK;
-  assert_int_equal(jam_create(&quenched, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&quenched, nullptr, &sys), JAM_OK);
   for (const bool by_callback : {true, false}) {
     jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
     jam_run_options run;
@@ -257,7 +266,7 @@ void lists_of_verbs_keep_to_the_memory(void **) {
   jam_system *sys = make(3000, 0.3);
   const double *view = nullptr;
   size_t len = 0;
-  jam_positions_view(sys, &view, &len);
+  jam_view_positions(sys, &view, &len);
   const std::vector<double> before(view, view + len);
   assert_int_equal(jam_set_memory_limit(sys, 1e4), JAM_OK);
   jam_run_options run;

@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "io_helpers.h"
+#include "start.h"
 }
 
 namespace {
@@ -28,7 +29,7 @@ jam_create_options quenched() {
 
 jam_system *make(const jam_create_options &o) {
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   return sys;
 }
 
@@ -40,13 +41,13 @@ int32_t stop_at_once(const jam_progress *, void *user) {
 std::vector<double> positions(const jam_system *sys) {
   const double *view = nullptr;
   size_t len = 0;
-  jam_positions_view(sys, &view, &len);
+  jam_view_positions(sys, &view, &len);
   return {view, view + len};
 }
 std::vector<double> diameters(const jam_system *sys) {
   const double *view = nullptr;
   size_t len = 0;
-  jam_diameters_view(sys, &view, &len);
+  jam_view_diameters(sys, &view, &len);
   return {view, view + len};
 }
 
@@ -62,7 +63,7 @@ void setters_are_stopped(void **) {
   const std::function<jam_status()> calls[] = {
       [&] { return jam_set_positions(sys, other.data(), other.size()); },
       [&] { return jam_scale_diameters(sys, 1.0 + 1e-9); },
-      [&] { return jam_cell_set(sys, tilted, 9, nullptr, 0, nullptr, 0, nullptr); },
+      [&] { return jam_set_cell(sys, tilted, 9, nullptr, 0, nullptr, 0, nullptr); },
       [&] { return jam_strain(sys, shear, 9); }};
   for (const bool by_callback : {true, false})
     for (const auto &call : calls) {
@@ -92,17 +93,18 @@ void makers_are_stopped(void **) {
   const std::vector<double> x = positions(sys), s = diameters(sys);
   const std::string file = in_scratch("packing.dat"), checkpoint = in_scratch("packing.chk");
   assert_int_equal(jam_write(sys, file.c_str(), 0), JAM_OK);
-  assert_int_equal(jam_checkpoint_write(sys, checkpoint.c_str()), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, checkpoint.c_str()), JAM_OK);
   jam_destroy(sys);
   const auto in_cell = [&](const jam_create_options &options, jam_progress_fn callback) {
-    return jam_create_in_cell_watched(&options, tilted, 9, x.data(), x.size(), s.data(), s.size(), callback, nullptr,
-                                      &made);
+    jam_start start = start_at(x.data(), x.size(), s.data(), s.size());
+    start.cell = tilted, start.cell_len = 9, start.progress = callback;
+    return jam_create(&options, &start, &made);
   };
   const auto read = [&](jam_create_options options, jam_progress_fn callback) {
     jam_create_options plain;
     jam_create_options_init(&plain, sizeof plain);
     options.packing_fraction = plain.packing_fraction;  // the file's own
-    return jam_read_watched(file.c_str(), &options, callback, nullptr, &made);
+    return jam_read(file.c_str(), &options, callback, nullptr, &made);
   };
   const auto expect = [&](jam_status status, jam_status wanted) {
     assert_int_equal(status, wanted);
@@ -112,7 +114,7 @@ void makers_are_stopped(void **) {
   expect(in_cell(timed, nullptr), JAM_LIMIT);
   expect(read(o, stop_at_once), JAM_CANCELLED);
   expect(read(timed, nullptr), JAM_LIMIT);
-  expect(jam_checkpoint_read_watched(checkpoint.c_str(), stop_at_once, nullptr, &made), JAM_CANCELLED);
+  expect(jam_read_checkpoint(checkpoint.c_str(), stop_at_once, nullptr, &made), JAM_CANCELLED);
 }
 
 // Const calls that compare many pairs. One that a callback makes does not call it again. A cancel that came before
@@ -134,7 +136,7 @@ void const_calls_are_stopped(void **) {
       [&] { return jam_bond_order(sys, 64, 3.0, out.data(), out.size(), &rows); },
       [&] { return jam_gaps(sys, 6.0, 0, nullptr, 0, nullptr, 0, &rows); },
       [&] { return jam_pair_correlation(sys, nullptr, 0, -1, -1, 8.0, 10, out.data(), out.size(), &rows); },
-      [&] { return jam_crunch_estimate(sys, &wide, &e); }};
+      [&] { return jam_estimate_crunch(sys, &wide, &e); }};
   for (const auto &call : const_calls) {
     jam_set_progress(sys, stop_at_once, &calls);
     calls = 0;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -16,7 +17,7 @@ static jam_create_options defaults(int32_t dim, int64_t n) {
 
 static jam_system *made(const jam_create_options *o, const double *positions, size_t len, const double *sigma) {
   jam_system *sys = NULL;
-  if (jam_create(o, positions, len, sigma, sigma ? (size_t)o->n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  if (create_from(o, positions, len, sigma, sigma ? (size_t)o->n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
   return sys;
 }
 
@@ -47,7 +48,7 @@ static void sizes_and_cells_must_agree(void **state) {
   refused(made(&a, NULL, 0, NULL), made(&b, NULL, 0, NULL), "d = 2 and 3");
   b = defaults(2, 20), b.box = 2.0;
   refused(made(&a, NULL, 0, NULL), made(&b, NULL, 0, NULL), "component 0 of vector 0 is 1 and 2");
-  assert_int_equal(jam_create_in_cell(&a, cell, 4, NULL, 0, NULL, 0, &tilted), JAM_OK);
+  assert_int_equal(create_in_cell(&a, cell, 4, NULL, 0, NULL, 0, &tilted), JAM_OK);
   refused(made(&a, NULL, 0, NULL), tilted, "component 0 of vector 1 is 0 and 0.25");
 }
 

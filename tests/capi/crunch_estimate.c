@@ -1,10 +1,11 @@
-/* jam_crunch_estimate: memory against what a child process really takes, the log line, errors. */
+/* jam_estimate_crunch: memory against what a child process really takes, the log line, errors. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -14,14 +15,14 @@ static jam_system *start(int64_t n, double phi) {
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.packing_fraction = phi;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
 static jam_estimate estimated(const jam_system *sys, const jam_crunch_options *o) {
   jam_estimate e;
   e.struct_size = sizeof e;
-  assert_int_equal(jam_crunch_estimate(sys, o, &e), JAM_OK);
+  assert_int_equal(jam_estimate_crunch(sys, o, &e), JAM_OK);
   return e;
 }
 
@@ -121,7 +122,7 @@ static void wide_mixtures_take_more_steps(void **state) {
     jam_create_options_init(&o, sizeof o);
     o.n = 256;
     for (int i = 0; i < 256; ++i) sizes[i] = i < 128 ? 1.0 : ratio;
-    assert_int_equal(jam_create(&o, NULL, 0, sizes, 256, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, NULL, 0, sizes, 256, &sys), JAM_OK);
     const jam_estimate e = estimated(sys, NULL);
     assert_true(e.factorisations > 1.3 * before && e.seconds == e.factorisations * e.step_seconds);
     before = e.factorisations;
@@ -178,14 +179,14 @@ static void bad_calls_are_refused(void **state) {
   jam_estimate e;
   (void)state;
   e.struct_size = sizeof e;
-  assert_int_equal(jam_crunch_estimate(NULL, NULL, &e), JAM_E_NULL);
-  assert_int_equal(jam_crunch_estimate(sys, NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_crunch_estimate(one, NULL, &e), JAM_E_TOO_FEW);
+  assert_int_equal(jam_estimate_crunch(NULL, NULL, &e), JAM_E_NULL);
+  assert_int_equal(jam_estimate_crunch(sys, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_estimate_crunch(one, NULL, &e), JAM_E_TOO_FEW);
   jam_crunch_options_init(&o, sizeof o);
   o.max_lps = 0;
-  assert_int_equal(jam_crunch_estimate(sys, &o, &e), JAM_E_ARGUMENT);
+  assert_int_equal(jam_estimate_crunch(sys, &o, &e), JAM_E_ARGUMENT);
   e.struct_size = 0;
-  assert_int_equal(jam_crunch_estimate(sys, NULL, &e), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_estimate_crunch(sys, NULL, &e), JAM_E_STRUCT_SIZE);
   jam_destroy(sys), jam_destroy(one);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -21,7 +22,7 @@ static jam_system *grown(int dim, int64_t seed) {
   jam_compress_options_init(&md, sizeof md);
   o.n = n, o.dim = dim, o.seed = seed;
   md.growth_rate = 1e-2, md.pressure = 1e4;
-  assert_int_equal(jam_create(&o, NULL, 0, sizes, n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, sizes, n, &sys), JAM_OK);
   assert_int_equal(jam_compress(sys, &md, NULL), JAM_OK);
   return sys;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -18,7 +19,7 @@ static jam_system *start(int dim, int64_t seed) {
   for (k = 0; k < N; ++k) diameters[k] = k % 2 ? 1.4 : 1.0;
   jam_create_options_init(&o, sizeof o);
   o.n = N, o.dim = dim, o.seed = seed, o.packing_fraction = dim == 2 ? 0.4 : 0.25;
-  assert_int_equal(jam_create(&o, NULL, 0, diameters, N, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, diameters, N, &sys), JAM_OK);
   return sys;
 }
 
@@ -121,9 +122,9 @@ static void steps_add_up(int dim, int32_t method) {
   int c;
   memset(&w, 0, sizeof w), memset(&r, 0, sizeof r);
   r.struct_size = sizeof r, info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
-  jam_positions_view(sys, &x, &len), memcpy(x0, x, len * sizeof *x);
-  jam_diameters_view(sys, &s, &len), memcpy(w.sigma0, s, len * sizeof *s);
+  jam_get_info(sys, &info);
+  jam_view_positions(sys, &x, &len), memcpy(x0, x, len * sizeof *x);
+  jam_view_diameters(sys, &s, &len), memcpy(w.sigma0, s, len * sizeof *s);
   w.sys = sys, w.dim = dim, w.phi = w.phi0 = info.packing_fraction;
   jam_crunch_options_init(&o, sizeof o);
   o.method = method, o.steps = 1, o.full_lps = 1;
@@ -131,7 +132,7 @@ static void steps_add_up(int dim, int32_t method) {
   assert_int_equal(jam_crunch(sys, &o, &r), JAM_OK);
 
   /* The whole move, modulo the box; max and mean square of it as the last row has them. */
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   for (k = 0; k < (size_t)(N * dim); ++k) {
     double rest = x0[k] + w.sum[k] - x[k];
     rest -= nearbyint(rest);

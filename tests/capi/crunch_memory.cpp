@@ -17,14 +17,14 @@ jam_system *start() {
   jam_system *sys = nullptr;
   jam_create_options_init(&o, sizeof o);
   o.n = 24, o.packing_fraction = 0.3, o.seed = 2;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   return sys;
 }
 
 double fraction(const jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   return info.packing_fraction;
 }
 
@@ -32,9 +32,9 @@ double fraction(const jam_system *sys) {
 void assert_valid(const jam_system *sys) {
   const double *x, *s;
   size_t n;
-  jam_diameters_view(sys, &s, &n);
+  jam_view_diameters(sys, &s, &n);
   size_t len;
-  jam_positions_view(sys, &x, &len);
+  jam_view_positions(sys, &x, &len);
   for (size_t i = 0; i < n; ++i)
     for (size_t j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -111,7 +111,7 @@ void getters(void **) {
     e.struct_size = sizeof e;
     until_failure = k;
     const jam_status a = k ? JAM_OK : jam_crunch_history(sys, JAM_HISTORY_PHI, column, 2000, nullptr);
-    const jam_status b = jam_crunch_estimate(sys, nullptr, &e);
+    const jam_status b = jam_estimate_crunch(sys, nullptr, &e);
     until_failure = -1;
     assert_true((a == JAM_OK) == (k > 0) && (b == JAM_E_MEMORY || b == JAM_OK));
     assert_int_equal(alive, clean);

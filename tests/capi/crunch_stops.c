@@ -14,7 +14,7 @@ static jam_system *start(int n) {
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.packing_fraction = 0.3, o.seed = 5;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
@@ -111,7 +111,7 @@ static void wall_time_inside_an_lp(void **state) {
     memset(&a, 0, sizeof a);
     a.sys = sys, a.word = solver ? "estimate" : "ipm", a.wait = 0, a.sleep = solver ? 0.0001 : 1.6;
     o.lp_solver = solver, o.wall_time = solver ? 0.05 : 1.5;
-    jam_positions_view(sys, &x, &len), memcpy(before, x, len * sizeof *x);
+    jam_view_positions(sys, &x, &len), memcpy(before, x, len * sizeof *x);
     jam_set_log(sys, spring, JAM_LOG_DEBUG, &a);
     r = crunch(sys, &o, JAM_LIMIT);
     assert_true(a.sprung && r.stop_reason == JAM_STOP_WALL_TIME && r.lp_solves == 0 && r.contacts == 0);
@@ -139,7 +139,7 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
   jam_crunch_options_init(&o, sizeof o);
   o.polish = 0;
   b = crunch(plain, &o, JAM_OK);
-  jam_positions_view(plain, &y, &len);
+  jam_view_positions(plain, &y, &len);
   for (way = 0; way < 3;
        ++way) { /* before it begins, by the progress callback; in its first round; out of time there */
     jam_system *sys = start(100);
@@ -160,7 +160,7 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
     assert_true(a.stop_reason == (way == 2 ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED) && !a.jammed);
     assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction &&
                 a.force_residual == b.force_residual);
-    jam_positions_view(sys, &x, &len);
+    jam_view_positions(sys, &x, &len);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(sys);
   }
@@ -169,7 +169,7 @@ static void a_stopped_polish_leaves_the_lp_answer(void **state) {
 
 static double volume(const jam_system *sys) {
   double cell[9];
-  assert_int_equal(jam_cell_get(sys, cell, 9, NULL), JAM_OK);
+  assert_int_equal(jam_get_cell(sys, cell, 9, NULL), JAM_OK);
   return cell[0] * cell[4] * cell[8]; /* lower-triangular */
 }
 

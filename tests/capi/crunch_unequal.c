@@ -1,6 +1,7 @@
 /* Crunches of starts at the rim: few spheres of very unequal sizes, farther apart than the first linear program lets
  * them move; and cells as thin as the limits allow, that are free to become thick. Each ends with a status and a valid
  * state: a finite cell of the same volume and no overlap. */
+#include "start.h"
 #include "test.h"
 
 #include <math.h>
@@ -13,9 +14,9 @@ static void assert_valid(const jam_system *sys, double before) {
   jam_info info = {.struct_size = sizeof info};
   double cell[64];
   size_t rows;
-  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   assert_true(info.packing_fraction >= before * (1.0 - 1e-12) && info.packing_fraction < 1.0);
-  assert_int_equal(jam_cell_get(sys, cell, 64, &rows), JAM_OK);
+  assert_int_equal(jam_get_cell(sys, cell, 64, &rows), JAM_OK);
   for (size_t k = 0; k < rows; ++k) assert_true(isfinite(cell[k]));
   jam_system *copy = NULL;
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
@@ -41,7 +42,7 @@ static void very_unequal_spheres(void **state) {
         assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
         assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
         o.n = (int64_t)n, o.dim = cases[k].dim, o.seed = seed, o.packing_fraction = 0.02;
-        assert_int_equal(jam_create(&o, NULL, 0, diameters, n, &sys), JAM_OK);
+        assert_int_equal(create_from(&o, NULL, 0, diameters, n, &sys), JAM_OK);
         c.wall_time = 20.0;
         const jam_status status = jam_crunch(sys, &c, NULL);
         if (status < 0) fail_msg("d %d ratio %g seed %d: %s", o.dim, cases[k].ratio, (int)seed, jam_last_error());
@@ -59,7 +60,7 @@ static void short_steps(void **state) {
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   assert_int_equal(jam_crunch_options_init(&c, sizeof c), JAM_OK);
   o.n = 6, o.packing_fraction = 0.05;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   c.step_bound = 1e-3, c.max_lps = 30;
   const jam_status status = jam_crunch(sys, &c, NULL);
   if (status < 0) fail_msg("%s", jam_last_error());
@@ -97,7 +98,7 @@ static void thin_cells(void **state) {
     o.dim = d, o.n = cases[k].n;
     o.packing_fraction = cases[k].n * ball * pow(0.35 * h, d);
     const double longest = cases[k].flat ? wide : cell[d * d - 1];
-    const jam_status made = jam_create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys);
+    const jam_status made = create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys);
     if (0.7 * h < 1e-9 * longest) { /* coordinates along the rod would not resolve its spheres */
       assert_int_equal(made, JAM_E_ARGUMENT);
       assert_non_null(strstr(jam_last_error(), "edge"));

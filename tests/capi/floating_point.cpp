@@ -12,6 +12,7 @@
 #include <xmmintrin.h>
 #endif
 
+#include "start.h"
 #include "test.h"
 
 namespace {
@@ -82,7 +83,7 @@ struct Work {
   void keep(jam_system *sys) {
     const double *view = nullptr;
     size_t len = 0;
-    call("jam_positions_view", [&] { return jam_positions_view(sys, &view, &len); });
+    call("jam_view_positions", [&] { return jam_view_positions(sys, &view, &len); });
     numbers.insert(numbers.end(), view, view + len);
   }
 };
@@ -94,7 +95,7 @@ void life(Work &w, Seen &seen, int dim, int model) {
   jam_create_options o;
   w.call("jam_create_options_init", [&] { return jam_create_options_init(&o, sizeof o); });
   o.dim = dim, o.n = 64, o.seed = 3, o.model = model, o.packing_fraction = dim == 2 ? 0.3 : 0.2;
-  w.call("jam_create", [&] { return jam_create(&o, nullptr, 0, nullptr, 0, &sys); });
+  w.call("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   w.keep(sys);
   jam_set_progress(sys, on_progress, &seen);
   jam_set_log(sys, on_log, JAM_LOG_DEBUG, &seen);
@@ -140,7 +141,7 @@ void soft_life(Work &w) {
   jam_create_options o;
   jam_create_options_init(&o, sizeof o);
   o.n = 64, o.packing_fraction = 0.75, o.overlap = JAM_OVERLAP_ALLOW;
-  w.call("jam_create", [&] { return jam_create(&o, nullptr, 0, nullptr, 0, &sys); });
+  w.call("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   w.call("jam_decompress", [&] { return jam_decompress(sys, nullptr, nullptr); });
   w.keep(sys);
   jam_destroy(sys);
@@ -151,7 +152,7 @@ void overlaps(Work &w) {
   const double inside[6] = {.1, .1, .1, .15, .1, .1}, across[6] = {.05, .5, .5, .95, .5, .5}, diameter = 0.2;
   for (const double *x : {inside, across}) {
     jam_system *sys = nullptr;
-    const jam_status status = jam_create(nullptr, x, 6, &diameter, 1, &sys);
+    const jam_status status = create_from(nullptr, x, 6, &diameter, 1, &sys);
     w.numbers.push_back(status);
     assert_int_equal(status, JAM_E_OVERLAP);
   }
@@ -200,7 +201,7 @@ void callbacks_change_the_environment_of_the_host(void **) {
   jam_create_options_init(&o, sizeof o);
   o.n = 64;
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   jam_set_progress(sys, set_upward, nullptr);
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   const int rounding = fegetround();

@@ -68,7 +68,7 @@ Positions life_of_a_packing(bool check) {
   jam_create_options o;
   jam_create_options_init(&o, sizeof o);
   o.n = 500, o.packing_fraction = 0.3, o.seed = 4;
-  step("jam_create", [&] { return jam_create(&o, nullptr, 0, nullptr, 0, &sys); });
+  step("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   jam_run_options r;
   jam_run_options_init(&r, sizeof r);
   r.collisions_per_particle = 5.0;
@@ -83,7 +83,7 @@ Positions life_of_a_packing(bool check) {
   step("jam_modes", [&] { return jam_modes(sys, nullptr, nullptr, nullptr, 0, nullptr, 0, nullptr, 0, &needed); });
   const double *view = nullptr;
   size_t len = 0;
-  assert_int_equal(jam_positions_view(sys, &view, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(sys, &view, &len), JAM_OK);
   Positions out{std::vector<double>(view, view + len)};
   jam_destroy(sys);
   return out;

@@ -90,7 +90,7 @@ static void open_boundaries_refused(void **state) {
   expect_refused("1\n" LATTICE "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n0 0 0 0.1\n", JAM_E_UNSUPPORTED,
                  "periodic in every direction");
   put_bytes(in_scratch("good.dat"), good, strlen(good));
-  assert_int_equal(jam_read(in_scratch("good.dat"), NULL, &sys), JAM_OK);
+  assert_int_equal(jam_read(in_scratch("good.dat"), NULL, NULL, NULL, &sys), JAM_OK);
   jam_destroy(sys);
 }
 
@@ -123,7 +123,7 @@ static void every_truncation(const char *name, double ratio) {
   text = get_bytes(in_scratch(name), &size);
   for (cut = 0; cut < size; ++cut) {
     put_bytes(in_scratch("cut.dat"), text, cut);
-    if (jam_read(in_scratch("cut.dat"), NULL, &back) >= 0) {
+    if (jam_read(in_scratch("cut.dat"), NULL, NULL, NULL, &back) >= 0) {
       if (cut + 1 < size) fail_msg("%s cut to %zu of %zu bytes was read", name, cut, size);
       assert_same_bits(sys, back);
       jam_destroy(back);
@@ -133,7 +133,7 @@ static void every_truncation(const char *name, double ratio) {
     assert_true(strlen(jam_last_error()) > 0);
   }
   put_bytes(in_scratch("cut.dat"), text, size);
-  assert_int_equal(jam_read(in_scratch("cut.dat"), NULL, &back), JAM_OK);
+  assert_int_equal(jam_read(in_scratch("cut.dat"), NULL, NULL, NULL, &back), JAM_OK);
   assert_same_bits(sys, back);
   free(text);
   jam_destroy(sys);
@@ -160,7 +160,7 @@ static void header_counts_allocate_nothing(void **state) {
   put_bytes(in_scratch("endless.dat"), line, 50u << 20);
   {
     jam_system *sys = NULL;
-    assert_int_equal(jam_read(in_scratch("endless.dat"), NULL, &sys), JAM_E_FORMAT);
+    assert_int_equal(jam_read(in_scratch("endless.dat"), NULL, NULL, NULL, &sys), JAM_E_FORMAT);
     assert_non_null(strstr(jam_last_error(), "line 1: longer than"));
   }
   getrusage(RUSAGE_SELF, &after);
@@ -172,20 +172,20 @@ static void missing_files_are_refused(void **state) {
   jam_system *sys = NULL;
   jam_create_options o;
   (void)state;
-  assert_int_equal(jam_read(NULL, NULL, &sys), JAM_E_NULL);
-  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL), JAM_E_NULL);
-  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, &sys), JAM_E_IO);
+  assert_int_equal(jam_read(NULL, NULL, NULL, NULL, &sys), JAM_E_NULL);
+  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, NULL), JAM_E_NULL);
+  assert_int_equal(jam_read(in_scratch("none.dat"), NULL, NULL, NULL, &sys), JAM_E_IO);
   assert_non_null(strstr(jam_last_error(), "none.dat"));
   assert_non_null(strstr(jam_last_error(), strerror(ENOENT)));
-  assert_int_equal(jam_read("", NULL, &sys), JAM_E_IO);
-  assert_int_equal(jam_read(scratch, NULL, &sys), JAM_E_IO);
+  assert_int_equal(jam_read("", NULL, NULL, NULL, &sys), JAM_E_IO);
+  assert_int_equal(jam_read(scratch, NULL, NULL, NULL, &sys), JAM_E_IO);
   assert_non_null(strstr(jam_last_error(), strerror(EISDIR)));
   memset(&o, 0, sizeof o);
-  assert_int_equal(jam_read(in_scratch("none.dat"), &o, &sys), JAM_E_STRUCT_SIZE);
+  assert_int_equal(jam_read(in_scratch("none.dat"), &o, NULL, NULL, &sys), JAM_E_STRUCT_SIZE);
   jam_create_options_init(&o, sizeof o);
   o.box = -1.0;
   put_bytes(in_scratch("ok.dat"), "2\n1\n0.1\n0.5 0.5\n", 16);
-  assert_int_equal(jam_read(in_scratch("ok.dat"), &o, &sys), JAM_E_ARGUMENT);
+  assert_int_equal(jam_read(in_scratch("ok.dat"), &o, NULL, NULL, &sys), JAM_E_ARGUMENT);
   assert_null(sys);
 }
 
@@ -198,18 +198,18 @@ static void overlap_policy(void **state) {
   info.struct_size = sizeof info;
   put_bytes(in_scratch("o.dat"), text, strlen(text));
   jam_create_options_init(&o, sizeof o);
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_E_OVERLAP);
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_E_OVERLAP);
   o.overlap = JAM_OVERLAP_SHRINK;
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_OK);
-  jam_info_get(sys, &info);
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_OK);
+  jam_get_info(sys, &info);
   assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
   jam_destroy(sys);
   put_bytes(in_scratch("o.dat"), huge, strlen(huge)); /* far too large for the box: only on demand */
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_E_OVERLAP);
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_E_OVERLAP);
   assert_non_null(strstr(jam_last_error(), "by 3e-07, less than shrink_min 0.001"));
   o.shrink_min = 0.0;
-  assert_int_equal(jam_read(in_scratch("o.dat"), &o, &sys), JAM_OK);
-  jam_info_get(sys, &info);
+  assert_int_equal(jam_read(in_scratch("o.dat"), &o, NULL, NULL, &sys), JAM_OK);
+  jam_get_info(sys, &info);
   assert_true(info.diameter_mean > 0.3 - 1e-12 && info.diameter_mean < 0.3 + 1e-12);
   jam_destroy(sys);
 }
@@ -224,12 +224,12 @@ static void shared_file(void **state) {
     skip();
   }
   info.struct_size = sizeof info;
-  if (jam_read(path, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
-  jam_info_get(sys, &info);
+  if (jam_read(path, NULL, NULL, NULL, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  jam_get_info(sys, &info);
   assert_int_equal(info.n, 1024);
   assert_true(info.packing_fraction > 0.6439 && info.packing_fraction < 0.6440);
   assert_int_equal(jam_write(sys, in_scratch("shared.xyz"), JAM_FORMAT_AUTO), JAM_OK);
-  assert_int_equal(jam_read(in_scratch("shared.xyz"), NULL, &back), JAM_OK);
+  assert_int_equal(jam_read(in_scratch("shared.xyz"), NULL, NULL, NULL, &back), JAM_OK);
   assert_same_bits(sys, back);
   jam_destroy(sys);
   jam_destroy(back);

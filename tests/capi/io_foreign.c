@@ -2,11 +2,12 @@
  * and what was changed on the way stands in jam_notes and in the log. */
 #include <math.h>
 #include "io_helpers.h"
+#include "start.h"
 
 static jam_system *read_with(const char *text, size_t length, const jam_create_options *o) {
   jam_system *sys = NULL;
   put_bytes(in_scratch("in.any"), text, length);
-  if (jam_read(in_scratch("in.any"), o, &sys) != JAM_OK) fail_msg("%s; input:\n%s", jam_last_error(), text);
+  if (jam_read(in_scratch("in.any"), o, NULL, NULL, &sys) != JAM_OK) fail_msg("%s; input:\n%s", jam_last_error(), text);
   return sys;
 }
 static jam_system *read_text(const char *text) { return read_with(text, strlen(text), NULL); }
@@ -21,7 +22,7 @@ static void expect_refused_with(const char *text, const jam_create_options *o, j
   jam_system *sys = NULL;
   jam_status got;
   put_bytes(in_scratch("in.any"), text, strlen(text));
-  got = jam_read(in_scratch("in.any"), o, &sys);
+  got = jam_read(in_scratch("in.any"), o, NULL, NULL, &sys);
   if (got != status || !strstr(jam_last_error(), part))
     fail_msg("status %d, text '%s', expected %d and '%s'; input:\n%s", got, jam_last_error(), status, part, text);
 }
@@ -31,10 +32,10 @@ static void same_three(jam_system *sys) {
   static const double want[9] = {0.1, 0.2, 0.3, 0.6, 0.7, 0.8, 0.35, 0.9, 0.15};
   const double *x, *s;
   size_t len, k;
-  jam_positions_view(sys, &x, &len);
+  jam_view_positions(sys, &x, &len);
   assert_int_equal(len, 9);
   for (k = 0; k < 9; ++k) assert_true(x[k] == want[k]);
-  jam_diameters_view(sys, &s, &len);
+  jam_view_diameters(sys, &s, &len);
   for (k = 0; k < 3; ++k) assert_true(s[k] == 0.2);
   jam_destroy(sys);
 }
@@ -72,7 +73,7 @@ static void a_box_that_is_not_named(void **state) {
   sys = read_with(text, strlen(text), &o);
   assert_string_equal(jam_notes(sys), "");
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   assert_true(info.box == 2.0);
   jam_destroy(sys);
   jam_destroy(read_text("2\n2\n0.1\n0.1 1.000000\n-0.0000004 0.5\n")); /* rounding of six digits */
@@ -94,7 +95,7 @@ static void tables(void **state) {
   same_three(read_text("Radius id X Z Y\n0.1 7 0.1 0.3 0.2\n0.1 8 0.6 0.8 0.7\n0.1 9 0.35 0.15 0.9\n"));
   sys = read_text("x1 x2 x3 x4 d mass\n.1 .2 .3 .4 .1 7\n");
   assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: mass"));
-  jam_diameters_view(sys, &s, &len);
+  jam_view_diameters(sys, &s, &len);
   assert_true(len == 1 && s[0] == 0.1);
   jam_destroy(sys);
   o.dim = 2;
@@ -143,7 +144,7 @@ static void odd_xyz(void **state) {
   sys = read_with("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 7 .1\n",
                   strlen("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 7 .1\n"), &o);
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   assert_int_equal(info.dim, 2);
   jam_destroy(sys);
 }
@@ -158,13 +159,13 @@ static void frames(void **state) {
   (void)state;
   for (len = k = 0; k < 3; ++k) len += (size_t)snprintf(text + len, sizeof text - len, frame, 0.125 * (double)(k + 1));
   sys = read_text(text);
-  jam_positions_view(sys, &x, &k);
+  jam_view_positions(sys, &x, &k);
   assert_true(x[0] == 0.375);
   assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 read others");
   jam_destroy(sys);
   for (o.frame = -3; o.frame <= 2; ++o.frame) {
     sys = read_with(text, len, &o);
-    jam_positions_view(sys, &x, &k);
+    jam_view_positions(sys, &x, &k);
     assert_true(x[0] == 0.125 * (double)((o.frame + 3) % 3 + 1));
     jam_destroy(sys);
   }
@@ -220,14 +221,14 @@ static void known_by_their_beginning(void **state) {
   for (k = 0; k < sizeof files / sizeof *files; ++k) {
     jam_system *sys = NULL;
     put_bytes(in_scratch("in.any"), files[k].bytes, files[k].length);
-    assert_int_equal(jam_read(in_scratch("in.any"), NULL, &sys), JAM_E_FORMAT);
+    assert_int_equal(jam_read(in_scratch("in.any"), NULL, NULL, NULL, &sys), JAM_E_FORMAT);
     if (!strstr(jam_last_error(), files[k].part)) fail_msg("'%s' without '%s'", jam_last_error(), files[k].part);
   }
   {
     jam_system *sys = some_packing(3, 8, 1.0, 1.0), *back = NULL;
-    assert_int_equal(jam_checkpoint_write(sys, in_scratch("state")), JAM_OK);
-    assert_int_equal(jam_read(in_scratch("state"), NULL, &back), JAM_E_FORMAT);
-    assert_non_null(strstr(jam_last_error(), "a checkpoint of libjam: jam_checkpoint_read"));
+    assert_int_equal(jam_write_checkpoint(sys, in_scratch("state")), JAM_OK);
+    assert_int_equal(jam_read(in_scratch("state"), NULL, NULL, NULL, &back), JAM_E_FORMAT);
+    assert_non_null(strstr(jam_last_error(), "a checkpoint of libjam: jam_read_checkpoint"));
     jam_destroy(sys);
   }
 }
@@ -265,7 +266,7 @@ static void shrinking_is_told(void **state) {
   (void)state;
   o.dim = 2;
   o.overlap = JAM_OVERLAP_SHRINK;
-  assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
   assert_int_equal(
       sscanf(jam_notes(sys), "warning: all diameters were multiplied by %lf: spheres %d and %d", &factor, &i, &j), 3);
   assert_true(fabs(factor - 0.75) < 1e-15);

@@ -1,6 +1,7 @@
 /* Files for other programs: LAMMPS data, compressed files, contact networks, ParaView's files, the page. */
 #include <math.h>
 #include "io_helpers.h"
+#include "start.h"
 
 static jam_system *in_cell(int32_t dim, const double *cell) {
   jam_create_options o;
@@ -9,7 +10,7 @@ static jam_system *in_cell(int32_t dim, const double *cell) {
   o.dim = dim;
   o.n = 40;
   o.packing_fraction = 0.1;
-  assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
   return sys;
 }
 
@@ -17,7 +18,7 @@ static void same_after(jam_system *sys, const char *name) {
   jam_system *back = NULL;
   const char *path = in_scratch(name);
   assert_int_equal(jam_write(sys, path, JAM_FORMAT_AUTO), JAM_OK);
-  if (jam_read(path, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
+  if (jam_read(path, NULL, NULL, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
   assert_same_bits(sys, back);
   jam_destroy(back);
 }
@@ -33,9 +34,9 @@ static void lammps_data_keeps_the_bits(void **state) {
     same_after(cube, "a.data");
     same_after(cube, "a.lmp.gz");
     same_after(tilted, "b.data");
-    assert_int_equal(jam_read(in_scratch("b.data"), NULL, &back), JAM_OK);
-    jam_cell_get(tilted, before, count, NULL);
-    jam_cell_get(back, after, count, NULL);
+    assert_int_equal(jam_read(in_scratch("b.data"), NULL, NULL, NULL, &back), JAM_OK);
+    jam_get_cell(tilted, before, count, NULL);
+    jam_get_cell(back, after, count, NULL);
     assert_memory_equal(before, after, count * sizeof *before);
     jam_destroy(back);
     jam_destroy(cube);
@@ -61,11 +62,11 @@ static void compressed_files_keep_the_bits(void **state) {
   assert_int_equal(plain, packed);
   assert_memory_equal(bytes, once, packed);
   put_bytes(in_scratch("cut.xyz.gz"), bytes, packed / 2);
-  assert_int_equal(jam_read(in_scratch("cut.xyz.gz"), NULL, &back), JAM_E_FORMAT);
+  assert_int_equal(jam_read(in_scratch("cut.xyz.gz"), NULL, NULL, NULL, &back), JAM_E_FORMAT);
   assert_non_null(strstr(jam_last_error(), "compressed file is cut short"));
   bytes[packed / 2] ^= 0x55;
   put_bytes(in_scratch("bad.xyz.gz"), bytes, packed);
-  assert_int_equal(jam_read(in_scratch("bad.xyz.gz"), NULL, &back), JAM_E_FORMAT);
+  assert_int_equal(jam_read(in_scratch("bad.xyz.gz"), NULL, NULL, NULL, &back), JAM_E_FORMAT);
   assert_null(back);
   free(bytes);
   free(once);

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include "jam/jam.h"
+#include "start.h"
 #include "test.h"
 
 static char scratch[64];
@@ -74,7 +75,7 @@ static inline void expect_refused(const char *text, jam_status status, const cha
   jam_system *sys = NULL;
   jam_status got;
   put_bytes(path, text, strlen(text));
-  got = jam_read(path, NULL, &sys);
+  got = jam_read(path, NULL, NULL, NULL, &sys);
   if (got != status || !strstr(jam_last_error(), part))
     fail_msg("status %d, expected %d; text '%s', expected '%s' in it; input:\n%s", got, status, jam_last_error(), part,
              text);
@@ -94,7 +95,7 @@ static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, dou
   o.box = box;
   o.seed = 7;
   o.packing_fraction = 0.02; /* d = 8 saturates below 0.1 */
-  assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
   free(diameters);
   return sys;
 }
@@ -105,17 +106,17 @@ static inline void assert_same_bits(const jam_system *a, const jam_system *b) {
   jam_info ia, ib;
   ia.struct_size = sizeof ia;
   ib.struct_size = sizeof ib;
-  assert_int_equal(jam_info_get(a, &ia), JAM_OK);
-  assert_int_equal(jam_info_get(b, &ib), JAM_OK);
+  assert_int_equal(jam_get_info(a, &ia), JAM_OK);
+  assert_int_equal(jam_get_info(b, &ib), JAM_OK);
   assert_int_equal(ia.dim, ib.dim);
   assert_int_equal(ia.n, ib.n);
   assert_memory_equal(&ia.box, &ib.box, sizeof ia.box);
-  jam_positions_view(a, &x, &x_len);
-  jam_positions_view(b, &y, &y_len);
+  jam_view_positions(a, &x, &x_len);
+  jam_view_positions(b, &y, &y_len);
   assert_int_equal(x_len, y_len);
   assert_memory_equal(x, y, x_len * sizeof *x);
-  jam_diameters_view(a, &x, &x_len);
-  jam_diameters_view(b, &y, &y_len);
+  jam_view_diameters(a, &x, &x_len);
+  jam_view_diameters(b, &y, &y_len);
   assert_int_equal(x_len, y_len);
   assert_memory_equal(x, y, x_len * sizeof *x);
 }

@@ -5,7 +5,8 @@
 static jam_system *read_text(const char *text) {
   jam_system *sys = NULL;
   put_bytes(in_scratch("in.any"), text, strlen(text));
-  if (jam_read(in_scratch("in.any"), NULL, &sys) != JAM_OK) fail_msg("%s; input:\n%s", jam_last_error(), text);
+  if (jam_read(in_scratch("in.any"), NULL, NULL, NULL, &sys) != JAM_OK)
+    fail_msg("%s; input:\n%s", jam_last_error(), text);
   return sys;
 }
 
@@ -15,14 +16,14 @@ static void same_spheres(jam_system *sys, int32_t dim, size_t n, const double *x
   size_t len, k;
   jam_info info;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   assert_int_equal(info.dim, dim);
   assert_int_equal(info.n, n);
   assert_true(fabs(info.box / box - 1) < 1e-14);
-  jam_positions_view(sys, &y, &len);
+  jam_view_positions(sys, &y, &len);
   for (k = 0; k < len; ++k)
     if (!(fabs(x[k] - y[k]) < 1e-14 * box)) fail_msg("coordinate %zu is %.17g, not %.17g", k, y[k], x[k]);
-  jam_diameters_view(sys, &s, &len);
+  jam_view_diameters(sys, &s, &len);
   for (k = 0; k < len; ++k) assert_true(s[k] == sizes[k]);
   jam_destroy(sys);
 }
@@ -85,7 +86,7 @@ static void tilts_are_kept(void **state) {
   (void)state;
   for (k = 0; k < 2; ++k) {
     jam_system *sys = read_text(texts[k]);
-    jam_cell_get(sys, cell, 9, NULL);
+    jam_get_cell(sys, cell, 9, NULL);
     assert_memory_equal(cell, want, sizeof want);
     jam_destroy(sys);
   }
@@ -168,15 +169,15 @@ static void tilted_dumps(void **state) {
                               "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-0.3 2.5 0.5\n0 2.25 -0.3\n0 2 0.25\n"
                               "ITEM: ATOMS radius x y z\n0.1 0.5 0.5 0.5\n0.1 1 1 1\n0.1 1.5 1.5 1.5\n");
   (void)state;
-  jam_cell_get(sys, cell, 9, NULL);
+  jam_get_cell(sys, cell, 9, NULL);
   for (len = 0; len < 9; ++len) assert_true(fabs(cell[len] - want[len]) < 1e-15);
   jam_destroy(sys);
   sys = read_text(
       "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 2.5 0.5\n0 2 0\n-0.5 0.5 0\n"
       "ITEM: ATOMS radius xs ys zs\n0.1 0.125 0.2 0.5\n");
-  jam_cell_get(sys, cell, 4, NULL);
+  jam_get_cell(sys, cell, 4, NULL);
   assert_memory_equal(cell, flat, sizeof flat);
-  jam_positions_view(sys, &x, &len);
+  jam_view_positions(sys, &x, &len);
   assert_int_equal(len, 2);
   assert_true(fabs(x[0] - at[0]) < 1e-15 && fabs(x[1] - at[1]) < 1e-15);
   jam_destroy(sys);

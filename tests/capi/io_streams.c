@@ -42,10 +42,11 @@ static void signals_do_not_end_a_read(void **state) {
   for (k = 0; k < 3; ++k) {
     const char *name = in_scratch(names[k]);
     pid_t child;
-    assert_int_equal(k == 2 ? jam_checkpoint_write(sys, name) : jam_write(sys, name, 0), JAM_OK);
+    assert_int_equal(k == 2 ? jam_write_checkpoint(sys, name) : jam_write(sys, name, 0), JAM_OK);
     child = feed(name, fifo);
     ring(1000);
-    assert_int_equal(k == 2 ? jam_checkpoint_read(fifo, &back) : jam_read(fifo, NULL, &back), JAM_OK);
+    assert_int_equal(k == 2 ? jam_read_checkpoint(fifo, NULL, NULL, &back) : jam_read(fifo, NULL, NULL, NULL, &back),
+                     JAM_OK);
     ring(0);
     assert_same_bits(sys, back);
     jam_destroy(back);
@@ -70,10 +71,10 @@ static void silent_pipes_are_left(void **state) {
   assert_int_equal(mkfifo(fifo, 0600), 0);
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.wall_time = 0.1;
-  assert_int_equal(jam_read(fifo, &o, &sys), JAM_LIMIT);
-  assert_int_equal(jam_checkpoint_read_watched(fifo, stop_at_once, NULL, &sys), JAM_CANCELLED);
+  assert_int_equal(jam_read(fifo, &o, NULL, NULL, &sys), JAM_LIMIT);
+  assert_int_equal(jam_read_checkpoint(fifo, stop_at_once, NULL, &sys), JAM_CANCELLED);
   writer = open(fifo, O_RDWR); /* connected, and still silent */
-  assert_int_equal(jam_read(fifo, &o, &sys), JAM_LIMIT);
+  assert_int_equal(jam_read(fifo, &o, NULL, NULL, &sys), JAM_LIMIT);
   close(writer);
   assert_null(sys);
 }
@@ -94,13 +95,13 @@ static void reading_keeps_to_its_limits(void **state) {
   pack("printf '3\\n1\\n0.1\\n'; yes '' | head -c 300000000; echo 0 0 0", path, 0);
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.wall_time = 0.1;
-  assert_int_equal(jam_read(path, &o, &sys), JAM_LIMIT);
-  assert_int_equal(jam_read_watched(path, NULL, stop_at_once, NULL, &sys), JAM_CANCELLED);
+  assert_int_equal(jam_read(path, &o, NULL, NULL, &sys), JAM_LIMIT);
+  assert_int_equal(jam_read(path, NULL, stop_at_once, NULL, &sys), JAM_CANCELLED);
 
   pack("printf '3\\n200000\\n1e-5\\n'; yes '0 0 0' | head -n 200000", path, 0);
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.memory_limit = 1e6;
-  assert_int_equal(jam_read(path, &o, &sys), JAM_E_MEMORY);
+  assert_int_equal(jam_read(path, &o, NULL, NULL, &sys), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "much.dat.gz"));
   assert_null(sys);
 }
@@ -113,13 +114,13 @@ static void gzip_members(void **state) {
   (void)state;
   pack("printf '3\\n1\\n0.1\\n0.25 0.'", path, 0);
   pack("printf '5 0.75\\n'", path, 1);
-  assert_int_equal(jam_read(path, NULL, &sys), JAM_OK);
+  assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_OK);
   jam_destroy(sys);
   sys = NULL;
   more = fopen(path, "ab");
   fputs("0.1 0.1 0.1\n", more);
   fclose(more);
-  assert_int_equal(jam_read(path, NULL, &sys), JAM_E_FORMAT);
+  assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_E_FORMAT);
   assert_null(sys);
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "jam/jam.h"
+#include "start.h"
 #include "test.h"
 
 enum { N = 60, D = 3, M = 3, RUNS = 12, BLOCK = 4 };
@@ -18,7 +19,7 @@ static jam_system *packing(void) {
   jam_create_options_init(&o, sizeof o);
   o.n = N;
   o.dim = D;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   jam_compress_options_init(&c, sizeof c);
   c.packing_fraction = 0.5;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -126,8 +127,8 @@ static void stopped_runs_are_kept_and_resume(void **state) {
   o.wall_time = 1e9;
   assert_in_range(r.runs, 6, RUNS - 1);
   assert_true(mkstemp(path) >= 0);
-  assert_int_equal(jam_checkpoint_write(cut, path), JAM_OK);
-  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(cut, path), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   unlink(path);
   assert_int_equal(run(again, &o, &r), JAM_OK);
   get(again, -1, &b);
@@ -227,7 +228,7 @@ static void bad_input_is_named(void **state) {
   double x;
   (void)state;
   r.struct_size = sizeof r;
-  assert_int_equal(jam_isoconf_report_get(sys, &r), JAM_E_STATE);
+  assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_E_STATE);
   assert_int_equal(jam_isoconfigurational(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
   assert_non_null(strstr(jam_last_error(), "ascending"));
   assert_int_equal(jam_isoconfigurational(sys, &o, NULL, none, 1, NULL, 0, NULL), JAM_E_ARGUMENT);
@@ -271,7 +272,7 @@ static void bad_input_is_named(void **state) {
   m.alpha = 2.0;
   m.temperature = 0.0;
   assert_int_equal(jam_isoconfigurational(sys, &o, &m, instants, M, NULL, 0, NULL), JAM_E_ARGUMENT);
-  assert_int_equal(jam_isoconf_report_get(sys, &r), JAM_OK); /* what was there is still there */
+  assert_int_equal(jam_get_isoconf_report(sys, &r), JAM_OK); /* what was there is still there */
   assert_int_equal(r.runs, RUNS);
   assert_int_equal(jam_isoconf_series(sys, -1, 99, &x, 1, NULL), JAM_E_ARGUMENT);
   assert_int_equal(jam_isoconf_series(sys, 3, 0, &x, 1, NULL), JAM_E_ARGUMENT);
@@ -308,7 +309,7 @@ static void one_sphere_cannot_run(void **state) {
   (void)state;
   jam_create_options_init(&o, sizeof o);
   o.n = 1;
-  assert_int_equal(jam_create(&o, x, 3, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 3, &sigma, 1, &sys), JAM_OK);
   assert_int_equal(run(sys, &i, &r), JAM_NOT_CONVERGED);
   assert_int_equal(r.stop_reason, JAM_STOP_STALLED);
   assert_int_equal(r.runs, 0);

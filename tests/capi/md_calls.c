@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 static jam_system *make(int64_t n, int32_t dim, double fraction) {
@@ -12,7 +13,7 @@ static jam_system *make(int64_t n, int32_t dim, double fraction) {
   o.n = n;
   o.dim = dim;
   o.packing_fraction = fraction;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
@@ -26,7 +27,7 @@ static jam_md_report empty_report(void) {
 static double fraction_of(const jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
-  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   return info.packing_fraction;
 }
 
@@ -158,7 +159,7 @@ static jam_system *lattice(double diameter) {
   }
   jam_create_options_init(&o, sizeof o);
   o.n = 27;
-  assert_int_equal(jam_create(&o, x, 81, &diameter, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 81, &diameter, 1, &sys), JAM_OK);
   return sys;
 }
 
@@ -179,11 +180,11 @@ static void starts_at_contact(void **state) {
   c.wall_time = 10.0;
   jam_create_options_init(&o, sizeof o);
   o.n = 4;
-  assert_int_equal(jam_create(&o, row, 12, &diameter, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, row, 12, &diameter, 1, &sys), JAM_OK);
   assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
   assert_true(report.max_overlap < 1e-14 && report.energy_drift < 1e-12);
   jam_destroy(sys);
-  assert_int_equal(jam_create(&o, row, 12, &diameter, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, row, 12, &diameter, 1, &sys), JAM_OK);
   assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
   assert_true(report.max_overlap < 1e-13);
   jam_destroy(sys);
@@ -284,11 +285,11 @@ static void cancels_with_a_valid_state(void **state) {
     assert_int_equal(jam_compress(sys, NULL, &report), JAM_CANCELLED);
     assert_int_equal(report.stop_reason, JAM_STOP_CANCELLED);
     /* Valid: jam_create takes it without an overlap. */
-    jam_positions_view(sys, &x, &x_len);
-    jam_diameters_view(sys, &d, &d_len);
+    jam_view_positions(sys, &x, &x_len);
+    jam_view_diameters(sys, &d, &d_len);
     jam_create_options_init(&o, sizeof o);
     o.n = 300;
-    assert_int_equal(jam_create(&o, x, x_len, d, d_len, &again), JAM_OK);
+    assert_int_equal(create_from(&o, x, x_len, d, d_len, &again), JAM_OK);
     jam_destroy(again);
     jam_destroy(sys);
   }
@@ -311,20 +312,20 @@ static void box_only_scales(void **state) {
   jam_md_report ra = empty_report(), rb = empty_report();
   int k;
   (void)state;
-  jam_positions_view(a, &x, &len);
+  jam_view_positions(a, &x, &len);
   for (k = 0; k < 180; ++k) scaled[k] = 8.0 * x[k];
-  jam_diameters_view(a, &d, &len);
+  jam_view_diameters(a, &d, &len);
   diameter = 8.0 * d[0];
   jam_create_options_init(&o, sizeof o);
   o.n = 60;
   o.box = 8.0;
-  assert_int_equal(jam_create(&o, scaled, 180, &diameter, 1, &b), JAM_OK);
+  assert_int_equal(create_from(&o, scaled, 180, &diameter, 1, &b), JAM_OK);
   assert_int_equal(jam_compress(a, NULL, &ra), JAM_OK);
   assert_int_equal(jam_compress(b, NULL, &rb), JAM_OK);
   assert_true(ra.pressure == rb.pressure && ra.collisions == rb.collisions && ra.time == rb.time);
-  jam_positions_view(b, &y, &len);
+  jam_view_positions(b, &y, &len);
   for (k = 0; k < 180; ++k) assert_true(y[k] == 8.0 * x[k]);
-  jam_diameters_view(b, &e, &len);
+  jam_view_diameters(b, &e, &len);
   assert_true(e[0] == 8.0 * d[0]);
   jam_destroy(a);
   jam_destroy(b);

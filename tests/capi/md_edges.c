@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "jam/jam.h"
+#include "start.h"
 #include "test.h"
 
 static double volume_of_sphere(int d, double sigma) {
@@ -24,7 +25,7 @@ static void the_largest_ratio_stays_supported(void **state) {
     jam_create_options_init(&o, sizeof o);
     jam_compress_options_init(&c, sizeof c);
     o.dim = 2, o.n = 20, o.seed = seed, o.packing_fraction = 0.1;
-    assert_int_equal(jam_create(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
     c.growth_rate = 1.0, c.packing_fraction = 0.11, c.collisions_per_particle = 20.0;
     assert_true(jam_compress(sys, &c, NULL) >= 0);
     for (k = 0; k < 20; ++k) assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
@@ -54,11 +55,11 @@ static void light_spheres_may_be_fast(void **state) {
     report.struct_size = sizeof report;
     for (k = 0; k < 20; ++k) sizes[k] = k < 4 ? cases[q].ratio : 1.0;
     o.dim = cases[q].dim, o.n = 20, o.packing_fraction = cases[q].fraction, o.masses = JAM_MASSES_VOLUME;
-    assert_int_equal(jam_create(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, NULL, 0, sizes, 20, &sys), JAM_OK);
     r.collisions_per_particle = 5.0;
     if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("d = %zu: %s", d, jam_last_error());
     assert_true(report.energy_drift < 1e-9);
-    assert_int_equal(jam_velocities_view(sys, &v, &len), JAM_OK);
+    assert_int_equal(jam_view_velocities(sys, &v, &len), JAM_OK);
     for (k = 0; k < 20; ++k) mean += pow(sizes[k] / cases[q].ratio, (double)d) / 20.0;
     for (k = 0; k < len; ++k) kinetic += pow(sizes[k / d] / cases[q].ratio, (double)d) / mean * v[k] * v[k];
     assert_true(fabs(kinetic / (20.0 * (double)d) - 1.0) < 1e-9);
@@ -96,7 +97,7 @@ static void growth_ends_at_the_own_image(void **state) {
     r.struct_size = sizeof r;
     for (c = 0; c < d; ++c) cell[c * d + c] = c == d - 1 ? pow(h, 1.0 - d) : h;
     o.dim = d, o.n = n, o.seed = seed, o.packing_fraction = n * volume_of_sphere(d, 0.25 * h);
-    status = jam_create_in_cell(&o, cell, (size_t)d * (size_t)d, NULL, 0, NULL, 0, &sys);
+    status = create_in_cell(&o, cell, (size_t)d * (size_t)d, NULL, 0, NULL, 0, &sys);
     if (status != JAM_OK) { /* a rod too long for its spheres is refused before anything runs */
       assert_int_equal(status, JAM_E_ARGUMENT);
       assert_non_null(strstr(jam_last_error(), "longest edge"));
@@ -105,7 +106,7 @@ static void growth_ends_at_the_own_image(void **state) {
     g.growth_rate = pow(10.0, -1.0 + (double)(seed % 4)), g.pressure = 1e5;
     status = jam_compress(sys, &g, &r);
     if (status < 0) fail_msg("d = %d, h = %g: %s", d, h, jam_last_error());
-    assert_int_equal(jam_diameters_view(sys, &sigma, &len), JAM_OK);
+    assert_int_equal(jam_view_diameters(sys, &sigma, &len), JAM_OK);
     assert_true(sigma[0] <= h * (1.0 + 1e-12));
     if (status == JAM_NOT_CONVERGED && sigma[0] > 0.999 * h) {
       ++met;
@@ -133,7 +134,7 @@ static void a_sphere_fills_the_cell(void **state) {
     jam_create_options_init(&o, sizeof o);
     jam_crunch_options_init(&c, sizeof c);
     r.struct_size = sizeof r;
-    assert_int_equal(jam_create(&o, x, 3 * (size_t)n, sizes, (size_t)n, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, x, 3 * (size_t)n, sizes, (size_t)n, &sys), JAM_OK);
     assert_int_equal(jam_compress(sys, NULL, NULL), JAM_NOT_CONVERGED);
     assert_non_null(strstr(jam_last_error(), "sphere 0 touches its own image, nothing can grow here"));
     assert_int_equal(jam_crunch(sys, &c, &r), JAM_NOT_JAMMED);
@@ -159,7 +160,7 @@ static void a_rod_too_long_for_its_spheres_is_refused(void **state) {
     jam_create_options_init(&o, sizeof o);
     for (c = 0; c < 8; ++c) cell[c * 9] = c == 7 ? pow(heights[k], -7.0) : heights[k];
     o.dim = 8, o.n = 10, o.packing_fraction = 10.0 * volume_of_sphere(8, 0.7 * heights[k]);
-    assert_int_equal(jam_create_in_cell(&o, cell, 64, NULL, 0, NULL, 0, &sys), JAM_E_ARGUMENT);
+    assert_int_equal(create_in_cell(&o, cell, 64, NULL, 0, NULL, 0, &sys), JAM_E_ARGUMENT);
     assert_non_null(strstr(jam_last_error(), "longest edge"));
   }
 }
@@ -176,8 +177,8 @@ static void default_starts_in_every_dimension(void **state) {
     i.struct_size = sizeof i;
     jam_create_options_init(&o, sizeof o);
     o.dim = d, o.n = 300;
-    assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
-    assert_int_equal(jam_info_get(sys, &i), JAM_OK);
+    assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+    assert_int_equal(jam_get_info(sys, &i), JAM_OK);
     assert_true(fabs(i.packing_fraction / expected - 1.0) < 1e-12);
     jam_destroy(sys);
   }

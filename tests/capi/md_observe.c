@@ -15,7 +15,7 @@ static jam_system *fluid_of(int64_t n, double fraction) {
   jam_create_options_init(&o, sizeof o);
   o.n = n;
   o.box = 2.0;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 0.05;
   c.pressure = 1e12;
@@ -38,7 +38,7 @@ static jam_md_report run(jam_system *sys, double collisions) {
 static void copy_positions(const jam_system *sys, double *out) {
   const double *x;
   size_t len;
-  jam_positions_view(sys, &x, &len);
+  jam_view_positions(sys, &x, &len);
   memcpy(out, x, len * sizeof *x);
 }
 
@@ -96,7 +96,7 @@ static void series_pairs_and_displacements_agree(void **state) {
   assert_int_equal(
       jam_observed_pairs(sys, pair, 2 * needed, pair_collisions, needed, momentum, needed, &total_time, &needed),
       JAM_OK);
-  jam_diameters_view(sys, &d, &len);
+  jam_view_diameters(sys, &d, &len);
   for (k = 0; k < needed; ++k) {
     assert_true(pair[2 * k] >= 0 && pair[2 * k] < pair[2 * k + 1] && pair[2 * k + 1] < N && momentum[k] > 0.0);
     if (k) assert_true(pair[2 * k] > pair[2 * k - 2] || pair[2 * k + 1] > pair[2 * k - 1]);
@@ -105,7 +105,7 @@ static void series_pairs_and_displacements_agree(void **state) {
   }
   assert_int_equal(sum_pairs, 400 * N);
   /* p = 1 + (N - 1) / N sum sigma |dp| / (2 K t), for d (N - 1) degrees of freedom: what the two reports say. */
-  jam_velocities_view(sys, &v, &len);
+  jam_view_velocities(sys, &v, &len);
   for (k = 0; k < len; ++k) twice_kinetic += v[k] * v[k];
   mean = (report.pressure * report.time + second.pressure * second.time) / (report.time + second.time);
   assert_true(fabs((1.0 + (N - 1.0) / N * virial / (twice_kinetic * total_time)) / mean - 1.0) < 1e-9);
@@ -114,7 +114,7 @@ static void series_pairs_and_displacements_agree(void **state) {
   run(bare, 400), run(bare, 400);
   copy_positions(bare, start);
   assert_memory_equal(start, end, sizeof start);
-  assert_int_equal(jam_observe_stop(sys), JAM_OK);
+  assert_int_equal(jam_stop_observing(sys), JAM_OK);
   run(sys, 100);
   assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 80 * 6); /* stopped, and still there */
@@ -197,7 +197,7 @@ static int32_t look(const jam_progress *p, void *user) {
   if (!p->snapshot) return 0;
   assert_int_equal(p->snapshot, s->count + 1);
   s->at[s->count++] = p->collisions;
-  jam_positions_view(s->sys, &x, &len);
+  jam_view_positions(s->sys, &x, &len);
   assert_int_equal(jam_pair_correlation(s->sys, NULL, 0, -1, -1, 2.0, 20, g, 20, &needed), JAM_OK);
   assert_true(g[3] == 0.0 && g[11] > 1.0); /* no overlap in the state shown */
   if (s->count > 1) assert_memory_not_equal(x, s->first, sizeof s->first);
@@ -261,7 +261,7 @@ static void bad_calls_are_refused(void **state) {
   (void)state;
   jam_create_options_init(&c, sizeof c);
   c.n = 8;
-  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   assert_int_equal(jam_observe(NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_observed_series(sys, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 static const char *path = "md_resume_checkpoint.bin";
@@ -20,14 +21,14 @@ static jam_system *make_in(const double *cell, int32_t model, int32_t dim, int64
   o.packing_fraction = fraction;
   o.masses = dim == 2 ? JAM_MASSES_VOLUME : JAM_MASSES_EQUAL;
   if (cell) {
-    assert_int_equal(jam_create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
+    assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys), JAM_OK);
   } else if (dim == 2) {
     double diameters[200];
     int64_t k;
     for (k = 0; k < n; ++k) diameters[k] = k % 2 ? 1.0 : 1.4;
-    assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
   } else {
-    assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+    assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   }
   return sys;
 }
@@ -37,8 +38,8 @@ static jam_system *make(int32_t model, int32_t dim, int64_t n, double fraction) 
 }
 
 static void same(const jam_system *a, const jam_system *b) {
-  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view,
-                                                                                jam_velocities_view};
+  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_view_positions, jam_view_diameters,
+                                                                                jam_view_velocities};
   int k;
   for (k = 0; k < 3; ++k) {
     const double *x, *y;
@@ -53,12 +54,12 @@ static void same(const jam_system *a, const jam_system *b) {
 static void from_file(jam_system **sys) {
   jam_system *again = NULL;
   jam_info info;
-  assert_int_equal(jam_checkpoint_write(*sys, path), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(*sys, path), JAM_OK);
   jam_destroy(*sys);
-  if (jam_checkpoint_read(path, &again) < 0) print_error("%s\n", jam_last_error());
+  if (jam_read_checkpoint(path, NULL, NULL, &again) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(again);
   info.struct_size = sizeof info;
-  assert_int_equal(jam_info_get(again, &info), JAM_OK);
+  assert_int_equal(jam_get_info(again, &info), JAM_OK);
   assert_true(info.paused != 0);
   *sys = again;
 }
@@ -183,7 +184,7 @@ struct writer {
 static int32_t write_once(const jam_progress *p, void *user) {
   struct writer *w = user;
   if (p->fraction > 0.2 && !w->written) {
-    assert_int_equal(jam_checkpoint_write(w->sys, path), JAM_OK);
+    assert_int_equal(jam_write_checkpoint(w->sys, path), JAM_OK);
     w->written = 1;
   }
   return 0;
@@ -200,7 +201,7 @@ static void checkpoint_from_the_callback(void **state) {
   jam_set_progress(sys, write_once, &w);
   assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
   assert_true(w.written);
-  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   r.resume = 1;
   assert_int_equal(jam_run(again, &r, NULL), JAM_OK);
   same(sys, again);
@@ -212,7 +213,7 @@ static void checkpoint_from_the_callback(void **state) {
 static int32_t paused(const jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
-  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   return info.paused;
 }
 
@@ -235,7 +236,7 @@ static void finished_stages_cannot_be_resumed(void **state) {
   assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
   assert_int_equal(jam_run(sys, &r, NULL), JAM_E_STATE); /* the other verb */
   assert_int_equal(paused(sys), JAM_PHASE_COMPRESS);
-  jam_velocities_view(sys, &v, &len);
+  jam_view_velocities(sys, &v, &len);
   memcpy(other, v, sizeof other);
   assert_int_equal(jam_set_velocities(sys, other, len), JAM_OK); /* re-aimed: another future */
   assert_int_equal(paused(sys), 0);
@@ -270,7 +271,7 @@ static void refuse_damaged(int32_t model) {
   jam_compress_options_init(&c, sizeof c);
   c.collisions_per_particle = 20;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
   jam_destroy(sys);
   f = fopen(path, "rb");
   size = fread(data, 1, sizeof data, f);
@@ -291,7 +292,7 @@ static void refuse_damaged(int32_t model) {
     fwrite(&sum, 1, 8, f);
     fclose(f);
     data[at] = was;
-    if (jam_checkpoint_read(path, &out) < 0) {
+    if (jam_read_checkpoint(path, NULL, NULL, &out) < 0) {
       ++refused;
       continue;
     }
@@ -316,13 +317,13 @@ static void checkpoints_of_another_version_are_refused(void **state) {
   jam_system *sys = make(JAM_MODEL_EUCLID, 3, 10, 0.2), *out = NULL;
   FILE *f;
   (void)state;
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
   jam_destroy(sys);
   f = fopen(path, "rb+");
   fseek(f, 7, SEEK_SET);
   fputc('0', f);
   fclose(f);
-  assert_int_equal(jam_checkpoint_read(path, &out), JAM_E_FORMAT);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &out), JAM_E_FORMAT);
   assert_non_null(strstr(jam_last_error(), "another version"));
   remove(path);
 }

@@ -12,7 +12,7 @@ static jam_system *start(void) {
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.n = 60, o.seed = 2;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
@@ -33,7 +33,7 @@ static jam_compress_options defaults(void) {
 static void same_packing(const jam_system *a, const jam_system *b) {
   const double *x, *y;
   size_t m, k;
-  jam_positions_view(a, &x, &m), jam_positions_view(b, &y, &k);
+  jam_view_positions(a, &x, &m), jam_view_positions(b, &y, &k);
   assert_int_equal(m, k);
   assert_memory_equal(x, y, m * sizeof *x);
 }
@@ -116,12 +116,12 @@ static void a_stopped_protocol_goes_on(void **state) {
     assert_int_equal(jam_set_progress(cut, stop_at_times, &asked), JAM_OK);
     status = jam_compress(cut, &o, NULL);
     info.struct_size = sizeof info;
-    assert_int_equal(jam_info_get(cut, &info), JAM_OK);
+    assert_int_equal(jam_get_info(cut, &info), JAM_OK);
     if (status == JAM_OK) break;
     assert_int_equal(status, JAM_CANCELLED);
     assert_int_equal(info.paused, JAM_PHASE_COMPRESS);
-    assert_int_equal(jam_checkpoint_write(cut, "md_stages.bin"), JAM_OK);
-    assert_int_equal(jam_checkpoint_read("md_stages.bin", &again), JAM_OK);
+    assert_int_equal(jam_write_checkpoint(cut, "md_stages.bin"), JAM_OK);
+    assert_int_equal(jam_read_checkpoint("md_stages.bin", NULL, NULL, &again), JAM_OK);
     jam_destroy(cut);
     cut = again;
     o.resume = 1;
@@ -145,7 +145,7 @@ static void wall_time_cuts_the_protocol(void **state) {
   while ((status = jam_compress(cut, &o, NULL)) == JAM_LIMIT) {
     jam_info info;
     info.struct_size = sizeof info;
-    assert_int_equal(jam_info_get(cut, &info), JAM_OK);
+    assert_int_equal(jam_get_info(cut, &info), JAM_OK);
     o.resume = info.paused != 0;
   }
   assert_int_equal(status, JAM_OK);

@@ -15,13 +15,13 @@ static jam_system *make(int32_t model) {
   o.n = 120;
   o.model = model;
   o.packing_fraction = model == JAM_MODEL_MK ? 1.5 : 0.3;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
 static void same(const jam_system *a, const jam_system *b) {
-  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_positions_view, jam_diameters_view,
-                                                                                jam_velocities_view};
+  jam_status (*const views[])(const jam_system *, const double **, size_t *) = {jam_view_positions, jam_view_diameters,
+                                                                                jam_view_velocities};
   int k;
   for (k = 0; k < 3; ++k) {
     const double *x, *y;
@@ -41,8 +41,8 @@ static void resumes_to_the_same_bits(void **state) {
     jam_compress_options c;
     jam_compress_options_init(&c, sizeof c);
     assert_int_equal(jam_run(a, NULL, NULL), JAM_OK);
-    assert_int_equal(jam_checkpoint_write(a, path), JAM_OK);
-    assert_int_equal(jam_checkpoint_read(path, &b), JAM_OK);
+    assert_int_equal(jam_write_checkpoint(a, path), JAM_OK);
+    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &b), JAM_OK);
     same(a, b);
     assert_int_equal(jam_run(a, NULL, NULL), JAM_OK);
     assert_int_equal(jam_run(b, NULL, NULL), JAM_OK);
@@ -62,12 +62,12 @@ static void refuses_what_is_no_checkpoint(void **state) {
   size_t size, cut;
   FILE *f;
   (void)state;
-  assert_int_equal(jam_checkpoint_write(NULL, path), JAM_E_NULL);
-  assert_int_equal(jam_checkpoint_write(sys, NULL), JAM_E_NULL);
-  assert_int_equal(jam_checkpoint_read(NULL, &out), JAM_E_NULL);
-  assert_int_equal(jam_checkpoint_read("no such file", &out), JAM_E_IO);
-  assert_int_equal(jam_checkpoint_write(sys, "no such folder/x"), JAM_E_IO);
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(NULL, path), JAM_E_NULL);
+  assert_int_equal(jam_write_checkpoint(sys, NULL), JAM_E_NULL);
+  assert_int_equal(jam_read_checkpoint(NULL, NULL, NULL, &out), JAM_E_NULL);
+  assert_int_equal(jam_read_checkpoint("no such file", NULL, NULL, &out), JAM_E_IO);
+  assert_int_equal(jam_write_checkpoint(sys, "no such folder/x"), JAM_E_IO);
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
   f = fopen(path, "rb");
   size = fread(data, 1, sizeof data, f);
   fclose(f);
@@ -75,7 +75,7 @@ static void refuses_what_is_no_checkpoint(void **state) {
     f = fopen(path, "wb");
     fwrite(data, 1, cut, f);
     fclose(f);
-    assert_int_equal(jam_checkpoint_read(path, &out), JAM_E_FORMAT);
+    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &out), JAM_E_FORMAT);
   }
   for (cut = 0; cut < size; cut += size / 23) { /* a bit changed anywhere */
     f = fopen(path, "wb");
@@ -83,7 +83,7 @@ static void refuses_what_is_no_checkpoint(void **state) {
     fwrite(data, 1, size, f);
     data[cut] ^= 4;
     fclose(f);
-    assert_int_equal(jam_checkpoint_read(path, &out), JAM_E_FORMAT);
+    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &out), JAM_E_FORMAT);
   }
   assert_null(out);
   remove(path);

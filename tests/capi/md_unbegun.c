@@ -12,7 +12,7 @@ static jam_system *dense(int32_t dim, int64_t n) {
   jam_system *sys = NULL;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = dim, o.n = n, o.seed = 5;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
@@ -23,8 +23,8 @@ static jam_system *move(jam_system *sys, int way) {
   if (way == HERE) return sys;
   if (way == COPY) assert_int_equal(jam_copy(sys, &next), JAM_OK);
   if (way == FILE_) {
-    assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
-    assert_int_equal(jam_checkpoint_read(path, &next), JAM_OK);
+    assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
+    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &next), JAM_OK);
     remove(path);
   }
   jam_destroy(sys);
@@ -34,21 +34,21 @@ static jam_system *move(jam_system *sys, int way) {
 static void assert_same(jam_system *a, jam_system *b) {
   const double *x, *y;
   size_t m, n;
-  assert_int_equal(jam_positions_view(a, &x, &m), JAM_OK);
-  assert_int_equal(jam_positions_view(b, &y, &n), JAM_OK);
+  assert_int_equal(jam_view_positions(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_view_positions(b, &y, &n), JAM_OK);
   assert_true(m == n && !memcmp(x, y, n * sizeof *x));
-  assert_int_equal(jam_velocities_view(a, &x, &m), JAM_OK);
-  assert_int_equal(jam_velocities_view(b, &y, &n), JAM_OK);
+  assert_int_equal(jam_view_velocities(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_view_velocities(b, &y, &n), JAM_OK);
   assert_true(m == n && !memcmp(x, y, n * sizeof *x));
-  assert_int_equal(jam_diameters_view(a, &x, &m), JAM_OK);
-  assert_int_equal(jam_diameters_view(b, &y, &n), JAM_OK);
+  assert_int_equal(jam_view_diameters(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_view_diameters(b, &y, &n), JAM_OK);
   assert_true(m == n && !memcmp(x, y, n * sizeof *x));
 }
 
 static int32_t paused(const jam_system *sys) {
   jam_info i;
   i.struct_size = sizeof i;
-  assert_int_equal(jam_info_get(sys, &i), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &i), JAM_OK);
   return i.paused;
 }
 

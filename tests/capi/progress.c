@@ -32,7 +32,7 @@ static jam_system *random_start(int32_t dim, int64_t n, seen *s) {
   jam_system *sys = NULL;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = dim, o.n = n, o.seed = 2;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   memset(s, 0, sizeof *s);
   assert_int_equal(jam_set_progress(sys, look, s), JAM_OK);
   return sys;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -16,7 +17,7 @@ static jam_system *start(int32_t dim, int64_t n, double fraction, int32_t overla
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.dim = dim, o.n = n, o.packing_fraction = fraction, o.overlap = overlap, o.seed = 3;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
   return sys;
 }
 
@@ -67,8 +68,8 @@ static void same_results(const jam_system *a, const jam_system *b, int crunched)
   jam_comparison c;
   memset(&r, 0, sizeof r), memset(&s, 0, sizeof s), memset(&c, 0, sizeof c);
   r.struct_size = s.struct_size = sizeof r, c.struct_size = sizeof c;
-  assert_int_equal(jam_crunch_report_get(a, &r), JAM_OK);
-  assert_int_equal(jam_crunch_report_get(b, &s), JAM_OK);
+  assert_int_equal(jam_get_crunch_report(a, &r), JAM_OK);
+  assert_int_equal(jam_get_crunch_report(b, &s), JAM_OK);
   assert_memory_equal(&r, &s, sizeof r);
   same_array32(jam_contacts, a, b), same_array32(jam_coordination, a, b);
   same_array(jam_contact_vectors, a, b), same_array(jam_contact_gaps, a, b), same_array(jam_forces, a, b);
@@ -88,8 +89,8 @@ static void same_results(const jam_system *a, const jam_system *b, int crunched)
 static void kept(jam_system *sys, int crunched) {
   jam_system *copy = NULL, *again = NULL;
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
-  if (jam_checkpoint_read(path, &again) != JAM_OK) fail_msg("%s", jam_last_error());
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
+  if (jam_read_checkpoint(path, NULL, NULL, &again) != JAM_OK) fail_msg("%s", jam_last_error());
   same_results(sys, copy, crunched);
   same_results(sys, again, crunched);
   jam_destroy(again);
@@ -130,8 +131,8 @@ static void networks_of_other_calls_are_kept(void **state) {
   o.crunch = 0;
   assert_true(jam_decompress(sys, &o, NULL) >= 0);
   kept(sys, 0);
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
-  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   same_array(energies, sys, again);
   jam_destroy(again);
   jam_destroy(sys);
@@ -152,7 +153,7 @@ static int knows(const jam_system *sys) {
   size_t m;
   jam_crunch_report r;
   r.struct_size = sizeof r;
-  return (jam_contacts(sys, NULL, 0, &m) == JAM_OK) + (jam_crunch_report_get(sys, &r) == JAM_OK) +
+  return (jam_contacts(sys, NULL, 0, &m) == JAM_OK) + (jam_get_crunch_report(sys, &r) == JAM_OK) +
          (gains(sys, NULL, 0, &m) == JAM_OK) + (energies(sys, NULL, 0, &m) == JAM_OK);
 }
 
@@ -173,7 +174,7 @@ static void each_move(int move, jam_system *sys) {
       assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
       break;
     case 1:
-      assert_int_equal(jam_positions_view(sys, &view, &len), JAM_OK);
+      assert_int_equal(jam_view_positions(sys, &view, &len), JAM_OK);
       assert_int_equal(jam_set_positions(sys, view, len), JAM_OK);
       break;
     case 2:
@@ -200,7 +201,7 @@ static void every_move_clears_all(void **state) {
   jam_system *jammed = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
   (void)state;
   crunch(jammed, JAM_STRAIN_NONE, 0, 0.0, 0);
-  assert_int_equal(jam_positions_view(jammed, &v, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(jammed, &v, &len), JAM_OK);
   assert_int_equal(jam_set_velocities(jammed, v, len), JAM_OK); /* any will do */
   assert_int_equal(knows(jammed), 3);                           /* velocities move nothing */
   for (move = 0; move < 6; ++move) {
@@ -276,7 +277,7 @@ static void notes_are_kept(void **state) {
   (void)state;
   jam_create_options_init(&o, sizeof o);
   o.dim = 2, o.n = 2, o.overlap = JAM_OVERLAP_SHRINK;
-  assert_int_equal(jam_create(&o, x, 4, &sigma, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
   assert_true(strlen(jam_notes(sys)) > 0);
   assert_int_equal(jam_add_note(sys, "the velocities of the file were not read"), JAM_OK);
   assert_non_null(strstr(jam_notes(sys), "overlapped by"));
@@ -286,8 +287,8 @@ static void notes_are_kept(void **state) {
   assert_int_equal(jam_add_note(sys, NULL), JAM_E_NULL);
   assert_int_equal(jam_add_note(NULL, "a"), JAM_E_NULL);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
-  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   assert_string_equal(jam_notes(copy), jam_notes(sys));
   assert_string_equal(jam_notes(again), jam_notes(sys));
   jam_destroy(again);
@@ -306,12 +307,12 @@ static void streams_go_on_after_a_checkpoint(void **state) {
   jam_monte_carlo_options_init(&mc, sizeof mc);
   mc.sweeps = 20, mc.step = 0.1;
   assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
-  assert_int_equal(jam_checkpoint_write(sys, path), JAM_OK);
-  assert_int_equal(jam_checkpoint_read(path, &again), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &again), JAM_OK);
   assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
   assert_int_equal(jam_monte_carlo(again, &mc, NULL), JAM_OK);
-  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
-  assert_int_equal(jam_positions_view(again, &y, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(again, &y, &len), JAM_OK);
   assert_memory_equal(x, y, len * sizeof *x);
   jam_destroy(again);
   jam_destroy(sys);

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 static uint64_t hash_of(uint64_t hash, const void *data, size_t size) {
@@ -21,9 +22,9 @@ static void say(const char *what, int dim, const jam_system *sys) {
   const double *view;
   size_t len;
   uint64_t hash = 14695981039346656037u;
-  if (jam_positions_view(sys, &view, &len)) exit(1);
+  if (jam_view_positions(sys, &view, &len)) exit(1);
   hash = hash_of(hash, view, len * sizeof *view);
-  if (jam_diameters_view(sys, &view, &len)) exit(1);
+  if (jam_view_diameters(sys, &view, &len)) exit(1);
   printf("d=%d %s %016" PRIx64 "\n", dim, what, hash_of(hash, view, len * sizeof *view));
 }
 static void need(jam_status status) {
@@ -38,7 +39,7 @@ static jam_system *start(int dim, int model, double fraction, int overlap) {
   for (int k = 0; k < 120; ++k) diameter[k] = k % 2 ? 1.4 : 1.0;
   need(jam_create_options_init(&o, sizeof o));
   o.dim = dim, o.n = 120, o.seed = 5, o.model = model, o.overlap = overlap, o.packing_fraction = fraction;
-  need(jam_create(&o, NULL, 0, diameter, 120, &sys));
+  need(create_from(&o, NULL, 0, diameter, 120, &sys));
   return sys;
 }
 
@@ -83,7 +84,7 @@ static void clp(int dim, int n, double fraction) {
   need(jam_crunch_options_init(&c, sizeof c));
   o.dim = dim, o.n = n, o.seed = 3, o.packing_fraction = fraction;
   c.lp_solver = JAM_LP_CLP, c.method = JAM_CRUNCH_SEQUENTIAL_LP, c.max_lps = 1;
-  need(jam_create(&o, NULL, 0, NULL, 0, &sys));
+  need(jam_create(&o, NULL, &sys));
   if (jam_crunch(sys, &c, NULL) < 0) need(JAM_E_SOLVER);
   say("crunch by Clp", dim, sys);
   jam_destroy(sys);

@@ -180,14 +180,14 @@ static void laws_are_read_from_text(void **state) {
   jam_diameters_options o = options(JAM_SIZES_EQUAL);
   double rows[4];
   size_t needed, k;
-  assert_int_equal(jam_diameters_parse("lognormal: deviation=0.3, share=volume,draw=random", &o, NULL, 0, &needed),
+  assert_int_equal(jam_parse_diameters("lognormal: deviation=0.3, share=volume,draw=random", &o, NULL, 0, &needed),
                    JAM_OK);
   assert_true(o.law == JAM_SIZES_LOGNORMAL && o.deviation == 0.3 && o.share == JAM_SHARE_VOLUME);
   assert_true(o.draw == JAM_DRAW_RANDOM && needed == 0);
-  assert_int_equal(jam_diameters_parse("list:1=0.75,1.4=2.5e-1", &o, rows, 4, &needed), JAM_OK);
+  assert_int_equal(jam_parse_diameters("list:1=0.75,1.4=2.5e-1", &o, rows, 4, &needed), JAM_OK);
   assert_true(o.law == JAM_SIZES_LIST && needed == 4 && rows[0] == 1 && rows[3] == 0.25);
   for (k = 0; bad[k]; ++k)
-    if (jam_diameters_parse(bad[k], &o, NULL, 0, &needed) >= 0) fail_msg("%s was taken", bad[k]);
+    if (jam_parse_diameters(bad[k], &o, NULL, 0, &needed) >= 0) fail_msg("%s was taken", bad[k]);
   (void)state;
 }
 
@@ -202,13 +202,13 @@ static void curves_are_read_from_files(void **state) {
   fputs("# grading of a sand\nsize,passing\n0.5, 0\n1, 40 # half\n2, 100\n", file);
   fclose(file);
   snprintf(text, sizeof text, "sieve:%s", name);
-  assert_int_equal(jam_diameters_parse(text, &o, rows, 6, &needed), JAM_OK);
+  assert_int_equal(jam_parse_diameters(text, &o, rows, 6, &needed), JAM_OK);
   assert_true(needed == 6 && rows[2] == 1 && rows[3] == 40 && rows[5] == 100);
   file = fopen(name, "w");
   assert_non_null(file);
   fputs("0.5 0\n1 40 7\n", file);
   fclose(file);
-  assert_int_equal(jam_diameters_parse(text, &o, NULL, 0, &needed), JAM_E_FORMAT);
+  assert_int_equal(jam_parse_diameters(text, &o, NULL, 0, &needed), JAM_E_FORMAT);
   assert_non_null(strstr(jam_last_error(), "line 2"));
   remove(name);
   (void)state;
@@ -223,7 +223,7 @@ static void fluids_do_not_begin_to_grow_beyond_their_reach(void **state) {
   jam_compress_options_init(&o, sizeof o);
   c.n = 1000;
   r.struct_size = sizeof r;
-  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   o.packing_fraction = 0.70;
   assert_int_equal(jam_compress(sys, &o, &r), JAM_E_UNPLACEABLE);
   assert_non_null(strstr(jam_last_error(), "Farr and Groot"));

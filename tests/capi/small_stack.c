@@ -19,31 +19,31 @@ static void write_and_read(jam_system *sys, int dim) {
   jam_system *other = NULL;
   snprintf(name, sizeof name, "small_stack_%d.xyz.gz", (int)getpid());
   check(jam_write(sys, name, JAM_FORMAT_XYZ), "jam_write", dim);
-  check(jam_read(name, NULL, &other), "jam_read", dim);
+  check(jam_read(name, NULL, NULL, NULL, &other), "jam_read", dim);
   jam_destroy(other);
   remove(name);
   snprintf(name, sizeof name, "small_stack_%d", (int)getpid());
-  check(jam_checkpoint_write(sys, name), "jam_checkpoint_write", dim);
-  check(jam_checkpoint_read(name, &other), "jam_checkpoint_read", dim);
+  check(jam_write_checkpoint(sys, name), "jam_write_checkpoint", dim);
+  check(jam_read_checkpoint(name, NULL, NULL, &other), "jam_read_checkpoint", dim);
   jam_destroy(other);
   check(jam_write_page(sys, name, "t", 0, "", NULL, 0), "jam_write_page", dim);
   remove(name);
 }
 static void analyse(jam_system *sys, int dim) {
   static double out[100000];
-  static int32_t iout[100000];
+  static int32_t whole[100000];
   size_t needed;
-  jam_moduli moduli;
+  jam_moduli_report moduli;
   jam_dos_options dos;
   memset(&moduli, 0, sizeof moduli);
   moduli.struct_size = sizeof moduli;
   check(jam_rigidity(sys, JAM_RIGIDITY_STRICT, NULL), "jam_rigidity", dim);
   check(jam_modes(sys, NULL, NULL, out, 100000, NULL, 0, NULL, 0, &needed), "jam_modes", dim);
-  check(jam_moduli_get(sys, NULL, &moduli), "jam_moduli_get", dim);
+  check(jam_moduli(sys, NULL, &moduli), "jam_moduli", dim);
   check(jam_gaps(sys, 0.1, 0, out, 100000, NULL, 0, &needed), "jam_gaps", dim);
   check(jam_floppy_modes(sys, NULL, 0, &needed), "jam_floppy_modes", dim);
   check(jam_stress_states(sys, out, 100000, NULL, 0, NULL, &needed), "jam_stress_states", dim);
-  check(jam_contacts(sys, iout, 100000, &needed), "jam_contacts", dim);
+  check(jam_contacts(sys, whole, 100000, &needed), "jam_contacts", dim);
   check(jam_dos_options_init(&dos, sizeof dos), "jam_dos_options_init", dim);
   if (dim == 3) check(jam_local_fraction(sys, out, 100000, &needed), "jam_local_fraction", dim);
   if (dim <= 3) {
@@ -64,7 +64,7 @@ static void relax(int dim) {
   jam_system *sys = NULL;
   check(jam_create_options_init(&o, sizeof o), "jam_create_options_init", dim);
   o.dim = dim, o.n = 60, o.packing_fraction = fraction[dim], o.overlap = JAM_OVERLAP_ALLOW;
-  check(jam_create(&o, NULL, 0, NULL, 0, &sys), "jam_create", dim);
+  check(jam_create(&o, NULL, &sys), "jam_create", dim);
   check(jam_decompress(sys, NULL, NULL), "jam_decompress", dim);
   jam_destroy(sys);
 }
@@ -79,7 +79,7 @@ static void live(int dim) {
   jam_system *sys = NULL;
   check(jam_create_options_init(&o, sizeof o), "jam_create_options_init", dim);
   o.dim = dim, o.n = dim <= 3 ? 200 : 60, o.seed = 3, o.packing_fraction = fraction[dim];
-  check(jam_create(&o, NULL, 0, NULL, 0, &sys), "jam_create", dim);
+  check(jam_create(&o, NULL, &sys), "jam_create", dim);
   check(jam_monte_carlo_options_init(&mc, sizeof mc), "jam_monte_carlo_options_init", dim);
   mc.sweeps = 5;
   check(jam_monte_carlo(sys, &mc, NULL), "jam_monte_carlo", dim);

@@ -1,5 +1,6 @@
 /* Spheres that share a centre: the energy has a cusp there, so it is no minimum. They part, along a direction that the
  * seed draws, and end where the same start moved by a hair ends: at an energy as low. */
+#include "start.h"
 #include "test.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ static jam_system *soft(const double *x, int n, int dim, double diameter, int64_
   jam_system *sys = NULL;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = dim, o.overlap = JAM_OVERLAP_ALLOW, o.seed = seed;
-  assert_int_equal(jam_create(&o, x, (size_t)(n * dim), &diameter, 1, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, (size_t)(n * dim), &diameter, 1, &sys), JAM_OK);
   return sys;
 }
 
@@ -41,7 +42,7 @@ static double closest(const jam_system *sys, int n, int dim) {
   const double *x;
   size_t len;
   double least = 1.0;
-  jam_positions_view(sys, &x, &len);
+  jam_view_positions(sys, &x, &len);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -113,7 +114,7 @@ static void coincident_pairs_are_counted(void **state) {
   const double *p;
   size_t len, rows = 0;
   int64_t pairs = 0;
-  jam_positions_view(sys, &p, &len);
+  jam_view_positions(sys, &p, &len);
   for (int i = 0; i < 64; ++i) /* sigma is half the box: each pair overlaps through one image at most */
     for (int j = 0; j < i; ++j) {
       double r2 = 0.0;
@@ -139,7 +140,7 @@ static void seeds_choose_the_direction(void **state) {
       const double *p;
       size_t len;
       relaxed(sys, JAM_MINIMISER_NEWTON, 1e-12);
-      jam_positions_view(sys, &p, &len);
+      jam_view_positions(sys, &p, &len);
       if (again) assert_memory_equal(first, p, sizeof first);
       if (!again && seed > 1) assert_memory_not_equal(first, p, sizeof first);
       memcpy(first, p, sizeof first);

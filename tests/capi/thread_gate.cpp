@@ -22,7 +22,7 @@ jam_system *start(int64_t n, double fraction) {
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.packing_fraction = fraction;
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   return sys;
 }
 
@@ -32,7 +32,7 @@ jam_status info_of(const jam_system *sys) {
   jam_info info;
   std::memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  return jam_info_get(sys, &info);
+  return jam_get_info(sys, &info);
 }
 
 // Every const call that other threads were seen to crash with, and some more.
@@ -41,10 +41,10 @@ std::vector<jam_status> const_calls(jam_system *sys, const char *path) {
   size_t len = 0, needed = 0;
   jam_system *copy = nullptr;
   std::vector<jam_status> out{info_of(sys),
-                              jam_positions_view(sys, &view, &len),
-                              jam_diameters_view(sys, &view, &len),
+                              jam_view_positions(sys, &view, &len),
+                              jam_view_diameters(sys, &view, &len),
                               jam_copy(sys, &copy),
-                              jam_checkpoint_write(sys, path),
+                              jam_write_checkpoint(sys, path),
                               jam_gaps(sys, 0.1, 0, nullptr, 0, nullptr, 0, &needed)};
   jam_destroy(copy);
   return out;
@@ -71,7 +71,7 @@ void only_the_callback_reads_during_a_verb(void **) {
   std::vector<jam_status> seen;
   Visit visit{sys, file_name(), nullptr, 0};
   const std::string good = visit.path + ".good";
-  assert_int_equal(jam_checkpoint_write(sys, good.c_str()), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, good.c_str()), JAM_OK);
   visit.elsewhere = [&] {
     seen = const_calls(sys, good.c_str());
     seen.push_back(jam_run(sys, nullptr, nullptr));
@@ -87,7 +87,7 @@ void only_the_callback_reads_during_a_verb(void **) {
   for (const jam_status status : seen) assert_int_equal(status, JAM_E_BUSY);
   for (const std::string &path : {visit.path, good}) {
     jam_system *read = nullptr;
-    assert_int_equal(jam_checkpoint_read(path.c_str(), &read), JAM_OK);
+    assert_int_equal(jam_read_checkpoint(path.c_str(), nullptr, nullptr, &read), JAM_OK);
     jam_destroy(read);
     std::remove(path.c_str());
   }
@@ -109,7 +109,7 @@ void races_end_in_a_status(void **) {
         if (status == JAM_OK) ++done;
       }
       jam_system *read = nullptr;
-      const jam_status status = jam_checkpoint_read(mine.c_str(), &read);
+      const jam_status status = jam_read_checkpoint(mine.c_str(), nullptr, nullptr, &read);
       if (status != JAM_OK && status != JAM_E_IO) ++failures;  // no file was written yet
       jam_destroy(read);
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 extern "C" {
+#include "start.h"
 #include "test.h"
 }
 
@@ -27,7 +28,7 @@ jam_status create(const std::vector<double> &x, double diameter, int32_t overlap
   jam_create_options_init(&o, sizeof o);
   o.n = static_cast<int64_t>(x.size() / 3), o.overlap = overlap, o.model = model;
   o.shrink_min = 0.0;  // by any factor
-  return jam_create(&o, x.data(), x.size(), &diameter, 1, out);
+  return create_from(&o, x.data(), x.size(), &diameter, 1, out);
 }
 
 void diameters_of_the_box(void **) {
@@ -42,7 +43,7 @@ void diameters_of_the_box(void **) {
     assert_int_equal(create(x, 0.01, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &small), JAM_OK);
     const double *a = nullptr, *b = nullptr;
     size_t len = 0;
-    jam_diameters_view(sys, &a, &len), jam_diameters_view(small, &b, &len);
+    jam_view_diameters(sys, &a, &len), jam_view_diameters(small, &b, &len);
     assert_true(std::fabs(a[0] - b[0]) < 1e-12 * b[0]);
     jam_destroy(sys), jam_destroy(small);
   }
@@ -53,7 +54,7 @@ void radii_of_boxes(void **) {
   jam_create_options_init(&o, sizeof o);
   o.n = 20000, o.packing_fraction = 0.2;
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   size_t needed = 0;
   assert_int_equal(jam_gaps(sys, 900.0, 0, nullptr, 0, nullptr, 0, &needed), JAM_E_MEMORY);
   assert_non_null(strstr(jam_last_error(), "pairs"));
@@ -71,7 +72,7 @@ void fractions_in_any_box(void **) {
     o.n = 40, o.box = box, o.overlap = JAM_OVERLAP_SHRINK;
     const double diameter = 0.1 * box;
     jam_system *sys = nullptr;
-    assert_int_equal(jam_create(&o, x.data(), x.size(), &diameter, 1, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, x.data(), x.size(), &diameter, 1, &sys), JAM_OK);
     std::vector<double> phi(40);
     size_t needed = 0;
     const jam_status status = jam_local_fraction(sys, phi.data(), phi.size(), &needed);
@@ -86,7 +87,7 @@ void fractions_in_any_box(void **) {
 // A device without an end is no checkpoint.
 void endless_file(void **) {
   jam_system *sys = nullptr;
-  assert_int_equal(jam_checkpoint_read("/dev/zero", &sys), JAM_E_FORMAT);
+  assert_int_equal(jam_read_checkpoint("/dev/zero", nullptr, nullptr, &sys), JAM_E_FORMAT);
   assert_null(sys);
 }
 

@@ -2,33 +2,7 @@
 #ifndef JAM_FUZZ_CALLS_H
 #define JAM_FUZZ_CALLS_H
 #include <time.h>
-#include "calls_analysis.h"
-#include "calls_dynamics.h"
-
-typedef void (*fuzz_call)(input *in, jam_system *sys);
-static const fuzz_call calls[] = {
-    call_run,
-    call_compress,
-    call_crunch,
-    call_monte_carlo,
-    call_isoconfigurational,
-    call_relax,
-    call_decompress,
-    call_observe,
-    call_scale,
-    call_set_positions,
-    call_set_velocities,
-    call_cell,
-    call_network,
-    call_rigidity,
-    call_modes,
-    call_spectrum,
-    call_floppy,
-    call_gaps,
-    call_structure,
-    call_classes,
-    call_copy,
-};
+#include "calls_bundles.h"
 
 static inline double now(void) {
   struct timespec t;
@@ -42,6 +16,30 @@ static inline int32_t stop_soon(const jam_progress *p, void *user) {
   (void)p, (void)user;
   return now() - begun > 0.1;
 }
+
+/* A number of the table of calls, or another one. */
+static inline double other_number(input *in, double usual) { return byte(in) % 2 ? usual : number(in); }
+static inline int32_t other_count(input *in, int32_t usual) {
+  const int how = byte(in);
+  if (how < 64) return usual;
+  return how < 224 ? how % 32 - 1 : (int32_t)1 << how % 31;
+}
+#define CALL_INPUT input
+#define NUMBER(usual) other_number(in, usual)
+#define COUNT(usual) other_count(in, usual)
+#define DAMAGED(options, size) damage(in, options, size)
+#define SECONDS 0.02
+#define CALL_PROGRESS stop_soon
+#include "../calls.h"
+#include "../start.h"
+
+/* Several calls in an order that makes sense. */
+typedef void (*fuzz_call)(input *in, jam_system *sys);
+static const fuzz_call bundles[] = {
+    call_run,      call_compress,   call_crunch,   call_monte_carlo, call_isoconfigurational,
+    call_relax,    call_decompress, call_observe,  call_cell,        call_network,
+    call_rigidity, call_modes,      call_spectrum, call_compared,
+};
 
 static inline jam_system *create(input *in) {
   jam_create_options o;
@@ -70,9 +68,9 @@ static inline jam_system *create(input *in) {
   for (k = 0; k < coordinates; ++k) x[k] = given % 32 == 3 ? number(in) : byte(in) / 256.0;
   if (coordinates == 0 || o.n != n || given % 3 == 0) {
     if (o.n > 50) o.n = 50;
-    status = jam_create(&o, NULL, 0, NULL, 0, &sys);
+    status = jam_create(&o, NULL, &sys);
   } else {
-    status = jam_create(&o, x, (size_t)coordinates, diameter, (size_t)n, &sys);
+    status = create_from(&o, x, (size_t)coordinates, diameter, (size_t)n, &sys);
   }
   check_status(status);
   demand((status == JAM_OK) == (sys != NULL), "a handle exactly with success");
@@ -86,6 +84,10 @@ static inline void limit(jam_system *sys) {
 
 static inline void any_call(input *in, jam_system *sys) {
   begun = now();
-  calls[(size_t)byte(in) % (sizeof calls / sizeof *calls)](in, sys);
+  if (byte(in) % 2)
+    bundles[(size_t)byte(in) % (sizeof bundles / sizeof *bundles)](in, sys);
+  else
+    check_status(every_call[(size_t)byte(in) % CALLS].call(in, sys));
+  remove(call_file());
 }
 #endif

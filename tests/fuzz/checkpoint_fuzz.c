@@ -1,4 +1,4 @@
-/* Fuzz target over jam_checkpoint_read: the input changes a good checkpoint, and the checksum is put right, so that
+/* Fuzz target over jam_read_checkpoint: the input changes a good checkpoint, and the checksum is put right, so that
  * every field is reached. The answer is an error with a text, or a valid system that runs on.
  *
  * Input: a byte that chooses the checkpoint, then changes: two bytes of place, one of kind, and what it needs. The good
@@ -56,7 +56,7 @@ static jam_system *make(int kind) {
   o.dim = kind == 3 || kind == 6 ? 3 : 2;
   o.n = kind >= 6 ? 16 : 8;
   if (kind == 1) o.model = JAM_MODEL_MK, o.packing_fraction = 1.0;
-  demand(jam_create(&o, NULL, 0, NULL, 0, &sys) == JAM_OK, "create");
+  demand(jam_create(&o, NULL, &sys) == JAM_OK, "create");
   jam_set_progress(sys, stop_at_once, NULL);
   if (kind == 2) demand(jam_run(sys, NULL, NULL) == JAM_CANCELLED, "run");
   if (kind == 3) demand(jam_compress(sys, NULL, NULL) == JAM_CANCELLED, "compress");
@@ -92,9 +92,9 @@ static void use_results(jam_system *sys) {
   jam_crunch_report r;
   size_t m = 0;
   r.struct_size = sizeof r;
-  check_status(jam_crunch_report_get(sys, &r));
+  check_status(jam_get_crunch_report(sys, &r));
   check_status(jam_contact_classes(sys, flags, LARGEST, &m));
-  check_status(jam_class_values(sys, JAM_QUANTITY_FORCE_PAIRS, JAM_CLASS_ALL, out, LARGEST, &m));
+  check_status(jam_local_values(sys, JAM_LOCAL_FORCE_PAIRS, JAM_POPULATION_ALL, out, LARGEST, &m));
   check_status(jam_hessian_map(sys, flags, LARGEST, &m));
   check_status(jam_modes(sys, NULL, NULL, out, LARGEST, NULL, 0, NULL, 0, &m));
   check_status(jam_stress_states(sys, out, LARGEST, NULL, 0, NULL, &m));
@@ -110,7 +110,7 @@ static jam_status read_back(const uint8_t *data, size_t size, jam_system **sys) 
   const int fd = memfd_create("input", 0);
   demand(fd >= 0 && write(fd, data, size) == (ssize_t)size, "memfd_create");
   snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-  status = jam_checkpoint_read(path, sys);
+  status = jam_read_checkpoint(path, NULL, NULL, sys);
   close(fd);
   return status;
 }
@@ -125,7 +125,7 @@ static void prepare(void) {
     uint64_t sum;
     FILE *f;
     snprintf(path, sizeof path, "%s/jam-fuzz-%ld.jam", folder ? folder : "/tmp", (long)getpid());
-    demand(jam_checkpoint_write(sys, path) == JAM_OK, "checkpoint_write");
+    demand(jam_write_checkpoint(sys, path) == JAM_OK, "write_checkpoint");
     jam_destroy(sys);
     f = fopen(path, "rb");
     demand(f != NULL, "open");

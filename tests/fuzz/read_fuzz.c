@@ -27,12 +27,12 @@ static void check_round_trip(const jam_system *sys, int32_t format) {
   written = jam_write(sys, path, format);
   if (format != JAM_FORMAT_XYZ && written == JAM_E_UNSUPPORTED) return; /* a cell, Delta or d that it cannot hold */
   demand(written == JAM_OK, "what was read can be written");
-  demand(jam_read(path, NULL, &back) == JAM_OK, "what was written can be read");
-  jam_positions_view(sys, &x, &x_len);
-  jam_positions_view(back, &y, &y_len);
+  demand(jam_read(path, NULL, NULL, NULL, &back) == JAM_OK, "what was written can be read");
+  jam_view_positions(sys, &x, &x_len);
+  jam_view_positions(back, &y, &y_len);
   demand(x_len == y_len && !memcmp(x, y, x_len * sizeof *x), "the same positions");
-  jam_diameters_view(sys, &x, &x_len);
-  jam_diameters_view(back, &y, &y_len);
+  jam_view_diameters(sys, &x, &x_len);
+  jam_view_diameters(back, &y, &y_len);
   demand(x_len == y_len && !memcmp(x, y, x_len * sizeof *x), "the same diameters");
   jam_destroy(back);
   unlink(path);
@@ -48,7 +48,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
   }
   demand(fd >= 0 && pwrite(fd, data, size, 0) == (ssize_t)size && ftruncate(fd, (off_t)size) == 0, "memfd_create");
-  status = jam_read(path, NULL, &sys);
+  status = jam_read(path, NULL, NULL, NULL, &sys);
   if (status == JAM_OK) {
     check_round_trip(sys, JAM_FORMAT_PLAIN);
     check_round_trip(sys, JAM_FORMAT_XYZ);

@@ -136,6 +136,19 @@ def doc_comments():
         problem(path, 0, f"only {len(documented)} declarations recognised: this rule is broken")
 
 
+def table_of_calls():
+    """tests/calls.def, which drives tests of bad arguments, of memory faults and a fuzz target, holds every call of the header once."""
+    calls = re.findall(r"JAM_API [^;(]*\b(jam_\w+)\(", without_comments((root / "include/jam/jam.h").read_text()))
+    table = root / "tests/calls.def"
+    listed = re.findall(r"^CALL\((\w+), ", table.read_text(), flags=re.M)
+    for name in sorted(set(calls) ^ set(listed)):
+        problem(table, 0, f"{name} is missing" if name in calls else f"{name} is no call of jam.h")
+    for name in sorted({n for n in listed if listed.count(n) > 1}):
+        problem(table, 0, f"{name} stands twice")
+    if len(calls) < 100:
+        problem(table, 0, "this rule is broken")
+
+
 def names():
     path = root / "include/jam/jam.h"
     code = without_comments(path.read_text())
@@ -176,8 +189,8 @@ def file_sizes():
         elif count > 300:
             print(f"note: {path.relative_to(root)} has {count} lines, 300 is the aim")
     header = len((root / "include/jam/jam.h").read_text().splitlines())
-    if header > 1770:
-        problem(root / "include/jam/jam.h", header, "more than 1770 lines")
+    if header > 1760:
+        problem(root / "include/jam/jam.h", header, "more than 1760 lines")
     for path in files(
         "examples/c/*.c", "examples/cpp/*.cpp", "examples/python/*.py", "examples/fortran/*.f90", "examples/julia/*.jl"
     ):
@@ -346,7 +359,7 @@ def columns():
                 problem(path, number, f"{len(line)} columns, 120 are allowed")
 
 
-RULES = [layers, python_layers, private_headers, doc_comments, names, file_sizes, no_side_effects, own_math]
+RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, no_side_effects, own_math]
 RULES += [plain_words, sentence_length, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -30,9 +31,9 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, double to
   jam_info info;
   int c, d;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
+  jam_get_info(sys, &info);
   d = info.dim;
-  jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &len);
+  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &len);
   assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_OK);
   assert_int_equal(m, 2 * r->contacts);
   pairs = malloc((m + 1) * sizeof *pairs), z = malloc(info.n * sizeof *z);
@@ -79,7 +80,7 @@ static jam_system *random_start(int64_t n, int dim, double phi, const double *di
   jam_system *sys;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
-  assert_int_equal(jam_create(&o, NULL, 0, diameters, len, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, diameters, len, &sys), JAM_OK);
   return sys;
 }
 
@@ -98,7 +99,7 @@ static void shared_file(void **state) {
   }
   fclose(file);
   for (method = 0; method < 2; ++method) {
-    assert_int_equal(jam_read(path, NULL, &sys), JAM_OK);
+    assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_OK);
     jam_crunch_options_init(&o, sizeof o);
     o.method = method;
     r = crunch(sys, &o, JAM_OK);
@@ -156,7 +157,7 @@ static jam_system *lattice(int dim, int cells, const double *basis, int basis_le
     jam_create_options o;
     jam_create_options_init(&o, sizeof o);
     o.dim = dim;
-    assert_int_equal(jam_create(&o, x, (size_t)n * dim, &sigma, 1, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, x, (size_t)n * dim, &sigma, 1, &sys), JAM_OK);
   }
   free(x);
   return sys;
@@ -282,7 +283,7 @@ static void cancel_and_resume(void **state) {
     r = crunch(sys, &o, JAM_CANCELLED);
     assert_true(!r.jammed && r.stop_reason == JAM_STOP_CANCELLED && r.max_overlap < 1e-12);
     assert_true(r.contacts >= 0 && r.rattlers + r.stable == (r.contacts > 0 ? 100 : -1));
-    jam_diameters_view(sys, &s, &len);
+    jam_view_diameters(sys, &s, &len);
     assert_true(s[0] > 0.0);
     jam_set_progress(sys, NULL, NULL);
     if (calls < 10) {
@@ -352,7 +353,7 @@ static void threads_and_determinism(void **state) {
     assert_true(ok != NULL);
   }
   assert_non_null(crunch_thread(sys[2]));
-  for (k = 0; k < 3; ++k) jam_positions_view(sys[k], &x[k], &len);
+  for (k = 0; k < 3; ++k) jam_view_positions(sys[k], &x[k], &len);
   assert_memory_equal(x[0], x[2], len * sizeof(double));
   assert_memory_equal(x[1], x[2], len * sizeof(double));
   for (k = 0; k < 3; ++k) jam_destroy(sys[k]);
@@ -367,13 +368,13 @@ static void box_does_not_matter(void **state) {
   double y[300], t[100];
   size_t len, k;
   (void)state;
-  jam_positions_view(small, &x, &len);
+  jam_view_positions(small, &x, &len);
   for (k = 0; k < 300; ++k) y[k] = x[k] * 1024.0;
-  jam_diameters_view(small, &s, &len);
+  jam_view_diameters(small, &s, &len);
   for (k = 0; k < 100; ++k) t[k] = s[k] * 1024.0;
   jam_create_options_init(&o, sizeof o);
   o.box = 1024.0;
-  assert_int_equal(jam_create(&o, y, 300, t, 100, &large), JAM_OK);
+  assert_int_equal(create_from(&o, y, 300, t, 100, &large), JAM_OK);
   a = crunch(small, NULL, JAM_OK);
   b = crunch(large, NULL, JAM_OK);
   assert_int_equal(a.contacts, b.contacts);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -16,8 +17,8 @@ static double smallest_gap(const jam_system *sys, int reach) {
   jam_info info;
   double least = INFINITY;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info);
-  jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &n);
+  jam_get_info(sys, &info);
+  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &n);
   for (i = 0; i < n; ++i)
     for (j = 0; j <= i; ++j) {
       int code, count = 1, k;
@@ -50,8 +51,8 @@ static void certify(const jam_system *sys, const jam_crunch_report *r, int reach
   assert_true(smallest_gap(sys, reach) > -1e-12);
   if (!r->jammed) return;
   info.struct_size = sizeof info;
-  jam_info_get(sys, &info), d = info.dim;
-  jam_positions_view(sys, &x, &len), jam_diameters_view(sys, &s, &len);
+  jam_get_info(sys, &info), d = info.dim;
+  jam_view_positions(sys, &x, &len), jam_view_diameters(sys, &s, &len);
   jam_contacts(sys, NULL, 0, &m);
   pair = malloc(m * sizeof *pair), z = calloc(info.n, sizeof *z), m /= 2;
   v = malloc(m * d * sizeof *v), f = malloc(m * sizeof *f), total = calloc(info.n * d, sizeof *total);
@@ -86,7 +87,7 @@ static jam_system *random_start(int n, int dim, double phi, const double *sizes,
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.dim = dim, o.packing_fraction = phi, o.seed = seed;
-  if (jam_create(&o, NULL, 0, sizes, sizes ? n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  if (create_from(&o, NULL, 0, sizes, sizes ? n : 0, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
   return sys;
 }
 
@@ -147,7 +148,7 @@ static void pressures(void **state) {
     jam_compress_options_init(&c, sizeof c);
     c.growth_rate = p[k] > 1e5 ? 1e-3 : 1e-2, c.pressure = p[k];
     assert_true(jam_compress(sys, &c, NULL) >= 0);
-    jam_info_get(sys, &info);
+    jam_get_info(sys, &info);
     r = crunched(sys, NULL, "pressure", p[k], 1);
     /* free volume: phi_J - phi = phi d / p, as long as growth leaves the glass time to follow its pressure */
     if (p[k] < 1e7) {
@@ -240,7 +241,7 @@ static jam_system *lattice(int dim, const int *cells, const double *basis, int b
   }
   jam_create_options_init(&o, sizeof o);
   o.dim = dim;
-  if (jam_create(&o, x, (size_t)n * dim, &sigma, 1, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
+  if (create_from(&o, x, (size_t)n * dim, &sigma, 1, &sys) != JAM_OK) fail_msg("%s", jam_last_error());
   return sys;
 }
 
@@ -289,7 +290,7 @@ static void ordering_disks(void **state) {
     for (k = 0; k < 90; ++k) x[2 * k] = (k % 9 + 0.5 * (k / 9 % 2)) / 9.0, x[2 * k + 1] = (k / 9) / 10.0;
     jam_create_options_init(&o, sizeof o);
     o.dim = 2;
-    assert_int_equal(jam_create(&o, x, 2 * (90 - vacancy), &sigma, 1, &sys), JAM_OK);
+    assert_int_equal(create_from(&o, x, 2 * (90 - vacancy), &sigma, 1, &sys), JAM_OK);
     r = crunched(sys, NULL, "triangular", vacancy, 0);
     assert_true(r.packing_fraction > 0.98 * 0.98 * 0.785398 * (90 - vacancy) / 81.0);
     jam_destroy(sys);

@@ -35,7 +35,7 @@ System grown(int64_t seed) {
   jam_create_options_init(&o, sizeof o);
   o.n = disks, o.dim = dim, o.seed = seed;
   jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, 0, nullptr, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   const double rate[] = {1e-2, 3e-3}, pressure[] = {500.0, 1e7};
   for (int k = 0; k < 2; ++k) {
     jam_compress_options md;
@@ -135,8 +135,8 @@ void verdict_holds(int64_t seed) {
   const jam_status status = jam_crunch(sys.get(), nullptr, &r);
   const double *x = nullptr, *s = nullptr;
   size_t len = 0;
-  assert_int_equal(jam_positions_view(sys.get(), &x, &len), JAM_OK);
-  assert_int_equal(jam_diameters_view(sys.get(), &s, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(sys.get(), &x, &len), JAM_OK);
+  assert_int_equal(jam_view_diameters(sys.get(), &s, &len), JAM_OK);
   const std::vector<Closed> closed = pairs_below(x, s[0], 1e-10);
   for (const Closed &c : closed) assert_true(c.gap > -1e-13);
   print_message("seed %d: jammed %d, %s, residual %.1e, contacts %d\n", static_cast<int>(seed), r.jammed,
@@ -170,7 +170,7 @@ void the_check_sees_motion(void **) {
   assert_int_equal(jam_crunch(sys.get(), nullptr, nullptr), JAM_OK);
   const double *x = nullptr, *s = nullptr;
   size_t len = 0;
-  jam_positions_view(sys.get(), &x, &len), jam_diameters_view(sys.get(), &s, &len);
+  jam_view_positions(sys.get(), &x, &len), jam_view_diameters(sys.get(), &s, &len);
   std::vector<Closed> closed = pairs_below(x, s[0], 1e-10);
   std::vector<int32_t> z(disks);
   jam_coordination(sys.get(), z.data(), z.size(), &len);

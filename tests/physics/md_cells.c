@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 /* Primitive vectors of the face-centred cubic lattice: the cell of nearest points is a rhombic dodecahedron. */
@@ -19,8 +20,7 @@ static jam_system *fluid(const double *cell, int64_t n, int32_t dim, double frac
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.dim = dim, o.packing_fraction = 0.5 * fraction;
-  if (jam_create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys) < 0)
-    print_error("%s\n", jam_last_error());
+  if (create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, NULL, 0, &sys) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(sys);
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 0.03, c.pressure = 1e12, c.packing_fraction = fraction;
@@ -41,7 +41,7 @@ static jam_md_report run(jam_system *sys, double collisions_per_particle) {
 static void moments(const jam_system *sys, double *energy, double *momentum) {
   const double *v = NULL;
   size_t len = 0;
-  assert_int_equal(jam_velocities_view(sys, &v, &len), JAM_OK);
+  assert_int_equal(jam_view_velocities(sys, &v, &len), JAM_OK);
   *energy = momentum[0] = momentum[1] = momentum[2] = 0.0;
   for (size_t k = 0; k < len; ++k) *energy += v[k] * v[k], momentum[k % 3] += v[k];
 }
@@ -104,9 +104,9 @@ static void shear_by_steps(void **state) {
     assert_true(fabs(energy[1] / energy[0] - 1) < 1e-13); /* velocities are peculiar: they stay */
     assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
     sum += run(sys, 100).pressure / 20;
-    assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+    assert_int_equal(jam_get_info(sys, &info), JAM_OK);
     assert_true(fabs(info.packing_fraction / fraction - 1) < 1e-12);
-    assert_int_equal(jam_cell_get(sys, cell, 9, NULL), JAM_OK);
+    assert_int_equal(jam_get_cell(sys, cell, 9, NULL), JAM_OK);
     assert_true(fabs(cell[3]) <= 0.5 * cell[0] * (1 + 1e-9)); /* reduced on its way */
     tilted = fmax(tilted, fabs(cell[3]));
   }
@@ -126,7 +126,7 @@ static void grown_and_crunched(void **state) {
   (void)state;
   assert_int_equal(jam_compress(sys, NULL, &m), JAM_OK);
   assert_true(m.pressure >= 1e7 && m.max_overlap < 1e-13);
-  assert_int_equal(jam_info_get(sys, &before), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &before), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, &r), JAM_OK);
   print_message("grown to p %.3g, phi %.9f; crunched phi %.9f, %lld contacts, excess %lld, residual %.1e\n", m.pressure,
                 before.packing_fraction, r.packing_fraction, (long long)r.contacts, (long long)r.excess_contacts,

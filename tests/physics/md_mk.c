@@ -15,7 +15,7 @@ static jam_system *planted(int64_t n, int32_t dim, double fraction, double zeta,
   o.packing_fraction = fraction;
   o.model = JAM_MODEL_MK;
   o.mk_zeta = zeta;
-  if (jam_create(&o, NULL, 0, NULL, 0, &sys) < 0) print_error("%s\n", jam_last_error());
+  if (jam_create(&o, NULL, &sys) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(sys);
   return sys;
 }
@@ -90,9 +90,9 @@ static void no_shift_is_euclidean(void **state) {
   jam_create_options_init(&o, sizeof o);
   o.n = 60;
   o.seed = 4;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &b), JAM_OK);
-  jam_positions_view(a, &x, &len);
-  jam_positions_view(b, &y, &len);
+  assert_int_equal(jam_create(&o, NULL, &b), JAM_OK);
+  jam_view_positions(a, &x, &len);
+  jam_view_positions(b, &y, &len);
   assert_memory_equal(x, y, len * sizeof(double));
   ra.struct_size = rb.struct_size = sizeof ra;
   assert_int_equal(jam_run(a, NULL, &ra), JAM_OK);
@@ -110,7 +110,7 @@ static void too_dense_planting_is_refused(void **state) {
   o.n = 3;
   o.packing_fraction = 2.5; /* three spheres wider than the box */
   o.model = JAM_MODEL_MK;
-  assert_int_equal(jam_create(&o, NULL, 0, NULL, 0, &sys), JAM_E_UNPLACEABLE);
+  assert_int_equal(jam_create(&o, NULL, &sys), JAM_E_UNPLACEABLE);
   assert_null(sys);
 }
 

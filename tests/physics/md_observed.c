@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "start.h"
 #include "test.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio) {
@@ -14,7 +15,7 @@ static jam_system *start(int64_t n, double fraction, double ratio) {
   o.n = n;
   o.packing_fraction = fraction;
   for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
-  assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
   return sys;
 }
 
@@ -43,7 +44,7 @@ static void draw_velocities(jam_system *sys) {
   const double *old;
   size_t len, k;
   uint64_t bits = 88172645463325252u;
-  assert_int_equal(jam_velocities_view(sys, &old, &len), JAM_OK);
+  assert_int_equal(jam_view_velocities(sys, &old, &len), JAM_OK);
   assert_true(len <= sizeof v / sizeof v[0]);
   for (k = 0; k < len; ++k) { /* sums of twelve uniform numbers are normal enough */
     int draw;
@@ -81,7 +82,7 @@ static void gap_plateau(void **state) {
     assert_int_equal(jam_observe(sys, &o), JAM_OK);
     report = run(sys, 800);
     info.struct_size = sizeof info;
-    jam_info_get(sys, &info);
+    jam_get_info(sys, &info);
     height = (report.pressure - 1.0) / (4.0 * info.packing_fraction);
     assert_int_equal(jam_observed_gaps(sys, edge, 13, density, 12, error, 12, &needed), JAM_OK);
     print_message("p %.4g: height %.4g, first bin %.4g(%.2g), h in %.2g..%.2g: %.4g, %.2g..%.2g: %.4g\n",
@@ -175,7 +176,7 @@ static void crystal_score_tells_crystals_from_glasses(void **state) {
         }
   jam_create_options_init(&o, sizeof o);
   diameter = cbrt(0.58 * 6.0 / (3.14159265358979 * 500)); /* above melting, 0.545 */
-  assert_int_equal(jam_create(&o, x, 1500, &diameter, 1, &crystal), JAM_OK);
+  assert_int_equal(create_from(&o, x, 1500, &diameter, 1, &crystal), JAM_OK);
   run(crystal, 300);
   shaken = score(crystal);
   compress(crystal, 1e-2, 1e4);

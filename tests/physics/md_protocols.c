@@ -2,6 +2,7 @@
 #include <jam/jam.h>
 #include <math.h>
 
+#include "start.h"
 #include "test.h"
 
 static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
@@ -15,14 +16,14 @@ static jam_system *start(int64_t n, double fraction, double ratio, int32_t masse
   o.masses = masses;
   o.box = box;
   for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
-  assert_int_equal(jam_create(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
   return sys;
 }
 
 static jam_info info_of(const jam_system *sys) {
   jam_info info;
   info.struct_size = sizeof info;
-  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   return info;
 }
 
@@ -147,12 +148,12 @@ static void masses_by_volume(void **state) {
     error[masses] = report.pressure_error;
     assert_true(report.energy_drift < 1e-11);
     assert_int_equal(info_of(sys).masses, masses);
-    jam_diameters_view(sys, &d, &n);
+    jam_view_diameters(sys, &d, &n);
     for (k = 0; k < n; ++k) cubes += d[k] * d[k] * d[k] / (double)n;
     r.collisions_per_particle = 10;
     for (sample = 0; sample < 100; ++sample) {
       assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
-      jam_velocities_view(sys, &v, &len);
+      jam_view_velocities(sys, &v, &len);
       for (k = 0; k < len; ++k) {
         const double m = masses ? d[k / 3] * d[k / 3] * d[k / 3] / cubes : 1.0;
         *(k / 3 % 2 ? &large : &small) += m * v[k] * v[k] / (200.0 * 3.0 * 100.0);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "jam/jam.h"
+#include "start.h"
 #include "test.h"
 
 static jam_monte_carlo_options options(double alpha, double temperature, int64_t sweeps) {
@@ -31,7 +32,7 @@ static jam_system *spheres(int dim, int n, const double *diameter) {
   jam_create_options_init(&o, sizeof o);
   o.dim = dim;
   o.n = n;
-  assert_int_equal(jam_create(&o, dim == 2 ? disks : balls, (size_t)(dim * n), diameter, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, dim == 2 ? disks : balls, (size_t)(dim * n), diameter, (size_t)n, &sys), JAM_OK);
   return sys;
 }
 
@@ -117,7 +118,7 @@ static void three_disks_and_swaps_have_the_boltzmann_averages(void **state) {
     o.swap_share = with_swaps ? 0.5 : 0.0;
     r = run(sys, &o);
     assert_true(fabs(r.energy - u) < 4.0 * r.energy_error && r.energy_error < 0.03 * u);
-    assert_int_equal(jam_diameters_view(sys, &now, &len), JAM_OK);
+    assert_int_equal(jam_view_diameters(sys, &now, &len), JAM_OK);
     assert_true(fabs(now[0] + now[1] + now[2] - 1.16) < 1e-6);
     if (with_swaps)
       assert_true(r.swap_acceptance > 0.05 && r.swap_acceptance < 0.95);
@@ -144,7 +145,7 @@ static void hard_fluids_have_the_pressure_of_molecular_dynamics(void **state) {
     md.struct_size = sizeof md;
     jam_create_options_init(&c, sizeof c);
     c.n = n;
-    assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+    assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
     jam_compress_options_init(&grow, sizeof grow);
     grow.packing_fraction = fractions[k];
     assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
@@ -187,8 +188,8 @@ static void a_resumed_run_has_the_same_bits(void **state) {
   r = run(b, &o);
   assert_int_equal(r.sweeps, 3000);
   assert_true(r.energy == whole.energy && r.pressure == whole.pressure && r.msd == whole.msd);
-  assert_int_equal(jam_positions_view(a, &x, &len), JAM_OK);
-  assert_int_equal(jam_positions_view(b, &y, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
   assert_memory_equal(x, y, len * sizeof *x);
   assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_E_STATE);
   /* The next run goes on with new random numbers. */
@@ -218,21 +219,21 @@ static void dilute_spheres_stay_apart_and_resume(void **state) {
     c.dim = k + 2;
     c.n = N;
     c.packing_fraction = fractions[k];
-    assert_int_equal(jam_create(&c, NULL, 0, diameters, N, &a), JAM_OK);
+    assert_int_equal(create_from(&c, NULL, 0, diameters, N, &a), JAM_OK);
     assert_int_equal(jam_copy(a, &b), JAM_OK);
     o.swap_share = 0.1;
     r = run(a, &o);
     assert_true(r.acceptance > 0.3 && r.step > 0.15);
-    assert_int_equal(jam_positions_view(a, &x, &len), JAM_OK);
-    assert_int_equal(jam_diameters_view(a, &sigma, &sizes), JAM_OK);
-    assert_int_equal(jam_create(&c, x, len, sigma, sizes, &again), JAM_OK);
+    assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
+    assert_int_equal(jam_view_diameters(a, &sigma, &sizes), JAM_OK);
+    assert_int_equal(create_from(&c, x, len, sigma, sizes, &again), JAM_OK);
     r.struct_size = sizeof r;
     assert_int_equal(jam_set_progress(b, stop, NULL), JAM_OK);
     assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_CANCELLED);
     assert_int_equal(jam_set_progress(b, NULL, NULL), JAM_OK);
     o.resume = 1;
     run(b, &o);
-    assert_int_equal(jam_positions_view(b, &y, &len), JAM_OK);
+    assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(a);
     jam_destroy(b);
@@ -299,7 +300,7 @@ static void soft_spheres_leave_overlaps(void **state) {
   (void)state;
   jam_create_options_init(&c, sizeof c);
   c.n = 60, c.packing_fraction = 0.3;
-  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   assert_int_equal(jam_monte_carlo(sys, &o, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_E_OVERLAP);
   assert_non_null(strstr(jam_last_error(), "jam_decompress"));
@@ -315,7 +316,7 @@ static void hard_spheres_in_contact_cannot_move(void **state) {
   (void)state;
   jam_create_options_init(&c, sizeof c);
   c.n = 100;
-  assert_int_equal(jam_create(&c, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_create(&c, NULL, &sys), JAM_OK);
   jam_compress_options_init(&grow, sizeof grow);
   grow.pressure = 1e6;
   assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "start.h"
 #include "test.h"
 
 static const double oblique[4] = {1.0, 0.0, 0.45, 0.8}, square[4] = {1.0, 0.0, 0.0, 1.0};
@@ -31,7 +32,7 @@ static jam_system *two_disks(const double *cell, double sigma, int32_t overlap) 
   jam_system *sys = NULL;
   jam_create_options_init(&o, sizeof o);
   o.dim = 2, o.n = 2, o.overlap = overlap;
-  if (jam_create_in_cell(&o, cell, 4, x, 4, &sigma, 1, &sys) < 0) print_error("%s\n", jam_last_error());
+  if (create_in_cell(&o, cell, 4, x, 4, &sigma, 1, &sys) < 0) print_error("%s\n", jam_last_error());
   assert_non_null(sys);
   return sys;
 }
@@ -114,7 +115,7 @@ static jam_system *fluid(const double *cell, int64_t n, double fraction) {
   for (int64_t k = 0; k < n; ++k) diameters[k] = k % 2 ? 1.3 : 1.0;
   jam_create_options_init(&o, sizeof o);
   o.n = n, o.packing_fraction = 0.5 * fraction;
-  assert_int_equal(jam_create_in_cell(&o, cell, 9, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_in_cell(&o, cell, 9, NULL, 0, diameters, (size_t)n, &sys), JAM_OK);
   jam_compress_options_init(&c, sizeof c);
   c.growth_rate = 0.1, c.pressure = 1e12, c.packing_fraction = fraction;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -136,12 +137,12 @@ static void a_cube_in_disguise(void **state) {
     size_t len = 0;
     o.swap_share = cases[k].swap_share, o.step = cases[k].step > 0.0 ? cases[k].step : 0.1;
     assert_int_equal(jam_copy(a, &b), JAM_OK);
-    assert_int_equal(jam_cell_set(b, tilted, 9, NULL, 0, NULL, 0, NULL), JAM_OK);
+    assert_int_equal(jam_set_cell(b, tilted, 9, NULL, 0, NULL, 0, NULL), JAM_OK);
     const jam_monte_carlo_report r = run(a, &o), s = run(b, &o);
     assert_true(r.acceptance == s.acceptance && r.acceptance > 0.01);
     assert_true(fabs(r.msd - s.msd) <= 1e-9 * r.msd && fabs(r.energy - s.energy) <= 1e-9 * fabs(r.energy));
-    assert_int_equal(jam_positions_view(a, &x, &len), JAM_OK);
-    assert_int_equal(jam_positions_view(b, &y, &len), JAM_OK);
+    assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
+    assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
     for (size_t c = 0; c < len; ++c) assert_true(fabs(remainder(x[c] - y[c], 1.0)) < 1e-9);
     jam_destroy(a), jam_destroy(b);
   }
@@ -169,10 +170,10 @@ static void hard_fluid(void **state) {
   assert_true(r.pressure_error < 0.02 * r.pressure && r.swap_acceptance > 0.0);
   jam_create_options_init(&c, sizeof c);
   c.n = 256;
-  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
-  assert_int_equal(jam_diameters_view(sys, &sigma, &sizes), JAM_OK);
-  assert_int_equal(jam_cell_get(sys, cell, 9, NULL), JAM_OK);
-  assert_int_equal(jam_create_in_cell(&c, cell, 9, x, len, sigma, sizes, &again), JAM_OK); /* it refuses overlaps */
+  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view_diameters(sys, &sigma, &sizes), JAM_OK);
+  assert_int_equal(jam_get_cell(sys, cell, 9, NULL), JAM_OK);
+  assert_int_equal(create_in_cell(&c, cell, 9, x, len, sigma, sizes, &again), JAM_OK); /* it refuses overlaps */
   jam_destroy(sys), jam_destroy(again);
 }
 
@@ -195,13 +196,13 @@ static void a_resumed_run_has_the_same_bits(void **state) {
     run(a, &o);
     assert_int_equal(jam_set_progress(b, stop, NULL), JAM_OK);
     assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_CANCELLED);
-    assert_int_equal(jam_checkpoint_write(b, path), JAM_OK);
+    assert_int_equal(jam_write_checkpoint(b, path), JAM_OK);
     jam_destroy(b);
-    assert_int_equal(jam_checkpoint_read(path, &b), JAM_OK);
+    assert_int_equal(jam_read_checkpoint(path, NULL, NULL, &b), JAM_OK);
     o.resume = 1;
     run(b, &o);
-    assert_int_equal(jam_positions_view(a, &x, &len), JAM_OK);
-    assert_int_equal(jam_positions_view(b, &y, &len), JAM_OK);
+    assert_int_equal(jam_view_positions(a, &x, &len), JAM_OK);
+    assert_int_equal(jam_view_positions(b, &y, &len), JAM_OK);
     assert_memory_equal(x, y, len * sizeof *x);
     jam_destroy(a), jam_destroy(b);
   }

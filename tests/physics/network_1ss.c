@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include <jam/jam.h>
+#include "start.h"
 #include "test.h"
 
 enum { ROOM = 40000, MODES = 400, COLUMNS = JAM_FLOPPY_S_RETURN + 1 };
@@ -31,7 +32,7 @@ static jam_system *crunched_model(int model, int dim, int64_t n, double phi, int
   o.n = n;
   o.packing_fraction = phi;
   for (k = 0; k < n; ++k) d[k] = bidisperse && k % 2 ? 1.4 : 1.0;
-  assert_int_equal(jam_create(&o, NULL, 0, d, (size_t)n, &s), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, d, (size_t)n, &s), JAM_OK);
   free(d);
   report->struct_size = sizeof *report;
   assert_int_equal(jam_crunch(s, NULL, report), JAM_OK);
@@ -49,7 +50,7 @@ static struct network open_network(jam_system *s) {
   const double *diameters;
   int64_t k;
   w.sys = s;
-  assert_int_equal(jam_info_get(s, &info), JAM_OK);
+  assert_int_equal(jam_get_info(s, &info), JAM_OK);
   w.d = info.dim;
   w.n = info.n;
   w.pair = malloc(ROOM * sizeof *w.pair);
@@ -66,7 +67,7 @@ static struct network open_network(jam_system *s) {
   w.stable = (int64_t)m;
   for (k = 0; k < w.n; ++k) w.node[k] = -1;
   for (k = 0; k < w.stable; ++k) w.node[w.map[k]] = (int32_t)k;
-  assert_int_equal(jam_diameters_view(s, &diameters, &m), JAM_OK);
+  assert_int_equal(jam_view_diameters(s, &diameters, &m), JAM_OK);
   for (k = 0; k < w.n; ++k) w.diameter[k] = diameters[k];
   return w;
 }
@@ -123,7 +124,7 @@ static double next_contact(const struct network *w, const double *u, double gamm
   int64_t i, j;
   int c, image, images = 1;
   for (c = 0; c < w->d; ++c) images *= 3;
-  assert_int_equal(jam_positions_view(w->sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(w->sys, &x, &len), JAM_OK);
   for (i = 0; i < w->stable; ++i)
     for (j = 0; j < i; ++j)
       for (image = 0; image < images; ++image) {
@@ -221,11 +222,11 @@ static void floppy_keeps_contacts(const struct network *w, int check_next) {
 /* In a state with one self-stress f, a harmonic network of elongations e keeps only its part along f: the modulus is
  * (f . e)^2 / (|f|^2 V). */
 static void moduli_follow_from_forces(const struct network *w) {
-  jam_moduli m = {.struct_size = sizeof(jam_moduli)};
+  jam_moduli_report m = {.struct_size = sizeof(jam_moduli_report)};
   double ff = 0.0, fe = 0.0, shear = 0.0;
   int a, b;
   int64_t k;
-  assert_int_equal(jam_moduli_get(w->sys, NULL, &m), JAM_OK);
+  assert_int_equal(jam_moduli(w->sys, NULL, &m), JAM_OK);
   for (k = 0; k < w->contacts; ++k) {
     ff += w->force[k] * w->force[k];
     fe += w->force[k] * sigma(w, k) / w->d; /* at contact |r| = sigma */
@@ -349,7 +350,7 @@ static void unclear_jump_of(double part) {
   size_t m, k;
   int right = 0;
   const double size = part * report.min_gap * report.diameter_mean;
-  assert_int_equal(jam_positions_view(s, &x, &m), JAM_OK);
+  assert_int_equal(jam_view_positions(s, &x, &m), JAM_OK);
   y = malloc(m * sizeof *y);
   for (k = 0; k < m; ++k) y[k] = x[k] + 0.2 * size * sin(1.0 + (double)(k * k));
   assert_int_equal(jam_scale_diameters(s, 1.0 - part * report.min_gap), JAM_OK);
@@ -445,14 +446,14 @@ static void the_null_space_decides_between_two_jumps(void **state) {
   gap = sqrt(sqrt(digits * g.gap_above) * cbrt(digits * g.gap_above * g.gap_above));
   fill_hole(place, radius, gap, p, &r);
   assert_true(r > 0.0 && r < radius[0]);
-  assert_int_equal(jam_positions_view(w.sys, &old, &m), JAM_OK);
+  assert_int_equal(jam_view_positions(w.sys, &old, &m), JAM_OK);
   for (k = 0; k < 160; ++k) x[k] = old[k];
   for (k = 0; k < 80; ++k) d[k] = w.diameter[k];
   for (k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];
   d[80] = 2.0 * r;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.dim = 2, o.n = 81;
-  assert_int_equal(jam_create(&o, x, 162, d, 81, &s), JAM_OK);
+  assert_int_equal(create_from(&o, x, 162, d, 81, &s), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_OK);
   assert_int_equal(g.contacts, report.contacts);
   assert_int_equal(g.second_contacts, report.contacts + 3);
@@ -470,7 +471,7 @@ static void comparison_counts_contacts_and_displacements(void **state) {
   size_t m, k;
   (void)state;
   assert_int_equal(jam_copy(a, &b), JAM_OK);
-  assert_int_equal(jam_positions_view(a, &x, &m), JAM_OK);
+  assert_int_equal(jam_view_positions(a, &x, &m), JAM_OK);
   y = malloc(m * sizeof *y), u = malloc(m * sizeof *u);
   for (k = 0; k < m; ++k) y[k] = x[k] + (k % 3 == 0 ? 0.4 : 0.1); /* a translation changes nothing */
   assert_int_equal(jam_set_positions(b, y, m), JAM_OK);
@@ -489,7 +490,7 @@ static void all_analyses_agree_on_a_foreign_packing(void **state) {
   jam_crunch_report report = {.struct_size = sizeof(jam_crunch_report)};
   struct network w;
   (void)state;
-  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, &s) != JAM_OK) {
+  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, NULL, NULL, &s) != JAM_OK) {
     printf("shared packing not found: skipped\n");
     skip();
   }

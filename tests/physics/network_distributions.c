@@ -13,12 +13,12 @@ static int32_t a[ROOM], b[ROOM];
 
 static int setup(void **state) {
   jam_system *s = NULL;
-  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, &s) !=
+  if (jam_read(JAM_TEST_SHARED "/ls-n1024-d3.dat", NULL, NULL, NULL, &s) !=
       JAM_OK) { /* no such file beside the tree: make one, of half the size */
     jam_create_options o;
     if (jam_create_options_init(&o, sizeof o) != JAM_OK) return -1;
     o.n = 512;
-    if (jam_create(&o, NULL, 0, NULL, 0, &s) != JAM_OK || jam_compress(s, NULL, NULL) != JAM_OK) return -1;
+    if (jam_create(&o, NULL, &s) != JAM_OK || jam_compress(s, NULL, NULL) != JAM_OK) return -1;
   }
   *state = s;
   return jam_crunch(s, NULL, NULL) == JAM_OK ? 0 : -1;

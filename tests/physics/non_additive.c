@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "start.h"
 #include "test.h"
 
 #include "jam/jam.h"
@@ -22,10 +23,10 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
   jam_info info;
   int c;
   info.struct_size = sizeof info;
-  assert_int_equal(jam_info_get(sys, &info), JAM_OK);
+  assert_int_equal(jam_get_info(sys, &info), JAM_OK);
   assert_true(info.non_additivity == delta);
-  jam_positions_view(sys, &x, &len);
-  jam_diameters_view(sys, &s, &len);
+  jam_view_positions(sys, &x, &len);
+  jam_view_diameters(sys, &s, &len);
   *unlike = 0;
   for (i = 0; i < len; ++i)
     for (j = 0; j < i; ++j) {
@@ -50,7 +51,7 @@ static jam_system *mixture(int dim, double delta, int64_t seed) {
   for (i = 0; i < N; ++i) diameter[i] = i < N / 2 ? 1.0 : 1.4;
   jam_create_options_init(&o, sizeof o);
   o.dim = dim, o.n = N, o.seed = seed, o.box = 2.0, o.packing_fraction = 0.25, o.non_additivity = delta;
-  assert_int_equal(jam_create(&o, NULL, 0, diameter, N, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, diameter, N, &sys), JAM_OK);
   return sys;
 }
 
@@ -109,14 +110,14 @@ static void is_kept(void **state) {
   assert_non_null(strstr(jam_last_error(), "non_additivity = -0.1"));
   assert_int_not_equal(access(plain, F_OK), 0);
   assert_int_equal(jam_write(sys, xyz, JAM_FORMAT_AUTO), JAM_OK);
-  assert_int_equal(jam_checkpoint_write(sys, saved), JAM_OK);
+  assert_int_equal(jam_write_checkpoint(sys, saved), JAM_OK);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   jam_create_options_init(&o, sizeof o);
   o.non_additivity = 0.5; /* contradicts the file */
-  assert_int_equal(jam_read(xyz, &o, &read), JAM_E_ARGUMENT);
+  assert_int_equal(jam_read(xyz, &o, NULL, NULL, &read), JAM_E_ARGUMENT);
   o.non_additivity = 0.0;
-  assert_int_equal(jam_read(xyz, &o, &read), JAM_OK);
-  assert_int_equal(jam_checkpoint_read(saved, &restored), JAM_OK);
+  assert_int_equal(jam_read(xyz, &o, NULL, NULL, &read), JAM_OK);
+  assert_int_equal(jam_read_checkpoint(saved, NULL, NULL, &restored), JAM_OK);
   assert_true(worst_gap(copy, -0.1, 0.0, &unlike) == gap);
   assert_true(worst_gap(read, -0.1, 0.0, &unlike) == gap);
   assert_true(worst_gap(restored, -0.1, 0.0, &unlike) == gap);
@@ -135,17 +136,17 @@ static void bad_values_are_refused(void **state) {
   o.dim = 2;
   for (k = 0; k < sizeof bad / sizeof *bad; ++k) {
     o.non_additivity = bad[k];
-    assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_E_ARGUMENT);
+    assert_int_equal(create_from(&o, x, 4, s, 2, &sys), JAM_E_ARGUMENT);
     assert_non_null(strstr(jam_last_error(), "non_additivity is"));
   }
   /* 0.42 apart: free at Delta = 0.15 (0.4025), an overlap at 0.25 (0.4375), which shrinking settles. */
   o.non_additivity = 0.15;
-  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 4, s, 2, &sys), JAM_OK);
   jam_destroy(sys);
   o.non_additivity = 0.25;
-  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_E_OVERLAP);
+  assert_int_equal(create_from(&o, x, 4, s, 2, &sys), JAM_E_OVERLAP);
   o.overlap = JAM_OVERLAP_SHRINK;
-  assert_int_equal(jam_create(&o, x, 4, s, 2, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, x, 4, s, 2, &sys), JAM_OK);
   assert_true(fabs(worst_gap(sys, 0.25, 0.0, (int[1]){0})) < 1e-14);
   jam_destroy(sys);
 }

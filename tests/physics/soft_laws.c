@@ -1,4 +1,5 @@
 /* Soft spheres near jamming: the laws of energy and pressure, and forces by |h|^(alpha-1) and by the null vector. */
+#include "start.h"
 #include "test.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ static jam_system *soft_start(int64_t n, double phi, int64_t seed) {
   for (int64_t k = 0; k < n; ++k) size[k] = k % 2 ? 1.4 : 1.0;
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.n = n, o.packing_fraction = phi, o.seed = seed, o.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(jam_create(&o, NULL, 0, size, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, size, (size_t)n, &sys), JAM_OK);
   free(size);
   return sys;
 }

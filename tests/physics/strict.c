@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "start.h"
 #include "verdicts.h"
 
 static jam_system *start(int32_t dim, int64_t n, int64_t seed, int mixed, double phi) {
@@ -13,13 +14,13 @@ static jam_system *start(int32_t dim, int64_t n, int64_t seed, int mixed, double
   o.dim = dim, o.n = n, o.seed = seed, o.packing_fraction = phi;
   /* Diameters that all differ: a cluster of seven equal disks has one contact more than it needs. */
   for (int64_t k = 0; k < n; ++k) sizes[k] = mixed ? 1.0 + 0.4 * (double)k / (double)n : 1.0;
-  assert_int_equal(jam_create(&o, NULL, 0, sizes, (size_t)n, &sys), JAM_OK);
+  assert_int_equal(create_from(&o, NULL, 0, sizes, (size_t)n, &sys), JAM_OK);
   return sys;
 }
 
 static double volume(jam_system *sys, int dim) {
   double cell[64], product = 1.0;
-  assert_int_equal(jam_cell_get(sys, cell, (size_t)(dim * dim), NULL), JAM_OK);
+  assert_int_equal(jam_get_cell(sys, cell, (size_t)(dim * dim), NULL), JAM_OK);
   for (int c = 0; c < dim; ++c) product *= cell[c * (dim + 1)];
   return product;
 }
@@ -30,8 +31,8 @@ static double shear_stress(jam_system *sys, int dim) {
   size_t n = 0, len = 0, needed = 0;
   const double *x = NULL, *s = NULL;
   double stress[16] = {0.0}, trace = 0.0, worst = 0.0;
-  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
-  assert_int_equal(jam_diameters_view(sys, &s, &n), JAM_OK);
+  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view_diameters(sys, &s, &n), JAM_OK);
   assert_int_equal(jam_forces(sys, NULL, 0, &needed), JAM_OK);
   double *force = malloc(needed * sizeof *force), *vector = malloc(needed * (size_t)dim * sizeof *vector);
   int32_t *pairs = malloc(2 * needed * sizeof *pairs);
@@ -110,11 +111,11 @@ static void parts_of_the_strain(void **state) {
   assert_int_equal(r.jammed, 1);
   assert_int_equal(r.strictly_jammed, JAM_VERDICT_NO);
   assert_int_equal(r.contacts, 2 * (r.stable - 1) + 2);
-  assert_int_equal(jam_cell_get(sys, cell, 4, NULL), JAM_OK);
+  assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
   assert_true(cell[2] == 0.0 && fabs(cell[0] / cell[3] - 1.0) > 1e-6);
   r = crunch_with_strain(tilted, JAM_STRAIN_TILTS, JAM_OK);
   assert_int_equal(r.jammed, 1);
-  assert_int_equal(jam_cell_get(tilted, cell, 4, NULL), JAM_OK);
+  assert_int_equal(jam_get_cell(tilted, cell, 4, NULL), JAM_OK);
   assert_true(fabs(cell[2]) > 1e-6 && fabs(cell[0] / cell[3] - 1.0) < 1e-12);
   crunch_with_strain(sys, 4, JAM_E_ARGUMENT);
   crunch_with_strain(sys, -1, JAM_E_ARGUMENT);

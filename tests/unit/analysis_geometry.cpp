@@ -101,7 +101,7 @@ void sheets_and_rows_flex(void **) {
   assert_int_equal(sheet.status, JAM_NOT_JAMMED);
   assert_int_equal(sheet.report.contacts, 50);
   assert_int_equal(sheet.verdict.result.flexes, 24 + 8);  // out of the plane, and rows and columns
-  assert_int_equal(sheet.verdict.result.bridges, 0);
+  assert_int_equal(sheet.verdict.result.undercoordinated, 0);
   p.set_cube(2, 5.0);
   p.position.clear();
   for (int i = 0; i < 5; ++i) p.position.insert(p.position.end(), {i + 0.0, 2.0});
@@ -110,7 +110,7 @@ void sheets_and_rows_flex(void **) {
   assert_int_equal(row.status, JAM_NOT_JAMMED);
   assert_int_equal(row.report.contacts, 5);
   assert_int_equal(row.verdict.result.flexes, 4);
-  assert_int_equal(row.verdict.result.bridges, 5);
+  assert_int_equal(row.verdict.result.undercoordinated, 5);
 }
 
 void separate_clusters_have_separate_stresses(void **) {

@@ -133,23 +133,23 @@ void values_by_class(void **) {
   add_contact(c, 0, 2, {0, 0}, 1.0);
   add_contact(c, 0, 3, {0, 0}, 2.0);
   add_contact(c, 1, 4, {0, 0}, 6.0);
-  const auto get = [&](int32_t quantity, int32_t which) { return class_values(c.packing, c.network, quantity, which); };
-  const std::vector<double> local = get(JAM_QUANTITY_FORCE, JAM_CLASS_LOCALISED),
-                            extended = get(JAM_QUANTITY_FORCE, JAM_CLASS_EXTENDED);
+  const auto get = [&](int32_t quantity, int32_t which) { return local_values(c.packing, c.network, quantity, which); };
+  const std::vector<double> local = get(JAM_LOCAL_FORCE, JAM_POPULATION_LOCALISED),
+                            extended = get(JAM_LOCAL_FORCE, JAM_POPULATION_EXTENDED);
   assert_int_equal(local.size(), 3);
   assert_true(local[0] == 1.5 && local[1] == 0.5 && local[2] == 1.0);  // over their mean 2
   assert_int_equal(extended.size(), 1);
   assert_true(extended[0] == 1.0);
-  assert_int_equal(get(JAM_QUANTITY_FORCE, JAM_CLASS_SMALLEST).size(), 4);
-  assert_int_equal(get(JAM_QUANTITY_COORDINATION, JAM_CLASS_ALL).size(), 5);  // sphere 5 touches nothing
-  assert_true(get(JAM_QUANTITY_COORDINATION, JAM_CLASS_LOCALISED) == std::vector<double>{3.0});
-  assert_true(get(JAM_QUANTITY_FORCE_SUM, JAM_CLASS_ALL) == (std::vector<double>{6.0, 9.0, 1.0, 2.0, 6.0}));
-  assert_int_equal(get(JAM_QUANTITY_VECTOR_DOT, JAM_CLASS_LOCALISED).size(), 3);
-  assert_int_equal(get(JAM_QUANTITY_VECTOR_DOT, JAM_CLASS_EXTENDED).size(), 1);
-  assert_true(std::fabs(get(JAM_QUANTITY_FORCE_DOT, JAM_CLASS_EXTENDED)[0] + 18.0) <
+  assert_int_equal(get(JAM_LOCAL_FORCE, JAM_POPULATION_SMALLEST).size(), 4);
+  assert_int_equal(get(JAM_LOCAL_COORDINATION, JAM_POPULATION_ALL).size(), 5);  // sphere 5 touches nothing
+  assert_true(get(JAM_LOCAL_COORDINATION, JAM_POPULATION_LOCALISED) == std::vector<double>{3.0});
+  assert_true(get(JAM_LOCAL_FORCE_SUM, JAM_POPULATION_ALL) == (std::vector<double>{6.0, 9.0, 1.0, 2.0, 6.0}));
+  assert_int_equal(get(JAM_LOCAL_VECTOR_DOT, JAM_POPULATION_LOCALISED).size(), 3);
+  assert_int_equal(get(JAM_LOCAL_VECTOR_DOT, JAM_POPULATION_EXTENDED).size(), 1);
+  assert_true(std::fabs(get(JAM_LOCAL_FORCE_DOT, JAM_POPULATION_EXTENDED)[0] + 18.0) <
               1e-12);  // straight through sphere 1
-  assert_true(std::fabs(get(JAM_QUANTITY_VECTOR_PAIRS, JAM_CLASS_EXTENDED)[0] + 1.0) < 1e-12);
-  assert_true(std::fabs(get(JAM_QUANTITY_VECTOR_SUM, JAM_CLASS_EXTENDED)[0]) < 1e-12);
+  assert_true(std::fabs(get(JAM_LOCAL_VECTOR_PAIRS, JAM_POPULATION_EXTENDED)[0] + 1.0) < 1e-12);
+  assert_true(std::fabs(get(JAM_LOCAL_VECTOR_SUM, JAM_POPULATION_EXTENDED)[0]) < 1e-12);
   const std::vector<double> h = histogram({0.1, 0.1, 0.6, 5.0, -1.0}, 0.0, 1.0, 4);
   assert_true(std::fabs(h[0] - 0.4 / 0.25) < 1e-12 && h[1] == 0.0 && std::fabs(h[2] - 0.2 / 0.25) < 1e-12 &&
               h[3] == 0.0);

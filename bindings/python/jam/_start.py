@@ -16,7 +16,7 @@ from .system import System
 def take_sizes(text: str) -> tuple[str, str]:
     """The value of --sizes: ('law', its text) or ('file', a name)."""
     try:
-        raw.jam_diameters_parse(text, raw.jam_diameters_options(), None)
+        raw.jam_parse_diameters(text, raw.jam_diameters_options(), None)
     except (errors.IoError, errors.FormatError):
         pass  # a file that the law names may be missing: that is no wrong command line
     except errors.JamError as error:

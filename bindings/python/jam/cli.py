@@ -193,7 +193,7 @@ class _Work:
                 )
             finally:
                 if o.checkpoint:
-                    self.system.checkpoint_write(o.checkpoint)
+                    self.system.write_checkpoint(o.checkpoint)
             out["collisions"] += md.collisions
             out["seconds_md"] += md.seconds
             out["pressure"] = md.pressure

@@ -173,12 +173,12 @@ class System(Verbs, Writing):
                     "read other files without sizes or cell by numpy, and pass the arrays to System.from_arrays"
                 )
         options["box"] = side_of(options.get("box"))
-        return cls._made(*raw.read_watched(name, option_struct("jam_create_options", options), None))
+        return cls._made(*raw.jam_read(name, option_struct("jam_create_options", options), None))
 
     @classmethod
     def from_checkpoint(cls, path: str | os.PathLike[str]) -> "System":
-        """Reads a file of `checkpoint_write`. The dynamics continue to the same bits as if they had never stopped."""
-        return cls._made(*raw.checkpoint_read_watched(os.fspath(path), None))
+        """Reads a file of `write_checkpoint`. The dynamics continue to the same bits as if they had never stopped."""
+        return cls._made(*raw.jam_read_checkpoint(os.fspath(path), None))
 
     @classmethod
     def _noted(cls, arguments: dict[str, Any], notes: list[str]) -> "System":
@@ -204,11 +204,8 @@ class System(Verbs, Writing):
             return bool(told(freeze(p, "jam_progress"))) if told else False
 
         try:
-            if vectors is None:
-                answer = raw.create_watched(made, positions, diameters, told and on_progress)
-            else:
-                flat = vectors.reshape(-1)
-                answer = raw.create_in_cell_watched(made, flat, positions, diameters, told and on_progress)
+            flat = None if vectors is None else vectors.reshape(-1)
+            answer = raw.jam_create(made, positions, diameters, flat, told and on_progress)
         finally:
             end(told)
         return cls._made(*answer)

@@ -121,7 +121,16 @@ end
 function create(given, x, sizes)
     o = options(jam_create_options, jam_create_options_init, given)
     out = Ref{Ptr{Cvoid}}(C_NULL)
-    check(jam_create(o, x, x === nothing ? 0 : length(x), sizes, sizes === nothing ? 0 : length(sizes), out))
+    start = jam_start()
+    GC.@preserve x sizes begin
+        if x !== nothing
+            start.positions, start.positions_len = pointer(x), length(x)
+        end
+        if sizes !== nothing
+            start.diameters, start.diameters_len = pointer(sizes), length(sizes)
+        end
+        check(jam_create(o, start, out))
+    end
     return System(out[])
 end
 
@@ -155,7 +164,7 @@ function System(path::AbstractString; given...)
     refuse(given, (:packing_fraction,), "the file holds it")
     o = options(jam_create_options, jam_create_options_init, given)
     out = Ref{Ptr{Cvoid}}(C_NULL)
-    check(jam_read(path, o, out))
+    check(jam_read(path, o, nothing, nothing, out))
     return System(out[])
 end
 
@@ -168,9 +177,9 @@ matrix. Without `n` it follows from `cell_volume` and `packing_fraction`, or `po
 """
 function sizes(law::AbstractString; curve = nothing, porosity = nothing, given...)
     parsed, needed = options(jam_diameters_options, jam_diameters_options_init, (;)), Ref{Csize_t}(0)
-    check(jam_diameters_parse(law, parsed, nothing, 0, needed))
+    check(jam_parse_diameters(law, parsed, nothing, 0, needed))
     rows = Vector{Cdouble}(undef, needed[])
-    isempty(rows) || check(jam_diameters_parse(law, parsed, rows, length(rows), needed))
+    isempty(rows) || check(jam_parse_diameters(law, parsed, rows, length(rows), needed))
     if curve !== nothing
         isempty(rows) || throw(ArgumentError("the law's text and curve both give rows"))
         size(curve, 1) == 2 || throw(ArgumentError("curve must be a 2-by-rows matrix, not $(size(curve))"))
@@ -195,7 +204,7 @@ end
 "What diameters are: a jam_size_report with moments, d10, d50, d90 by volume, and the densities in reach."
 function size_report(diameters; dim = 3)
     made, x = jam_size_report(), vec(dense(diameters))
-    check(jam_size_report_get(dim, x, length(x), made))
+    check(jam_get_size_report(dim, x, length(x), made))
     return made
 end
 
@@ -205,12 +214,12 @@ notes(s::System) = unsafe_string(jam_notes(handle(s)))
 "Makes a system from a file of `checkpoint(s, path)`: dynamics go on to the same bits."
 function from_checkpoint(path::AbstractString)
     out = Ref{Ptr{Cvoid}}(C_NULL)
-    check(jam_checkpoint_read(path, out))
+    check(jam_read_checkpoint(path, nothing, nothing, out))
     return System(out[])
 end
 
 "Writes all that the dynamics depend on."
-checkpoint(s::System, path::AbstractString) = (check(jam_checkpoint_write(handle(s), path)); nothing)
+checkpoint(s::System, path::AbstractString) = (check(jam_write_checkpoint(handle(s), path)); nothing)
 
 function Base.copy(s::System)
     out = Ref{Ptr{Cvoid}}(C_NULL)
@@ -223,7 +232,7 @@ Base.write(path::AbstractString, s::System; format = JAM_FORMAT_AUTO) = (check(j
 
 function info(s::System)
     made = jam_info()
-    check(jam_info_get(handle(s), made))
+    check(jam_get_info(handle(s), made))
     return made
 end
 
@@ -240,11 +249,11 @@ function view_of(s::System, f)
 end
 
 "d-by-n copy of the positions in [0, box)."
-positions(s::System) = reshape(copy(view_of(s, jam_positions_view)), Int(info(s).dim), :)
+positions(s::System) = reshape(copy(view_of(s, jam_view_positions)), Int(info(s).dim), :)
 "d-by-n copy of the velocities, kT/m = 1."
-velocities(s::System) = reshape(copy(view_of(s, jam_velocities_view)), Int(info(s).dim), :)
+velocities(s::System) = reshape(copy(view_of(s, jam_view_velocities)), Int(info(s).dim), :)
 "Copy of the n diameters."
-diameters(s::System) = copy(view_of(s, jam_diameters_view))
+diameters(s::System) = copy(view_of(s, jam_view_diameters))
 
 function check_shape(s::System, x, name)
     wanted = (Int(info(s).dim), Int(info(s).n))
@@ -378,7 +387,7 @@ end
 "Report of the last crunch."
 function report(s::System)
     made = jam_crunch_report()
-    check(jam_crunch_report_get(handle(s), made))
+    check(jam_get_crunch_report(handle(s), made))
     return made
 end
 

@@ -55,6 +55,18 @@ const JAM_STOP_STEPS = Int32(14)  # soft spheres: max_steps came first
 const JAM_STOP_SADDLE = Int32(15)  # crunch: forces balance, but a flex opens contacts, and kicks lead nowhere
 const JAM_STOP_DUALITY_GAP = Int32(16)  # crunch: it reached the duality gap of its options
 
+# jam_phase: Which part reports progress.
+const JAM_PHASE_RUN = Int32(1)  # NVE molecular dynamics
+const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
+const JAM_PHASE_CRUNCH = Int32(3)  # one LP or re-linearised Newton step done
+const JAM_PHASE_POLISH = Int32(4)  # refinement of the final network
+const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls, and setters that search for overlaps
+const JAM_PHASE_RELAX = Int32(6)  # minimising the energy of soft spheres
+const JAM_PHASE_DECOMPRESS = Int32(7)  # soft spheres on their way down to jamming; steps: decompressions so far
+const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
+const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
+const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres placed
+
 # jam_overlap_policy: What to do with overlaps in given positions.
 const JAM_OVERLAP_REFUSE = Int32(0)  # JAM_E_OVERLAP naming the worst pair
 const JAM_OVERLAP_SHRINK = Int32(1)  # scale all diameters down until the worst pair just touches; jam_notes gives the factor
@@ -91,18 +103,6 @@ const JAM_DRAW_RANDOM = Int32(1)  # independent, by the seed
 const JAM_REACH_FARR_GROOT = Int32(1)  # d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009))
 const JAM_REACH_MEASURED = Int32(2)  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
 const JAM_REACH_CRYSTAL = Int32(3)  # disks of nearly one size, which order: the hexagonal packing
-
-# jam_phase: Which part reports progress.
-const JAM_PHASE_RUN = Int32(1)  # NVE molecular dynamics
-const JAM_PHASE_COMPRESS = Int32(2)  # molecular dynamics with growth
-const JAM_PHASE_CRUNCH = Int32(3)  # one LP or re-linearised Newton step done
-const JAM_PHASE_POLISH = Int32(4)  # refinement of the final network
-const JAM_PHASE_ANALYSE = Int32(5)  # long analysis calls, and setters that search for overlaps
-const JAM_PHASE_RELAX = Int32(6)  # minimising the energy of soft spheres
-const JAM_PHASE_DECOMPRESS = Int32(7)  # soft spheres on their way down to jamming; steps: decompressions so far
-const JAM_PHASE_MONTE_CARLO = Int32(8)  # Metropolis sweeps
-const JAM_PHASE_ISOCONFIGURATIONAL = Int32(9)  # runs from one configuration; steps counts those that are done
-const JAM_PHASE_CREATE = Int32(10)  # making a system; steps counts the spheres placed
 
 # jam_log_level: Log levels.
 const JAM_LOG_NONE = Int32(0)  # silent, the default
@@ -295,22 +295,22 @@ const JAM_CONTACT_LOCALISED = Int32(1)  # touches a buckler (a stable sphere wit
 const JAM_CONTACT_SMALLEST = Int32(2)  # has the smallest force of one of its spheres
 const JAM_CONTACT_MEDIAN = Int32(4)  # has the (lower) median force of one of its spheres
 
-# jam_quantity: What jam_class_values and jam_histogram look at.
-const JAM_QUANTITY_FORCE = Int32(0)  # contacts: f over its mean in the class
-const JAM_QUANTITY_VECTOR_SUM = Int32(1)  # stable spheres: |C_i|
-const JAM_QUANTITY_VECTOR_PAIRS = Int32(2)  # stable spheres: S_i
-const JAM_QUANTITY_VECTOR_DOT = Int32(3)  # pairs of contacts of a sphere: n_ij . n_ik
-const JAM_QUANTITY_FORCE_SUM = Int32(4)  # stable spheres: sum_j f_ij
-const JAM_QUANTITY_FORCE_PAIRS = Int32(5)  # stable spheres: S_i with f n for n
-const JAM_QUANTITY_FORCE_DOT = Int32(6)  # pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik
-const JAM_QUANTITY_COORDINATION = Int32(7)  # stable spheres: z_i
+# jam_local_quantity: Quantity of which jam_local_values and jam_histogram take the values.
+const JAM_LOCAL_FORCE = Int32(0)  # contacts: f over its mean in the population
+const JAM_LOCAL_VECTOR_SUM = Int32(1)  # stable spheres: |C_i|
+const JAM_LOCAL_VECTOR_PAIRS = Int32(2)  # stable spheres: S_i
+const JAM_LOCAL_VECTOR_DOT = Int32(3)  # pairs of contacts of a sphere: n_ij . n_ik
+const JAM_LOCAL_FORCE_SUM = Int32(4)  # stable spheres: sum_j f_ij
+const JAM_LOCAL_FORCE_PAIRS = Int32(5)  # stable spheres: S_i with f n for n
+const JAM_LOCAL_FORCE_DOT = Int32(6)  # pairs of contacts of a sphere: f_ij f_ik n_ij . n_ik
+const JAM_LOCAL_COORDINATION = Int32(7)  # stable spheres: z_i
 
-# jam_class: Which of them.
-const JAM_CLASS_ALL = Int32(0)
-const JAM_CLASS_LOCALISED = Int32(1)  # contacts that touch a buckler; spheres and their pairs: the bucklers
-const JAM_CLASS_EXTENDED = Int32(2)  # contacts that do not; spheres and their pairs: all other stable ones
-const JAM_CLASS_SMALLEST = Int32(3)  # forces only: the smallest of one of its spheres
-const JAM_CLASS_MEDIAN = Int32(4)  # forces only: the (lower) median of one of its spheres
+# jam_population: The contacts or spheres that count.
+const JAM_POPULATION_ALL = Int32(0)
+const JAM_POPULATION_LOCALISED = Int32(1)  # contacts that touch a buckler; spheres and their pairs: the bucklers
+const JAM_POPULATION_EXTENDED = Int32(2)  # contacts that do not; spheres and their pairs: all other stable ones
+const JAM_POPULATION_SMALLEST = Int32(3)  # forces only: the smallest of one of its spheres
+const JAM_POPULATION_MEDIAN = Int32(4)  # forces only: the (lower) median of one of its spheres
 
 # jam_floppy_column: Columns of jam_floppy_modes, a row a contact; dr is the field of jam_floppy_mode.
 const JAM_FLOPPY_MEDIAN = Int32(0)  # b = median |dr_i| / |dr|: far below 1/sqrt(N') when the mode is localised
@@ -327,6 +327,27 @@ const JAM_DOS_ERROR = Int32(2)  # its standard error over the random vectors; sm
 const JAM_DOS_EDGE = Int32(3)  # upper end of the bin
 const JAM_DOS_CUMULATIVE = Int32(4)  # share of modes below the edge
 const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
+
+"""
+Given to the progress callback; valid during the call only.
+"""
+mutable struct jam_progress
+    struct_size::UInt32  # sizeof(jam_progress) as the library knows it
+    phase::Int32  # jam_phase
+    packing_fraction::Cdouble  # now
+    pressure::Cdouble  # MD: reduced pressure of the last window, NaN before
+    gain::Cdouble  # crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
+    max_step::Cdouble  # crunch: largest |s_i| over mean diameter
+    seconds::Cdouble  # since the call began
+    fraction::Cdouble  # of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
+    collisions::Int64  # MD: so far in this call
+    steps::Int64  # crunch: LPs so far; analysis: items done
+    factorisations::Int64  # crunch: so far
+    snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    seconds_left::Cdouble  # until the aim, from how `fraction` grew; NaN before a few reports
+    seconds_left_spread::Cdouble  # a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
+    jam_progress() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
 
 """
 Options of jam_create and jam_read.
@@ -349,6 +370,23 @@ mutable struct jam_create_options
     frame::Int64  # which packing of a file with several, from 0; negative: from the end; default -1, the last
     shrink_min::Cdouble  # smallest factor that JAM_OVERLAP_SHRINK may apply to diameters, 0..1, default 1e-3. A smaller one is refused: it points to duplicate spheres or wrong units
     jam_create_options() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+end
+
+"""
+Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
+"""
+mutable struct jam_start
+    struct_size::UInt32  # sizeof(jam_start)
+    reserved::Int32  # 0
+    positions::Ptr{Cvoid}  # (n, d), Cartesian, unit of `box`, any finite value (wrapped into the cell); NULL: a random sequential start at the packing_fraction of the options
+    positions_len::Csize_t
+    diameters::Ptr{Cvoid}  # n values, or 1 for all; NULL: all equal. With positions they must be given and are taken as they are. For a random start only their ratios count
+    diameters_len::Csize_t
+    cell::Ptr{Cvoid}  # (d, d), of any positive determinant; `box` must then be 1, the default. A left-handed, singular or flat cell is refused. NULL: a cube
+    cell_len::Csize_t
+    progress::Ptr{Cvoid}  # or NULL; a non-zero return ends the call. The new system has no callback
+    user::Ptr{Cvoid}  # given to progress
+    jam_start() = new(72, 0, C_NULL, 0, C_NULL, 0, C_NULL, 0, C_NULL, C_NULL)
 end
 
 """
@@ -415,27 +453,6 @@ mutable struct jam_size_report
     sequential_fraction::Cdouble  # where random sequential addition of equal spheres ends (Zhang and Torquato, Phys. Rev. E 88, 053312 (2013)); mixtures go beyond
     jammed_fraction::Cdouble  # estimate of the packing fraction at which these sizes jam in disorder
     jam_size_report() = new(112, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
-end
-
-"""
-Given to the progress callback; valid during the call only.
-"""
-mutable struct jam_progress
-    struct_size::UInt32  # sizeof(jam_progress) as the library knows it
-    phase::Int32  # jam_phase
-    packing_fraction::Cdouble  # now
-    pressure::Cdouble  # MD: reduced pressure of the last window, NaN before
-    gain::Cdouble  # crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
-    max_step::Cdouble  # crunch: largest |s_i| over mean diameter
-    seconds::Cdouble  # since the call began
-    fraction::Cdouble  # of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
-    collisions::Int64  # MD: so far in this call
-    steps::Int64  # crunch: LPs so far; analysis: items done
-    factorisations::Int64  # crunch: so far
-    snapshot::Int64  # number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
-    seconds_left::Cdouble  # until the aim, from how `fraction` grew; NaN before a few reports
-    seconds_left_spread::Cdouble  # a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left
-    jam_progress() = new(104, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -653,9 +670,9 @@ mutable struct jam_crunch_report
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
-    idle_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
+    zero_force_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
-    bridges::Int64  # stable spheres with d force-carrying contacts or fewer
+    undercoordinated::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin::Cdouble  # smallest eigenvalue of S^T S on force-carrying contacts that is no translation
     lp_solves::Int64  # LPs solved in full
@@ -881,8 +898,8 @@ mutable struct jam_rigidity_report
     contacts_needed::Int64  # collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
     self_stresses::Int64  # independent balances of forces on K+, signs free
     flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
-    bridges::Int64  # spheres of B with d contacts of K+ or fewer
-    idle_contacts::Int64  # closed pairs that are not in K+
+    undercoordinated::Int64  # spheres of B with d contacts of K+ or fewer
+    zero_force_contacts::Int64  # closed pairs that are not in K+
     undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
     rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
@@ -919,7 +936,7 @@ mutable struct jam_check_report
     excess_contacts::Int64  # contacts - (d (N' - 1) + 1), 0 without contacts
     rattlers::Int64  # n - N': spheres without force
     closed_pairs::Int64  # pairs with gaps below 1e-10, those of rattlers among them
-    idle_contacts::Int64  # of the pairs that were tested, those without force in every state
+    zero_force_contacts::Int64  # of the pairs that were tested, those without force in every state
     undecided_contacts::Int64  # pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses::Int64  # independent balances of forces; with more than one forces are not unique
     flexes::Int64  # motions beyond translations that keep all contacts with force closed
@@ -988,8 +1005,8 @@ end
 """
 Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
 """
-mutable struct jam_moduli
-    struct_size::UInt32  # set by the caller: sizeof(jam_moduli)
+mutable struct jam_moduli_report
+    struct_size::UInt32  # set by the caller: sizeof(jam_moduli_report)
     reserved::Int32  # 0
     bulk::Cdouble  # K
     bulk_affine::Cdouble  # K without the non-affine part
@@ -997,7 +1014,7 @@ mutable struct jam_moduli
     shear_affine::Cdouble  # G without the non-affine part
     shear_min::Cdouble  # smallest of the planes, both directions averaged
     shear_max::Cdouble  # largest of them
-    jam_moduli() = new(56, 0, 0, 0, 0, 0, 0, 0)
+    jam_moduli_report() = new(56, 0, 0, 0, 0, 0, 0, 0)
 end
 
 """
@@ -1086,15 +1103,13 @@ function jam_create_options_init(o, size)
 end
 
 """
-Makes a system. positions: unit of `box`, any finite value (wrapped into [0, box)), or NULL for a random sequential
-start at o->packing_fraction. diameters: n values, or 1 for all, or NULL (all equal). With positions they must be
-given and are taken as they are. For a random start only their ratios count. The caller frees *out by jam_destroy.
-After JAM_LIMIT (wall_time) *out is NULL. Example: examples/c/first.c
-Shapes: positions (n, d), diameters (n).
+Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
+call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
+compared. Example: examples/c/first.c
 Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
 """
-function jam_create(o, positions, positions_len, diameters, diameters_len, out)
-    return ccall((:jam_create, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)
+function jam_create(o, start, out)
+    return ccall((:jam_create, libjam), Int32, (Ref{jam_create_options}, Ref{jam_start}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ref(jam_start, start), out)
 end
 
 """
@@ -1116,30 +1131,30 @@ end
 """
 Fills *info.
 """
-function jam_info_get(sys, info)
-    return ccall((:jam_info_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_info}), sys, _ref(jam_info, info))
+function jam_get_info(sys, info)
+    return ccall((:jam_get_info, libjam), Int32, (Ptr{Cvoid}, Ref{jam_info}), sys, _ref(jam_info, info))
 end
 
 """
 View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
 content changes only at the end of calls that move spheres.
 """
-function jam_positions_view(sys, view, view_len)
-    return ccall((:jam_positions_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+function jam_view_positions(sys, view, view_len)
+    return ccall((:jam_view_positions, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
-View of the n diameters; lifetime as jam_positions_view.
+View of the n diameters; lifetime as jam_view_positions.
 """
-function jam_diameters_view(sys, view, view_len)
-    return ccall((:jam_diameters_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+function jam_view_diameters(sys, view, view_len)
+    return ccall((:jam_view_diameters, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
-View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_positions_view.
+View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions.
 """
-function jam_velocities_view(sys, view, view_len)
-    return ccall((:jam_velocities_view, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
+function jam_view_velocities(sys, view, view_len)
+    return ccall((:jam_view_velocities, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
@@ -1169,21 +1184,11 @@ function jam_scale_diameters(sys, factor)
 end
 
 """
-jam_create in a cell of any positive determinant, d = o->dim; o->box must be 1, the default. A left-handed, singular
-or flat cell is refused. positions: Cartesian, in the frame of `cell`.
-Shapes: cell (d, d), positions (n, d), diameters (n).
-Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-"""
-function jam_create_in_cell(o, cell, cell_len, positions, positions_len, diameters, diameters_len, out)
-    return ccall((:jam_create_in_cell, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, out)
-end
-
-"""
 Cell vectors in normal form.
 Shapes: out (d, d).
 """
-function jam_cell_get(sys, out, out_len, needed)
-    return ccall((:jam_cell_get, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_get_cell(sys, out, out_len, needed)
+    return ccall((:jam_get_cell, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1194,8 +1199,8 @@ vectors, so with other vectors the system is another one.
 Shapes: cell (d, d), transform (d, d), rotation (d, d).
 Errors: JAM_E_OVERLAP.
 """
-function jam_cell_set(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
-    return ccall((:jam_cell_set, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
+function jam_set_cell(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
+    return ccall((:jam_set_cell, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
 end
 
 """
@@ -1234,8 +1239,8 @@ Reads a law from text into *o, whose other fields stay as they are, and gives it
 Shapes: curve (rows, 2).
 Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line).
 """
-function jam_diameters_parse(text, o, curve, curve_len, needed)
-    return ccall((:jam_diameters_parse, libjam), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
+function jam_parse_diameters(text, o, curve, curve_len, needed)
+    return ccall((:jam_parse_diameters, libjam), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1252,8 +1257,8 @@ Describes diameters > 0 in dimension dim.
 Shapes: diameters (n).
 Errors: JAM_E_DIMENSION.
 """
-function jam_size_report_get(dim, diameters, diameters_len, report)
-    return ccall((:jam_size_report_get, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{jam_size_report}), dim, _ptr(diameters), diameters_len, _ref(jam_size_report, report))
+function jam_get_size_report(dim, diameters, diameters_len, report)
+    return ccall((:jam_get_size_report, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{jam_size_report}), dim, _ptr(diameters), diameters_len, _ref(jam_size_report, report))
 end
 
 """
@@ -1263,44 +1268,6 @@ its handle does not call it again.
 """
 function jam_set_progress(sys, callback, user)
     return ccall((:jam_set_progress, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid}), sys, _ptr(callback), _ptr(user))
-end
-
-"""
-jam_create with a progress callback (or NULL) while it works; packing_fraction is that of the spheres placed so far.
-A non-zero return ends the call with JAM_CANCELLED and *out NULL. The new system has no callback.
-Shapes: positions (n, d), diameters (n).
-Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
-"""
-function jam_create_watched(o, positions, positions_len, diameters, diameters_len, callback, user, out)
-    return ccall((:jam_create_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
-end
-
-"""
-jam_create_in_cell, jam_read and jam_checkpoint_read with a progress callback (or NULL): a non-zero return ends the
-call with JAM_CANCELLED and *out NULL. These calls take long when many pairs of spheres are close together. They also
-take long in the Mari-Kurchan model, where all pairs are compared. Status: as jam_create_watched;
-jam_checkpoint_read_watched has no time limit.
-Shapes: cell (d, d), positions (n, d), diameters (n).
-Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-"""
-function jam_create_in_cell_watched(o, cell, cell_len, positions, positions_len, diameters, diameters_len, callback, user, out)
-    return ccall((:jam_create_in_cell_watched, libjam), Int32, (Ref{jam_create_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ptr(cell), cell_len, _ptr(positions), positions_len, _ptr(diameters), diameters_len, _ptr(callback), _ptr(user), out)
-end
-
-"""
-See jam_create_in_cell_watched.
-Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
-"""
-function jam_read_watched(path, o, callback, user, out)
-    return ccall((:jam_read_watched, libjam), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
-end
-
-"""
-See jam_create_in_cell_watched.
-Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
-"""
-function jam_checkpoint_read_watched(path, callback, user, out)
-    return ccall((:jam_checkpoint_read_watched, libjam), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
 end
 
 """
@@ -1321,7 +1288,7 @@ end
 """
 Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
 infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
-memory of jam_crunch_estimate with the limit before it begins, and that of each matrix before it factorises it. The
+memory of jam_estimate_crunch with the limit before it begins, and that of each matrix before it factorises it. The
 default is half the machine's memory. An option memory_limit can lower the limit for its own call.
 """
 function jam_set_memory_limit(sys, bytes)
@@ -1334,11 +1301,11 @@ by the content. For a file of another format the error names that format and wha
 model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
 what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
 order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
-lost digits.
+lost digits. callback, user: as in jam_start.
 Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
 """
-function jam_read(path, o, out)
-    return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), out)
+function jam_read(path, o, callback, user, out)
+    return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
 end
 
 """
@@ -1363,7 +1330,7 @@ end
 Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
 a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-same seed and mk_zeta. Planted shifts are not saved either: use jam_checkpoint_write. Only XYZ can hold
+same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
 non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
 Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
 """
@@ -1438,16 +1405,16 @@ under another name and then renamed. Dynamics that go on from it make the same b
 crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
 Errors: JAM_E_IO.
 """
-function jam_checkpoint_write(sys, path)
-    return ccall((:jam_checkpoint_write, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
+function jam_write_checkpoint(sys, path)
+    return ccall((:jam_write_checkpoint, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """
-Makes a system from such a file.
+Makes a system from such a file. callback, user: as in jam_start.
 Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
 """
-function jam_checkpoint_read(path, out)
-    return ccall((:jam_checkpoint_read, libjam), Int32, (Cstring, Ref{Ptr{Cvoid}}), path, out)
+function jam_read_checkpoint(path, callback, user, out)
+    return ccall((:jam_read_checkpoint, libjam), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
 end
 
 function jam_observe_options_init(o, size)
@@ -1455,7 +1422,7 @@ function jam_observe_options_init(o, size)
 end
 
 """
-From now on jam_run and jam_compress record, over all calls, until jam_observe_stop. What was recorded before is
+From now on jam_run and jam_compress record, over all calls, until jam_stop_observing. What was recorded before is
 dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
 callback is called with jam_progress.snapshot > 0: every const call works on that state there.
 """
@@ -1466,8 +1433,8 @@ end
 """
 Stops recording; what was recorded can still be read.
 """
-function jam_observe_stop(sys)
-    return ccall((:jam_observe_stop, libjam), Int32, (Ptr{Cvoid},), sys)
+function jam_stop_observing(sys)
+    return ccall((:jam_stop_observing, libjam), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
@@ -1543,7 +1510,7 @@ end
 Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
 preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
 overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
-dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_checkpoint_write.
+dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
 Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model).
 """
 function jam_monte_carlo(sys, o, report)
@@ -1561,7 +1528,7 @@ from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these 
 resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
 of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
 sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
-jam_checkpoint_read. Status: JAM_NOT_CONVERGED (a run cannot move).
+jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
 Shapes: instant (instants), kept (k).
 Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
 """
@@ -1573,8 +1540,8 @@ end
 The report of these runs as they are now.
 Errors: JAM_E_STATE (no runs).
 """
-function jam_isoconf_report_get(sys, report)
-    return ccall((:jam_isoconf_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
+function jam_get_isoconf_report(sys, report)
+    return ccall((:jam_get_isoconf_report, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
 end
 
 """
@@ -1612,7 +1579,7 @@ end
 """
 Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-call it again to continue, also after jam_checkpoint_write and jam_checkpoint_read. On the barrier path it then goes
+call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
 on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
 last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
 along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
@@ -1627,16 +1594,16 @@ Estimates memory and time of jam_crunch with these options (NULL: defaults) with
 same at JAM_LOG_INFO. Takes as long as a few steps.
 Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW.
 """
-function jam_crunch_estimate(sys, o, estimated)
-    return ccall((:jam_crunch_estimate, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
+function jam_estimate_crunch(sys, o, estimated)
+    return ccall((:jam_estimate_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
 end
 
 """
 The report of the last crunch.
 Errors: JAM_E_STATE.
 """
-function jam_crunch_report_get(sys, report)
-    return ccall((:jam_crunch_report_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
+function jam_get_crunch_report(sys, report)
+    return ccall((:jam_get_crunch_report, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
 end
 
 """
@@ -1661,11 +1628,11 @@ end
 
 """
 Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
-Shapes: iout (m, 2).
+Shapes: out (m, 2).
 Errors: JAM_E_STATE.
 """
-function jam_crunch_step_contacts(sys, iout, iout_len, needed)
-    return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+function jam_crunch_step_contacts(sys, out, out_len, needed)
+    return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1733,11 +1700,11 @@ end
 """
 Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
 cell. Each stands for both opposite images, so it adds 2 to the coordination.
-Shapes: iout (contacts, 2).
+Shapes: out (contacts, 2).
 Errors: JAM_E_STATE (no crunch yet).
 """
-function jam_contacts(sys, iout, iout_len, needed)
-    return ccall((:jam_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+function jam_contacts(sys, out, out_len, needed)
+    return ccall((:jam_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1772,11 +1739,11 @@ end
 
 """
 Number of contacts of each sphere; 0 for rattlers.
-Shapes: iout (n).
+Shapes: out (n).
 Errors: JAM_E_STATE.
 """
-function jam_coordination(sys, iout, iout_len, needed)
-    return ccall((:jam_coordination, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+function jam_coordination(sys, out, out_len, needed)
+    return ccall((:jam_coordination, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 function jam_hessian_options_init(o, size)
@@ -1788,12 +1755,12 @@ function jam_modes_options_init(o, size)
 end
 
 """
-The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
-Shapes: iout (N').
+The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k].
+Shapes: out (N').
 Errors: JAM_E_STATE.
 """
-function jam_hessian_map(sys, iout, iout_len, needed)
-    return ccall((:jam_hessian_map, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+function jam_hessian_map(sys, out, out_len, needed)
+    return ccall((:jam_hessian_map, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1821,7 +1788,7 @@ end
 
 """
 Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
-moves. Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
+moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
 are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
 self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
 network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
@@ -1972,11 +1939,11 @@ end
 
 """
 Flags (jam_contact_class) of every contact.
-Shapes: iout (n_c).
+Shapes: out (n_c).
 Errors: JAM_E_STATE.
 """
-function jam_contact_classes(sys, iout, iout_len, needed)
-    return ccall((:jam_contact_classes, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(iout), iout_len, _ref(Csize_t, needed))
+function jam_contact_classes(sys, out, out_len, needed)
+    return ccall((:jam_contact_classes, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -1998,22 +1965,22 @@ function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
 end
 
 """
-Values of a jam_quantity in a jam_class, in the order of contacts, spheres or jam_contact_dots.
+Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
 Shapes: out (values).
 Errors: JAM_E_STATE.
 """
-function jam_class_values(sys, quantity, which, out, out_len, needed)
-    return ccall((:jam_class_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_local_values(sys, quantity, population, out, out_len, needed)
+    return ccall((:jam_local_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Histogram of the values of jam_class_values: density in `bins` equal bins of [low, high), its integral the share of
+Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
 values there.
 Shapes: out (bins).
 Errors: JAM_E_STATE.
 """
-function jam_histogram(sys, quantity, which, low, high, bins, out, out_len, needed)
-    return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, which, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
+function jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed)
+    return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
@@ -2118,8 +2085,8 @@ end
 Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
 Errors: JAM_E_STATE, JAM_E_SOLVER.
 """
-function jam_moduli_get(sys, h, moduli)
-    return ccall((:jam_moduli_get, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli, moduli))
+function jam_moduli(sys, h, moduli)
+    return ccall((:jam_moduli, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
 end
 
 """

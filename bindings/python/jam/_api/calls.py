@@ -1,14 +1,15 @@
 """Calls any C function of the header by its conventions: options by keyword, arrays as numpy, count then fill."""
 from __future__ import annotations
 
-from typing import Any, Callable
+import math
+from typing import Any
 
 import numpy as np
 
 from .. import raw
 from . import errors, generated
 from .arrays import DTYPES, as_array, unknown_array
-from .generated import CALLS, OPTIONS, REPORTS, ROWS, StatusCode, TABLES
+from .generated import CALLS, EXTENTS, OPTIONS, REPORTS, ROWS, StatusCode, TABLES
 from .options import as_enum, option_struct, unknown
 from .tuples import TUPLES
 
@@ -36,31 +37,17 @@ def new_report(name: str) -> Any:
     return getattr(raw, name)()
 
 
-# Shapes of the arrays that calls fill, by name of function and array: m is *needed or *rows, d the dimension,
-# n the number of spheres. Others are flat (m,).
-SHAPES: dict[str, dict[str, Callable[[int, int, int], tuple[int, ...]]]] = {
-    "contacts": {"iout": lambda m, d, n: (m // 2, 2)},
-    "contact_vectors": {"out": lambda m, d, n: (m // d, d)},
-    "crunch_step_contacts": {"iout": lambda m, d, n: (m // 2, 2)},
-    "crunch_step_displacements": {"out": lambda m, d, n: (m // d, d)},
-    "crunch_step_vectors": {"out": lambda m, d, n: (m // d, d)},
-    "floppy_mode": {"out": lambda m, d, n: (m // d, d)},
-    "compare": {"out": lambda m, d, n: (m // d, d)},
-    "elastic_tensor": {"affine": lambda m, d, n: (d, d, d, d), "relaxed": lambda m, d, n: (d, d, d, d)},
-    "gaps": {"pair": lambda m, d, n: (m, 2)},
-    "sphere_structure": {"c": lambda m, d, n: (m, d)},
-    "observed_spheres": {"displacement": lambda m, d, n: (m, d)},
-    "isoconf_kept": {"out": lambda m, d, n: (m // (n * d), n, d)},
-    "isoconf_sums": {
-        "displacement": lambda m, d, n: (m // n, n, d),
-        "square": lambda m, d, n: (m // n, n, d),
-        "distance2": lambda m, d, n: (m // n, n),
-        "distance4": lambda m, d, n: (m // n, n),
-    },
-    "refined_positions": {"high": lambda m, d, n: (n, d), "low": lambda m, d, n: (n, d)},
-    "observed_pairs": {"pair": lambda m, d, n: (m, 2)},
-    "observed_gaps": {"edge": lambda m, d, n: (m + 1 if m else 0,)},
-}
+def _shape(extents: tuple[str, ...], count: str, m: int, d: int, n: int, alone: bool) -> tuple[int, ...]:
+    """Shape of an array that a call fills, by the header's @shape, with one extent that the call gave: m is *rows; or
+    *needed, the elements of a single array, and of several n for each value of that extent.
+    """
+    known = {i: d if e == "d" else n if e == "n" else int(e) for i, e in enumerate(extents) if e in ("d", "n") or e.isdigit()}
+    if len(known) < len(extents) - 1:
+        return (m,)
+    given = m // (math.prod(known.values()) if alone else n if count == "needed" else 1)
+    return tuple(known.get(i, given + (given > 0 and e.endswith("+ 1"))) for i, e in enumerate(extents))
+
+
 INPUTS = ("scalar", "string", "array_in", "struct_in", "handle")
 
 
@@ -123,9 +110,10 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
     count = next((k for k, arg in enumerate(asked) if arg in ("needed", "rows")), None)
     if fills and count is not None and status in (0, StatusCode.AMBIGUOUS):
-        m, spheres = scalars[count], raw.jam_diameters_view(handle)[1][1] if on_system else 0
+        m, spheres = scalars[count], raw.jam_view_diameters(handle)[1][1] if on_system else 0
         for arg, at, ctype in fills:
-            shape = SHAPES.get(name, {}).get(arg, lambda m, d, n: (m,))(m, dim, spheres)
+            extents = EXTENTS.get("jam_" + name, {}).get(arg, ("m",))
+            shape = _shape(extents, asked[count], m, dim, spheres, len(fills) == 1)
             outputs[arg] = unknown_array(shape, np.dtype(ROWS[ctype]) if ctype in ROWS else DTYPES[ctype])
             passed[at] = outputs[arg].reshape(-1)
         status, *scalars = function(*first, *passed)

@@ -35,7 +35,7 @@ METHODS: set[str] = set()
 _NAMES = {
     "create": "System.random or System.from_arrays",
     "observe": "observing()",
-    "crunch_report_get": "report",
+    "get_crunch_report": "report",
     "set_positions": "positions",
     "set_velocities": "velocities",
 }

@@ -59,6 +59,20 @@ class StopReason(IntEnum):
     DUALITY_GAP = 16  # crunch: it reached the duality gap of its options
 
 
+class Phase(IntEnum):
+    """Which part reports progress."""
+    RUN = 1  # NVE molecular dynamics
+    COMPRESS = 2  # molecular dynamics with growth
+    CRUNCH = 3  # one LP or re-linearised Newton step done
+    POLISH = 4  # refinement of the final network
+    ANALYSE = 5  # long analysis calls, and setters that search for overlaps
+    RELAX = 6  # minimising the energy of soft spheres
+    DECOMPRESS = 7  # soft spheres on their way down to jamming; steps: decompressions so far
+    MONTE_CARLO = 8  # Metropolis sweeps
+    ISOCONFIGURATIONAL = 9  # runs from one configuration; steps counts those that are done
+    CREATE = 10  # making a system; steps counts the spheres placed
+
+
 class OverlapPolicy(IntEnum):
     """What to do with overlaps in given positions."""
     REFUSE = 0  # JAM_E_OVERLAP naming the worst pair
@@ -108,20 +122,6 @@ class ReachSource(IntEnum):
     FARR_GROOT = 1  # d = 3: a line cuts spheres into rods (Farr and Groot, J. Chem. Phys. 131, 244104 (2009))
     MEASURED = 2  # other d: the same map, fitted to packings of libjam: equal spheres, disks 1 : 1.4
     CRYSTAL = 3  # disks of nearly one size, which order: the hexagonal packing
-
-
-class Phase(IntEnum):
-    """Which part reports progress."""
-    RUN = 1  # NVE molecular dynamics
-    COMPRESS = 2  # molecular dynamics with growth
-    CRUNCH = 3  # one LP or re-linearised Newton step done
-    POLISH = 4  # refinement of the final network
-    ANALYSE = 5  # long analysis calls, and setters that search for overlaps
-    RELAX = 6  # minimising the energy of soft spheres
-    DECOMPRESS = 7  # soft spheres on their way down to jamming; steps: decompressions so far
-    MONTE_CARLO = 8  # Metropolis sweeps
-    ISOCONFIGURATIONAL = 9  # runs from one configuration; steps counts those that are done
-    CREATE = 10  # making a system; steps counts the spheres placed
 
 
 class LogLevel(IntEnum):
@@ -370,9 +370,9 @@ class ContactClass(IntEnum):
     MEDIAN = 4  # has the (lower) median force of one of its spheres
 
 
-class Quantity(IntEnum):
-    """What jam_class_values and jam_histogram look at."""
-    FORCE = 0  # contacts: f over its mean in the class
+class LocalQuantity(IntEnum):
+    """Quantity of which jam_local_values and jam_histogram take the values."""
+    FORCE = 0  # contacts: f over its mean in the population
     VECTOR_SUM = 1  # stable spheres: |C_i|
     VECTOR_PAIRS = 2  # stable spheres: S_i
     VECTOR_DOT = 3  # pairs of contacts of a sphere: n_ij . n_ik
@@ -382,8 +382,8 @@ class Quantity(IntEnum):
     COORDINATION = 7  # stable spheres: z_i
 
 
-class Class(IntEnum):
-    """Which of them."""
+class Population(IntEnum):
+    """The contacts or spheres that count."""
     ALL = 0
     LOCALISED = 1  # contacts that touch a buckler; spheres and their pairs: the bucklers
     EXTENDED = 2  # contacts that do not; spheres and their pairs: all other stable ones
@@ -420,6 +420,38 @@ class Report:
 
     def __repr__(self) -> str:
         return self.text or _as_table(self)
+
+
+@dataclass(frozen=True, repr=False)
+class Progress(Report):
+    """Given to the progress callback; valid during the call only.
+
+    phase: jam_phase
+    packing_fraction: now
+    pressure: MD: reduced pressure of the last window, NaN before
+    gain: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
+    max_step: crunch: largest |s_i| over mean diameter
+    seconds: since the call began
+    fraction: of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
+    collisions: MD: so far in this call
+    steps: crunch: LPs so far; analysis: items done
+    factorisations: crunch: so far
+    snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
+    seconds_left: until the aim, from how `fraction` grew; NaN before a few reports
+    seconds_left_spread: a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left"""
+    phase: Phase
+    packing_fraction: float
+    pressure: float
+    gain: float
+    max_step: float
+    seconds: float
+    fraction: float
+    collisions: int
+    steps: int
+    factorisations: int
+    snapshot: int
+    seconds_left: float
+    seconds_left_spread: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -484,38 +516,6 @@ class SizeReport(Report):
     largest_share: float
     sequential_fraction: float
     jammed_fraction: float
-
-
-@dataclass(frozen=True, repr=False)
-class Progress(Report):
-    """Given to the progress callback; valid during the call only.
-
-    phase: jam_phase
-    packing_fraction: now
-    pressure: MD: reduced pressure of the last window, NaN before
-    gain: crunch: sqrt(Gamma) - 1 of the last LP; on the barrier path its duality gap
-    max_step: crunch: largest |s_i| over mean diameter
-    seconds: since the call began
-    fraction: of the call, 0..1: never falls, an estimate where the length of the way is not known (growth, crunch); NaN before the first estimate and in calls without one. wall_time is not in it
-    collisions: MD: so far in this call
-    steps: crunch: LPs so far; analysis: items done
-    factorisations: crunch: so far
-    snapshot: number of the snapshot (jam_observe) that the views show now; 0: an ordinary report
-    seconds_left: until the aim, from how `fraction` grew; NaN before a few reports
-    seconds_left_spread: a factor above 1: at least two of three calls end between seconds_left divided by it and seconds_left times it; NaN with seconds_left"""
-    phase: Phase
-    packing_fraction: float
-    pressure: float
-    gain: float
-    max_step: float
-    seconds: float
-    fraction: float
-    collisions: int
-    steps: int
-    factorisations: int
-    snapshot: int
-    seconds_left: float
-    seconds_left_spread: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -641,9 +641,9 @@ class CrunchReport(Report):
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts: contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
-    idle_contacts: closed pairs without force in every state of self-stress, those of rattlers too
+    zero_force_contacts: closed pairs without force in every state of self-stress, those of rattlers too
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
-    bridges: stable spheres with d force-carrying contacts or fewer
+    undercoordinated: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin: smallest eigenvalue of S^T S on force-carrying contacts that is no translation
     lp_solves: LPs solved in full
@@ -691,9 +691,9 @@ class CrunchReport(Report):
     isostatic_contacts: int
     excess_contacts: int
     flexes: int
-    idle_contacts: int
+    zero_force_contacts: int
     undecided_contacts: int
-    bridges: int
+    undercoordinated: int
     strict_contacts_needed: int
     rigidity_margin: float
     lp_solves: int
@@ -898,8 +898,8 @@ class RigidityReport(Report):
     contacts_needed: collective d (N' - 1) + 1, strict d (N' - 1) + d (d + 1) / 2
     self_stresses: independent balances of forces on K+, signs free
     flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
-    bridges: spheres of B with d contacts of K+ or fewer
-    idle_contacts: closed pairs that are not in K+
+    undercoordinated: spheres of B with d contacts of K+ or fewer
+    zero_force_contacts: closed pairs that are not in K+
     undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
     rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
@@ -911,8 +911,8 @@ class RigidityReport(Report):
     contacts_needed: int
     self_stresses: int
     flexes: int
-    bridges: int
-    idle_contacts: int
+    undercoordinated: int
+    zero_force_contacts: int
     undecided_contacts: int
     rigidity_margin: float
     force_residual: float
@@ -935,7 +935,7 @@ class CheckReport(Report):
     excess_contacts: contacts - (d (N' - 1) + 1), 0 without contacts
     rattlers: n - N': spheres without force
     closed_pairs: pairs with gaps below 1e-10, those of rattlers among them
-    idle_contacts: of the pairs that were tested, those without force in every state
+    zero_force_contacts: of the pairs that were tested, those without force in every state
     undecided_contacts: pairs that may be contacts or not, by rounding or for lack of digits
     self_stresses: independent balances of forces; with more than one forces are not unique
     flexes: motions beyond translations that keep all contacts with force closed
@@ -970,7 +970,7 @@ class CheckReport(Report):
     excess_contacts: int
     rattlers: int
     closed_pairs: int
-    idle_contacts: int
+    zero_force_contacts: int
     undecided_contacts: int
     self_stresses: int
     flexes: int
@@ -1040,7 +1040,7 @@ class ProofReport(Report):
 
 
 @dataclass(frozen=True, repr=False)
-class Moduli(Report):
+class ModuliReport(Report):
     """Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
 
     bulk: K
@@ -1249,9 +1249,9 @@ OPTIONS = {
 
 # report structs: {C name: dataclass}
 REPORTS = {
+    "jam_progress": Progress,
     "jam_info": Info,
     "jam_size_report": SizeReport,
-    "jam_progress": Progress,
     "jam_md_report": MdReport,
     "jam_glass": Glass,
     "jam_monte_carlo_report": MonteCarloReport,
@@ -1264,7 +1264,7 @@ REPORTS = {
     "jam_rigidity_report": RigidityReport,
     "jam_check_report": CheckReport,
     "jam_proof_report": ProofReport,
-    "jam_moduli": Moduli,
+    "jam_moduli_report": ModuliReport,
     "jam_comparison": Comparison,
 }
 
@@ -1280,23 +1280,69 @@ TABLES = {
     "jam_density_of_states": 6,
 }
 
+# extents of arrays that calls fill: {C name: {array: extents}}
+EXTENTS: dict[str, dict[str, tuple[str, ...]]] = {
+    "jam_get_cell": {'out': ('d', 'd')},
+    "jam_set_cell": {'transform': ('d', 'd'), 'rotation': ('d', 'd')},
+    "jam_diameters": {'out': ('m',)},
+    "jam_parse_diameters": {'curve': ('rows', '2')},
+    "jam_observed_spheres": {'collisions': ('n',), 'displacement': ('n', 'd')},
+    "jam_observed_pairs": {'pair': ('m', '2'), 'collisions': ('m',), 'momentum': ('m',)},
+    "jam_observed_gaps": {'edge': ('bins + 1',), 'density': ('bins',), 'error': ('bins',)},
+    "jam_observed_correlation": {'r': ('bins',), 'g': ('bins',)},
+    "jam_isoconf_sums": {'displacement': ('instants', 'n', 'd'), 'square': ('instants', 'n', 'd'), 'distance2': ('instants', 'n'), 'distance4': ('instants', 'n')},
+    "jam_isoconf_series": {'out': ('instants',)},
+    "jam_isoconf_kept": {'out': ('runs', 'n', 'd')},
+    "jam_crunch_history": {'out': ('steps',)},
+    "jam_crunch_step_displacements": {'out': ('n', 'd')},
+    "jam_crunch_step_contacts": {'out': ('m', '2')},
+    "jam_crunch_step_vectors": {'out': ('m', 'd')},
+    "jam_crunch_step_duals": {'out': ('m',)},
+    "jam_decompress_history": {'out': ('steps',)},
+    "jam_contacts": {'out': ('contacts', '2')},
+    "jam_contact_vectors": {'out': ('contacts', 'd')},
+    "jam_contact_gaps": {'out': ('contacts',)},
+    "jam_forces": {'out': ('contacts',)},
+    "jam_coordination": {'out': ('n',)},
+    "jam_hessian_map": {'out': ("N'",)},
+    "jam_hessian": {'row_start': ("d N' + 1",), 'column': ('entries',), 'value': ('entries',)},
+    "jam_modes": {'lambda': ('m',), 'vector': ('m', "N'", 'd'), 'participation': ('m',)},
+    "jam_stress_states": {'force': ('n_c',), 'basis': ('m', 'n_c')},
+    "jam_flex": {'out': ('n', 'd'), 'strain': ('d', 'd')},
+    "jam_refined_positions": {'high': ('n', 'd'), 'low': ('n', 'd')},
+    "jam_gaps": {'gap': ('gaps',), 'pair': ('gaps', '2')},
+    "jam_contact_classes": {'out': ('n_c',)},
+    "jam_sphere_structure": {'c': ('n', 'd'), 's': ('n',)},
+    "jam_contact_dots": {'dot': ('pairs',), 'sphere': ('pairs',)},
+    "jam_local_values": {'out': ('values',)},
+    "jam_histogram": {'out': ('bins',)},
+    "jam_pair_correlation": {'out': ('bins',)},
+    "jam_structure_factor": {'q': ('m',), 's': ('m',)},
+    "jam_bond_order": {'out': ('n',)},
+    "jam_local_fraction": {'out': ('n',)},
+    "jam_floppy_mode": {'out': ("N'", 'd')},
+    "jam_project": {'out': ('m',)},
+    "jam_elastic_tensor": {'affine': ('d', 'd', 'd', 'd'), 'relaxed': ('d', 'd', 'd', 'd')},
+    "jam_compare": {'out': ('n', 'd')},
+}
+
 # calls: {C name: (on a system, ((argument, role, C type), ...))}; an enum stands for the C type of its values
 CALLS = {
     "jam_copy": (True, (("out", "new_handle", "jam_system"),)),
-    "jam_info_get": (True, (("info", "struct_out", "jam_info"),)),
-    "jam_positions_view": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
-    "jam_diameters_view": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
-    "jam_velocities_view": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
+    "jam_get_info": (True, (("info", "struct_out", "jam_info"),)),
+    "jam_view_positions": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
+    "jam_view_diameters": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
+    "jam_view_velocities": (True, (("view", "view", "double"), ("view_len", "view_len", "size_t"))),
     "jam_set_positions": (True, (("positions", "array_in", "double"), ("positions_len", "len", "size_t"))),
     "jam_set_velocities": (True, (("velocities", "array_in", "double"), ("velocities_len", "len", "size_t"))),
     "jam_scale_diameters": (True, (("factor", "scalar", "double"),)),
-    "jam_cell_get": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_cell_set": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
+    "jam_get_cell": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_set_cell": (True, (("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("transform", "array_out", "int64_t"), ("transform_len", "len", "size_t"), ("rotation", "array_out", "double"), ("rotation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_strain": (True, (("strain", "array_in", "double"), ("strain_len", "len", "size_t"))),
     "jam_diameters": (False, (("o", "struct_in", "jam_diameters_options"), ("curve", "array_in", "double"), ("curve_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_diameters_parse": (False, (("text", "string", "char"), ("o", "struct_out", "jam_diameters_options"), ("curve", "array_out", "double"), ("curve_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_parse_diameters": (False, (("text", "string", "char"), ("o", "struct_out", "jam_diameters_options"), ("curve", "array_out", "double"), ("curve_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_cell_volume": (False, (("dim", "scalar", "int32_t"), ("cell", "array_in", "double"), ("cell_len", "len", "size_t"), ("volume", "scalar_out", "double"))),
-    "jam_size_report_get": (False, (("dim", "scalar", "int32_t"), ("diameters", "array_in", "double"), ("diameters_len", "len", "size_t"), ("report", "struct_out", "jam_size_report"))),
+    "jam_get_size_report": (False, (("dim", "scalar", "int32_t"), ("diameters", "array_in", "double"), ("diameters_len", "len", "size_t"), ("report", "struct_out", "jam_size_report"))),
     "jam_set_progress": (True, (("callback", "callback", "jam_progress_fn"), ("user", "user", "void"))),
     "jam_set_log": (True, (("callback", "callback", "jam_log_fn"), ("level", "scalar", "LogLevel"), ("user", "user", "void"))),
     "jam_cancel": (True, ()),
@@ -1307,9 +1353,9 @@ CALLS = {
     "jam_write_page": (True, (("path", "string", "char"), ("title", "string", "char"), ("small", "scalar", "int32_t"), ("names", "string", "char"), ("values", "array_in", "double"), ("values_len", "len", "size_t"))),
     "jam_run": (True, (("o", "struct_in", "jam_run_options"), ("report", "struct_out", "jam_md_report"))),
     "jam_compress": (True, (("o", "struct_in", "jam_compress_options"), ("report", "struct_out", "jam_md_report"))),
-    "jam_checkpoint_write": (True, (("path", "string", "char"),)),
+    "jam_write_checkpoint": (True, (("path", "string", "char"),)),
     "jam_observe": (True, (("o", "struct_in", "jam_observe_options"),)),
-    "jam_observe_stop": (True, ()),
+    "jam_stop_observing": (True, ()),
     "jam_observed_series": (True, (("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_observed_spheres": (True, (("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_observed_pairs": (True, (("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("collisions", "array_out", "int64_t"), ("collisions_len", "len", "size_t"), ("momentum", "array_out", "double"), ("momentum_len", "len", "size_t"), ("time", "scalar_out", "double"), ("rows", "scalar_out", "size_t"))),
@@ -1319,27 +1365,27 @@ CALLS = {
     "jam_glass_fit": (False, (("fraction", "array_in", "double"), ("fraction_len", "len", "size_t"), ("pressure", "array_in", "double"), ("pressure_len", "len", "size_t"), ("fit", "struct_out", "jam_glass"))),
     "jam_monte_carlo": (True, (("o", "struct_in", "jam_monte_carlo_options"), ("report", "struct_out", "jam_monte_carlo_report"))),
     "jam_isoconfigurational": (True, (("o", "struct_in", "jam_isoconf_options"), ("m", "struct_in", "jam_monte_carlo_options"), ("instant", "array_in", "double"), ("instant_len", "len", "size_t"), ("kept", "array_in", "int32_t"), ("kept_len", "len", "size_t"), ("report", "struct_out", "jam_isoconf_report"))),
-    "jam_isoconf_report_get": (True, (("report", "struct_out", "jam_isoconf_report"),)),
+    "jam_get_isoconf_report": (True, (("report", "struct_out", "jam_isoconf_report"),)),
     "jam_isoconf_sums": (True, (("block", "scalar", "int64_t"), ("displacement", "array_out", "double"), ("displacement_len", "len", "size_t"), ("square", "array_out", "double"), ("square_len", "len", "size_t"), ("distance2", "array_out", "double"), ("distance2_len", "len", "size_t"), ("distance4", "array_out", "double"), ("distance4_len", "len", "size_t"), ("runs", "scalar_out", "int64_t"), ("needed", "scalar_out", "size_t"))),
     "jam_isoconf_series": (True, (("block", "scalar", "int64_t"), ("column", "scalar", "IsoconfColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_isoconf_kept": (True, (("instant", "scalar", "int32_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("report", "struct_out", "jam_crunch_report"))),
-    "jam_crunch_estimate": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
-    "jam_crunch_report_get": (True, (("report", "struct_out", "jam_crunch_report"),)),
+    "jam_estimate_crunch": (True, (("o", "struct_in", "jam_crunch_options"), ("estimated", "struct_out", "jam_estimate"))),
+    "jam_get_crunch_report": (True, (("report", "struct_out", "jam_crunch_report"),)),
     "jam_crunch_history": (True, (("column", "scalar", "HistoryColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_displacements": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_crunch_step_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_crunch_step_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_crunch_step_duals": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_relax": (True, (("o", "struct_in", "jam_relax_options"), ("report", "struct_out", "jam_relax_report"))),
     "jam_decompress": (True, (("o", "struct_in", "jam_decompress_options"), ("report", "struct_out", "jam_decompress_report"))),
     "jam_decompress_history": (True, (("column", "scalar", "SoftColumn"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_contacts": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contacts": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_vectors": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_contact_gaps": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_forces": (True, (("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_coordination": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_hessian_map": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_coordination": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_hessian_map": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_hessian": (True, (("h", "struct_in", "jam_hessian_options"), ("row_start", "array_out", "int32_t"), ("row_start_len", "len", "size_t"), ("column", "array_out", "int32_t"), ("column_len", "len", "size_t"), ("value", "array_out", "double"), ("value_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_modes": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_modes_options"), ("lambda", "array_out", "double"), ("lambda_len", "len", "size_t"), ("vector", "array_out", "double"), ("vector_len", "len", "size_t"), ("participation", "array_out", "double"), ("participation_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contacts_from_geometry": (True, (("o", "struct_in", "jam_geometry_options"), ("report", "struct_out", "jam_geometry_report"))),
@@ -1353,11 +1399,11 @@ CALLS = {
     "jam_write_proof": (True, (("path", "string", "char"), ("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"))),
     "jam_refined_positions": (True, (("ratio", "array_in", "double"), ("ratio_len", "len", "size_t"), ("high", "array_out", "double"), ("high_len", "len", "size_t"), ("low", "array_out", "double"), ("low_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_gaps": (True, (("h_max", "scalar", "double"), ("stable_only", "scalar", "int32_t"), ("gap", "array_out", "double"), ("gap_len", "len", "size_t"), ("pair", "array_out", "int32_t"), ("pair_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
-    "jam_contact_classes": (True, (("iout", "array_out", "int32_t"), ("iout_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_contact_classes": (True, (("out", "array_out", "int32_t"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_sphere_structure": (True, (("weighted", "scalar", "int32_t"), ("c", "array_out", "double"), ("c_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_contact_dots": (True, (("weighted", "scalar", "int32_t"), ("dot", "array_out", "double"), ("dot_len", "len", "size_t"), ("sphere", "array_out", "int32_t"), ("sphere_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
-    "jam_class_values": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "Class"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
-    "jam_histogram": (True, (("quantity", "scalar", "Quantity"), ("which", "scalar", "Class"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_local_values": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
+    "jam_histogram": (True, (("quantity", "scalar", "LocalQuantity"), ("population", "scalar", "Population"), ("low", "scalar", "double"), ("high", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_pair_correlation": (True, (("kind", "array_in", "int32_t"), ("kind_len", "len", "size_t"), ("a", "scalar", "int32_t"), ("b", "scalar", "int32_t"), ("r_max", "scalar", "double"), ("bins", "scalar", "int64_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_structure_factor": (True, (("q_max", "scalar", "double"), ("q", "array_out", "double"), ("q_len", "len", "size_t"), ("s", "array_out", "double"), ("s_len", "len", "size_t"), ("rows", "scalar_out", "size_t"))),
     "jam_bond_order": (True, (("l", "scalar", "int32_t"), ("cutoff", "scalar", "double"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
@@ -1368,7 +1414,7 @@ CALLS = {
     "jam_density_of_states": (True, (("h", "struct_in", "jam_hessian_options"), ("o", "struct_in", "jam_dos_options"), ("table", "array_out", "double"), ("table_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_project": (True, (("vector", "array_in", "double"), ("vector_len", "len", "size_t"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_curvature": (True, (("h", "struct_in", "jam_hessian_options"), ("u", "array_in", "double"), ("u_len", "len", "size_t"), ("value", "scalar_out", "double"))),
-    "jam_moduli_get": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli"))),
+    "jam_moduli": (True, (("h", "struct_in", "jam_hessian_options"), ("moduli", "struct_out", "jam_moduli_report"))),
     "jam_elastic_tensor": (True, (("h", "struct_in", "jam_hessian_options"), ("affine", "array_out", "double"), ("affine_len", "len", "size_t"), ("relaxed", "array_out", "double"), ("relaxed_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
     "jam_compare": (True, (("other", "handle", "jam_system"), ("comparison", "struct_out", "jam_comparison"), ("out", "array_out", "double"), ("out_len", "len", "size_t"), ("needed", "scalar_out", "size_t"))),
 }

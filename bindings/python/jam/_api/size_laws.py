@@ -108,7 +108,7 @@ def sizes(
     plain = dict(options, n=n, dim=dim, cell_volume=volume, packing_fraction=fraction)
     made = option_struct("jam_diameters_options", plain)
     given = {name: getattr(made, name) for name, value in options.items() if value is not None}
-    _, count = raw.jam_diameters_parse(text, made, None)  # other fields stay as they are
+    _, count = raw.jam_parse_diameters(text, made, None)  # other fields stay as they are
     for name, value in given.items():
         if getattr(made, name) != value and value == value:
             raise TypeError(f"{name} is given twice, as {value} and in the law's text")
@@ -116,7 +116,7 @@ def sizes(
         if rows is not None:
             raise TypeError("the law's text and curve both give rows")
         rows = np.empty(count)
-        raw.jam_diameters_parse(text, made, rows)
+        raw.jam_parse_diameters(text, made, rows)
     out = np.empty(raw.jam_diameters(made, rows, None)[1] if n is None else max(n, 0))
     raw.jam_diameters(made, rows, out)
     return out
@@ -144,6 +144,6 @@ def size_report(diameters: Any, dim: int = 3) -> SizeReport:
     (0.1667, 1.4)
     """
     made = new_report("jam_size_report")
-    raw.jam_size_report_get(dim, as_array(diameters, name="diameters").reshape(-1), made)
+    raw.jam_get_size_report(dim, as_array(diameters, name="diameters").reshape(-1), made)
     found: SizeReport = freeze(made, "jam_size_report")
     return found

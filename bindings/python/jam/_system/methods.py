@@ -21,7 +21,7 @@ class Methods:
         0; infinity: no limit.
 
         A call that needs more fails with MemoryError before it allocates them. crunch() compares the memory of
-        crunch_estimate() with the limit before it begins, and that of each matrix before it factorises it. The
+        estimate_crunch() with the limit before it begins, and that of each matrix before it factorises it. The
         default is half the machine's memory. An option memory_limit can lower the limit for its own call.
 
         Parameters
@@ -53,7 +53,7 @@ class Methods:
         """
         self.call('add_note', text, progress=progress)
 
-    def checkpoint_write(self, path: str) -> None:
+    def write_checkpoint(self, path: str) -> None:
         """Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK
         model, and a stage that was stopped early or runs now.
 
@@ -71,10 +71,10 @@ class Methods:
         ------
         IoError
         """
-        self.call('checkpoint_write', path)
+        self.call('write_checkpoint', path)
 
     def observe(self, *, collisions: bool | None = None, gap_bins: int | None = None, r_bins: int | None = None, sample_every: float | None = None, gap_min: float | None = None, gap_max: float | None = None, r_max: float | None = None, snapshot_every: float | None = None, snapshot_factor: float | None = None, progress: Progressing = None) -> None:
-        """From now on run() and compress() record, over all calls, until observe_stop().
+        """From now on run() and compress() record, over all calls, until stop_observing().
 
         What was recorded before is dropped. Recording does not change the dynamics. At a snapshot the views show the
         present state, and the progress callback is called with progress.snapshot > 0: every const call works on that
@@ -109,7 +109,7 @@ class Methods:
         """
         self.call('observe', collisions=collisions, gap_bins=gap_bins, r_bins=r_bins, sample_every=sample_every, gap_min=gap_min, gap_max=gap_max, r_max=r_max, snapshot_every=snapshot_every, snapshot_factor=snapshot_factor, progress=progress)
 
-    def observe_stop(self, *, progress: Progressing = None) -> None:
+    def stop_observing(self, *, progress: Progressing = None) -> None:
         """Stops recording; what was recorded can still be read.
 
         Parameters
@@ -121,7 +121,7 @@ class Methods:
         ------
         MemoryError, BusyError
         """
-        self.call('observe_stop', progress=progress)
+        self.call('stop_observing', progress=progress)
 
     def observed_series(self) -> ObservedSeriesResult:
         """Series of samples.
@@ -223,7 +223,7 @@ class Methods:
         Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a preliminary run and then frozen;
         ArgumentError when no step is accepted. After soft spheres the system allows overlaps, as by 'allow'. Random
         numbers depend on seed, run, sweep and sphere alone. Velocities are dropped. observed_spheres() gives the
-        displacements. An early stop can be resumed, also from checkpoint_write().
+        displacements. An early stop can be resumed, also from write_checkpoint().
 
         Parameters
         ----------
@@ -276,7 +276,7 @@ class Methods:
         ------
         StateError
         """
-        answer: IsoconfReport = self.call('isoconf_report_get')
+        answer: IsoconfReport = self.call('get_isoconf_report')
         return answer
 
     def isoconf_sums(self, block: int) -> IsoconfSumsResult:
@@ -339,7 +339,7 @@ class Methods:
         answer: Array = self.call('isoconf_kept', instant)
         return answer
 
-    def crunch_estimate(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None, prove: bool | None = None) -> Estimate:
+    def estimate_crunch(self, *, lp_solver: int | str | None = None, method: int | str | None = None, polish: bool | None = None, max_lps: int | None = None, threads: int | None = None, gain_tolerance: float | None = None, step_tolerance: float | None = None, lp_tolerance: float | None = None, neighbour_radius: float | None = None, step_bound: float | None = None, wall_time: float | None = None, steps: bool | None = None, full_lps: bool | None = None, strain: int | str | None = None, keep_steps: int | None = None, duality_gap: float | None = None, prove: bool | None = None) -> Estimate:
         """Estimates memory and time of crunch() with these options (None: defaults) without running it; crunch() logs
         the same at 'info'. Takes as long as a few steps.
 
@@ -397,7 +397,7 @@ class Methods:
         ------
         ArgumentError, OverlapError, TooFewError
         """
-        answer: Estimate = self.call('crunch_estimate', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap, prove=prove)
+        answer: Estimate = self.call('estimate_crunch', lp_solver=lp_solver, method=method, polish=polish, max_lps=max_lps, threads=threads, gain_tolerance=gain_tolerance, step_tolerance=step_tolerance, lp_tolerance=lp_tolerance, neighbour_radius=neighbour_radius, step_bound=step_bound, wall_time=wall_time, steps=steps, full_lps=full_lps, strain=strain, keep_steps=keep_steps, duality_gap=duality_gap, prove=prove)
         return answer
 
     def crunch_history(self, column: int | str) -> Array:
@@ -530,7 +530,7 @@ class Methods:
         return answer
 
     def hessian_map(self) -> Array:
-        """The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere iout[k].
+        """The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k].
 
         Returns
         -------
@@ -547,8 +547,8 @@ class Methods:
         """Contact network and forces from positions, diameters and box alone, kept as crunch() keeps its own; no sphere
         moves.
 
-        Rattlers are the spheres that carry no force. Contacts between the others stay; idle ones have force 0. Forces
-        are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
+        Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces are
+        the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
         self-stress. The stored report's `jammed` is the verdict of rigidity(), whatever the tolerance. Status, with
         the network kept each time: 'ok': one jump stands out, or only this candidate has a single state of self-
         stress. 'ambiguous': another candidate fits too (see second_*), or there are several states of self-stress.
@@ -844,13 +844,13 @@ class Methods:
         answer: ContactDotsResult = self.call('contact_dots', weighted)
         return answer
 
-    def class_values(self, quantity: int | str, which: int | str) -> Array:
-        """Values of a Quantity in a Class, in the order of contacts, spheres or contact_dots().
+    def local_values(self, quantity: int | str, population: int | str) -> Array:
+        """Values of a quantity in a population, in the order of contacts, spheres or contact_dots().
 
         Parameters
         ----------
         quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot', 'coordination'}
-        which : {'all', 'localised', 'extended', 'smallest', 'median'}
+        population : {'all', 'localised', 'extended', 'smallest', 'median'}
 
         Returns
         -------
@@ -860,17 +860,17 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        answer: Array = self.call('class_values', quantity, which)
+        answer: Array = self.call('local_values', quantity, population)
         return answer
 
-    def histogram(self, quantity: int | str, which: int | str, low: float, high: float, bins: int) -> Array:
-        """Histogram of the values of class_values(): density in `bins` equal bins of [low, high), its integral the share
+    def histogram(self, quantity: int | str, population: int | str, low: float, high: float, bins: int) -> Array:
+        """Histogram of the values of local_values(): density in `bins` equal bins of [low, high), its integral the share
         of values there.
 
         Parameters
         ----------
         quantity : {'force', 'vector_sum', 'vector_pairs', 'vector_dot', 'force_sum', 'force_pairs', 'force_dot', 'coordination'}
-        which : {'all', 'localised', 'extended', 'smallest', 'median'}
+        population : {'all', 'localised', 'extended', 'smallest', 'median'}
         low : float
         high : float
         bins : int
@@ -883,7 +883,7 @@ class Methods:
         ------
         ArgumentError, StateError
         """
-        answer: Array = self.call('histogram', quantity, which, low, high, bins)
+        answer: Array = self.call('histogram', quantity, population, low, high, bins)
         return answer
 
     def structure_factor(self, q_max: float, *, progress: Progressing = None) -> StructureFactorResult:
@@ -1107,7 +1107,7 @@ class Methods:
         answer: float = self.call('curvature', u, stiffness=stiffness, alpha=alpha, prestress=prestress)
         return answer
 
-    def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> Moduli:
+    def moduli(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ModuliReport:
         """Elastic moduli; StateError also when prestress makes the network unstable.
 
         Parameters
@@ -1124,19 +1124,19 @@ class Methods:
 
         Returns
         -------
-        Moduli
+        ModuliReport
 
         Raises
         ------
         ArgumentError, StateError, SolverError, MemoryError, BusyError
         """
-        answer: Moduli = self.call('moduli_get', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
+        answer: ModuliReport = self.call('moduli', stiffness=stiffness, alpha=alpha, prestress=prestress, progress=progress)
         return answer
 
     def elastic_tensor(self, *, stiffness: int | str | None = None, alpha: float | None = None, prestress: float | None = None, progress: Progressing = None) -> ElasticTensorResult:
         """Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x.
 
-        Unit as moduli. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
+        Unit as moduli(). affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
         c_bacd differ: a rotation of stressed contacts counts.
 
         Parameters

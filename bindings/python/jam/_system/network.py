@@ -22,7 +22,7 @@ class Network(Base):
     def report(self) -> CrunchReport:
         """Result and certificate of the last crunch, a CrunchReport."""
         made = new_report("jam_crunch_report")
-        raw.jam_crunch_report_get(self.handle, made)
+        raw.jam_get_crunch_report(self.handle, made)
         found: CrunchReport = freeze(made, "jam_crunch_report")
         return found
 

@@ -100,7 +100,7 @@ class Observing(Base):
         try:
             yield Observed(self)
         finally:
-            self.call("observe_stop")
+            self.call("stop_observing")
 
     def _stepper(self, on_step: Callable[[Step], Any], user: Callable[..., Any] | None) -> Callable[..., Any]:
         """A progress callable that passes each finished step to on_step. A true answer of either stops the call."""

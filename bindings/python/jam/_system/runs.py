@@ -176,7 +176,7 @@ class Runs:
 
 def take_runs(system: Any) -> Runs:
     """The runs that a system holds, also after System.from_checkpoint; instants are then those of the first call."""
-    report = system._ask("isoconf_report_get")
+    report = system._ask("get_isoconf_report")
     m, n, d = report.instants, system.n, system.dim
     sums: dict[str, list[Array]] = {name: [] for name in _SUMS}
     counts: list[int] = []

@@ -19,7 +19,7 @@ class State(Base):
     def info(self) -> Info:
         """Number, dimension, box, packing fraction, pressure and model, as an Info."""
         made = new_report("jam_info")
-        raw.jam_info_get(self.handle, made)
+        raw.jam_get_info(self.handle, made)
         found: Info = freeze(made, "jam_info")
         return found
 
@@ -70,7 +70,7 @@ class State(Base):
     def _show(self, function: Callable[..., Any], flat: bool = False) -> Array:
         handle = self.handle
         _, (address, count) = function(handle)
-        n = raw.jam_diameters_view(handle)[1][1]
+        n = raw.jam_view_diameters(handle)[1][1]
         return np.asarray(_View(handle, address, (n,) if flat else (n, count // n)))
 
     @property
@@ -79,7 +79,7 @@ class State(Base):
 
         Assign a new array to move the spheres.
         """
-        return self._show(raw.jam_positions_view)
+        return self._show(raw.jam_view_positions)
 
     @positions.setter
     def positions(self, values: Any) -> None:
@@ -91,7 +91,7 @@ class State(Base):
 
         Assign a new array to set them; contacts and report stay.
         """
-        return self._show(raw.jam_velocities_view)
+        return self._show(raw.jam_view_velocities)
 
     @velocities.setter
     def velocities(self, values: Any) -> None:
@@ -99,7 +99,7 @@ class State(Base):
 
     def _set(self, function: Callable[..., Any], values: Any, name: str) -> None:
         x = as_array(values, name=name)
-        shape = self._show(raw.jam_positions_view).shape
+        shape = self._show(raw.jam_view_positions).shape
         if x.shape != shape:
             raise ValueError(f"{name} must have shape {shape}, not {x.shape}")
         finished(function(self.handle, x.reshape(-1)))
@@ -107,7 +107,7 @@ class State(Base):
     @property
     def diameters(self) -> Array:
         """Diameters in the unit of the box, shape (n,): a read-only view."""
-        return self._show(raw.jam_diameters_view, flat=True)
+        return self._show(raw.jam_view_diameters, flat=True)
 
     @property
     def cell(self) -> Array:
@@ -117,12 +117,12 @@ class State(Base):
         must be rotated.
         """
         out = np.empty((self.dim, self.dim))
-        raw.jam_cell_get(self.handle, out.reshape(-1))
+        raw.jam_get_cell(self.handle, out.reshape(-1))
         return out
 
     @cell.setter
     def cell(self, vectors: Any) -> None:
-        finished(raw.jam_cell_set(self.handle, self._matrix(vectors, "cell"), None, None))
+        finished(raw.jam_set_cell(self.handle, self._matrix(vectors, "cell"), None, None))
 
     def strain(self, strain: Any) -> None:
         """Deforms cell and positions by r -> (1 + strain) r, strain of shape (d, d); diameters stay."""

@@ -179,7 +179,7 @@ class Verbs(Observing):
             end(user)
         early = report.status in (StatusCode.CANCELLED, StatusCode.LIMIT)
         if checkpoint is not None and (early or report.stop_reason == StopReason.DUALITY_GAP):
-            raw.jam_checkpoint_write(self.handle, os.fsdecode(checkpoint))
+            raw.jam_write_checkpoint(self.handle, os.fsdecode(checkpoint))
         return report
 
     def _keeper(self, path: str, every: float, told: Callable[[Any], Any] | None) -> Callable[[Any], bool]:
@@ -190,7 +190,7 @@ class Verbs(Observing):
             nonlocal kept
             if time.monotonic() - kept >= every:
                 kept = time.monotonic()
-                raw.jam_checkpoint_write(self.handle, path)
+                raw.jam_write_checkpoint(self.handle, path)
             return bool(told(p)) if told else False
 
         return on_progress

@@ -121,7 +121,7 @@ class Writing(State, Network):
         """The bytes of a checkpoint, which holds all: velocities, shifts, results."""
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "state")
-            self.checkpoint_write(str(file))
+            self.write_checkpoint(str(file))
             return file.read_bytes()
 
     def _contents(self) -> Contents:

@@ -1,7 +1,82 @@
-/* Calls of the fuzz target `calls` that move spheres. Each damages the options of one verb. */
-#ifndef JAM_FUZZ_CALLS_DYNAMICS_H
-#define JAM_FUZZ_CALLS_DYNAMICS_H
+/* Calls of the fuzz target `calls` that make sense in one order. Each damages the options of one verb. Single calls
+ * come from tests/calls.def. */
+#ifndef JAM_FUZZ_CALLS_BUNDLES_H
+#define JAM_FUZZ_CALLS_BUNDLES_H
 #include "input.h"
+
+enum { many = 4096 };
+static __thread double values[3][many];
+static __thread int32_t integers[2][many];
+
+static void call_network(input *in, jam_system *sys) {
+  jam_geometry_options o;
+  size_t needed;
+  jam_geometry_options_init(&o, sizeof o);
+  damage(in, &o, sizeof o);
+  check_status(jam_contacts_from_geometry(sys, &o, NULL));
+  check_status(jam_contact_candidates(sys, number(in), values[0], many, &needed));
+  check_status(jam_contacts(sys, integers[0], many, &needed));
+  check_status(jam_forces(sys, values[0], many, &needed));
+  check_status(jam_stress_states(sys, values[0], many, values[1], many, values[2], &needed));
+}
+
+static void call_rigidity(input *in, jam_system *sys) {
+  const int32_t kind = byte(in) % 3;
+  size_t needed;
+  check_status(jam_rigidity(sys, kind, NULL));
+  check_status(jam_flex(sys, kind, values[0], many, values[1], 64, &needed));
+  jam_check_report check = {.struct_size = sizeof check};
+  jam_check_options o;
+  jam_check_options_init(&o, sizeof o);
+  damage(in, &o, sizeof o);
+  o.wall_time = at_most(o.wall_time, 0.1);
+  check_status(jam_check_packing(sys, &o, &check));
+  jam_check_text(&check);
+  check_status(jam_prove(sys, NULL, 0, NULL));
+  check_status(jam_refined_positions(sys, NULL, 0, values[0], many, values[1], many, &needed));
+}
+
+static void call_modes(input *in, jam_system *sys) {
+  jam_hessian_options h;
+  jam_modes_options o;
+  jam_moduli_report moduli;
+  size_t rows;
+  jam_hessian_options_init(&h, sizeof h);
+  jam_modes_options_init(&o, sizeof o);
+  h.stiffness = byte(in) % 4, o.which = byte(in) % 4;
+  damage(in, &h, sizeof h);
+  damage(in, &o, sizeof o);
+  o.memory_limit = at_most(o.memory_limit, 1e8);
+  check_status(jam_modes(sys, &h, &o, values[0], many, values[1], many, values[2], many, &rows));
+  check_status(jam_hessian(sys, &h, NULL, 0, NULL, 0, NULL, 0, &rows));
+  memset(&moduli, 0, sizeof moduli);
+  moduli.struct_size = sizeof moduli;
+  check_status(jam_moduli(sys, &h, &moduli));
+}
+
+static void call_spectrum(input *in, jam_system *sys) {
+  jam_dos_options o;
+  size_t needed;
+  jam_dos_options_init(&o, sizeof o);
+  o.moments = 16, o.vectors = 2, o.points = 10;
+  damage(in, &o, sizeof o);
+  check_status(jam_density_of_states(sys, NULL, &o, values[0], many, &needed));
+}
+
+/* A copy is as good as the packing, and the two compare. */
+static void call_compared(input *in, jam_system *sys) {
+  jam_system *copy = NULL;
+  jam_comparison c;
+  size_t needed;
+  (void)in;
+  check_status(jam_copy(sys, &copy));
+  if (!copy) return;
+  check_state(copy);
+  memset(&c, 0, sizeof c);
+  c.struct_size = sizeof c;
+  check_status(jam_compare(sys, copy, &c, values[0], many, &needed));
+  jam_destroy(copy);
+}
 
 static void call_run(input *in, jam_system *sys) {
   jam_run_options o;
@@ -27,7 +102,7 @@ static void call_crunch(input *in, jam_system *sys) {
   damage(in, &o, sizeof o);
   memset(&e, 0, sizeof e);
   e.struct_size = sizeof e;
-  if (byte(in) % 4 == 0) check_status(jam_crunch_estimate(sys, &o, &e));
+  if (byte(in) % 4 == 0) check_status(jam_estimate_crunch(sys, &o, &e));
   check_status(jam_crunch(sys, &o, NULL));
 }
 
@@ -58,7 +133,7 @@ static void call_isoconfigurational(input *in, jam_system *sys) {
   check_status(jam_isoconfigurational(sys, &o, byte(in) % 2 ? &m : NULL, instant, 3, &kept, 1, NULL));
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
-  check_status(jam_isoconf_report_get(sys, &report));
+  check_status(jam_get_isoconf_report(sys, &report));
   check_status(jam_isoconf_series(sys, byte(in) % 4 - 1, byte(in) % 16, value, 3, &needed));
   check_status(jam_isoconf_kept(sys, kept, NULL, 0, &needed));
 }
@@ -90,29 +165,8 @@ static void call_observe(input *in, jam_system *sys) {
   check_status(jam_observed_series(sys, NULL, 0, &rows));
   check_status(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, NULL, &rows));
   check_status(jam_observed_gaps(sys, NULL, 0, NULL, 0, NULL, 0, &rows));
-  if (byte(in) % 2) check_status(jam_observe_stop(sys));
+  if (byte(in) % 2) check_status(jam_stop_observing(sys));
 }
-
-static void call_set_positions(input *in, jam_system *sys) {
-  double x[48];
-  const double *view;
-  size_t len, k;
-  jam_positions_view(sys, &view, &len);
-  for (k = 0; k < len && k < 48; ++k) x[k] = byte(in) / 16.0;
-  if (byte(in) % 16 == 0) x[0] = number(in);
-  check_status(jam_set_positions(sys, x, len < 48 ? len : 48));
-}
-
-static void call_set_velocities(input *in, jam_system *sys) {
-  double v[48];
-  const double *view;
-  size_t len, k;
-  jam_velocities_view(sys, &view, &len);
-  for (k = 0; k < len && k < 48; ++k) v[k] = byte(in) % 16 == 0 ? number(in) : byte(in) / 64.0 - 2.0;
-  check_status(jam_set_velocities(sys, v, len < 48 ? len : 48));
-}
-
-static void call_scale(input *in, jam_system *sys) { check_status(jam_scale_diameters(sys, number(in))); }
 
 static void call_cell(input *in, jam_system *sys) {
   double a[64];
@@ -125,6 +179,6 @@ static void call_cell(input *in, jam_system *sys) {
     return;
   }
   for (k = 0; k < dim; ++k) a[k * (dim + 1)] = 1.0 + byte(in) / 64.0;
-  check_status(jam_cell_set(sys, a, (size_t)(dim * dim), NULL, 0, NULL, 0, NULL));
+  check_status(jam_set_cell(sys, a, (size_t)(dim * dim), NULL, 0, NULL, 0, NULL));
 }
 #endif

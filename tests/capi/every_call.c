@@ -1,0 +1,70 @@
+/* Every call of the table tests/calls.def: without a handle, without what it needs, and as a user calls it. */
+#include "calls.h"
+#include "test.h"
+
+static void text_is_there(const char *name, jam_status status) {
+  if (status != JAM_OK && jam_last_error()[0] == '\0') fail_msg("%s: status %d without a text", name, status);
+}
+
+static void a_null_handle_is_refused(void **state) {
+  int k;
+  (void)state;
+  for (k = 0; k < CALLS; ++k) {
+    jam_status status;
+    if (every_call[k].start == NONE) continue;
+    jam_set_error(NULL);
+    status = every_call[k].call(NULL, NULL);
+    if (status != JAM_E_NULL) fail_msg("%s(NULL, ...) gives %d: %s", every_call[k].name, status, jam_last_error());
+  }
+}
+
+/* A network, a minimum, observations, runs, a step: without them JAM_E_STATE, and nothing moves. */
+static void what_is_missing_is_reported(void **state) {
+  jam_system *fluid = system_for(ANY);
+  const double *x;
+  double before[24];
+  size_t length;
+  int k;
+  (void)state;
+  assert_non_null(fluid);
+  assert_int_equal(jam_view_positions(fluid, &x, &length), JAM_OK);
+  assert_int_equal(length, 24);
+  memcpy(before, x, sizeof before);
+  for (k = 0; k < CALLS; ++k) {
+    jam_status status;
+    if (every_call[k].start < NETWORK) continue;
+    jam_set_error(NULL);
+    status = every_call[k].call(NULL, fluid);
+    if (status != JAM_E_STATE) fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
+    text_is_there(every_call[k].name, status);
+    assert_memory_equal(before, x, sizeof before);
+  }
+  jam_destroy(fluid);
+}
+
+/* With what it needs no call fails, but for what belongs into a callback. */
+static void every_call_does_its_work(void **state) {
+  int k;
+  (void)state;
+  for (k = 0; k < CALLS; ++k) {
+    jam_system *sys = system_for(every_call[k].start);
+    jam_status status;
+    if (every_call[k].start != NONE && !sys) fail_msg("%s: no system: %s", every_call[k].name, jam_last_error());
+    jam_set_error(NULL);
+    status = every_call[k].call(NULL, sys);
+    if (every_call[k].start == STEP ? status != JAM_E_STATE : status < 0)
+      fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
+    text_is_there(every_call[k].name, status);
+    jam_destroy(sys);
+  }
+  remove(call_file());
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_null_handle_is_refused),
+      cmocka_unit_test(what_is_missing_is_reported),
+      cmocka_unit_test(every_call_does_its_work),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include "analysis/structure.hpp"
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "jam/jam.h"
 
@@ -56,10 +57,8 @@ std::vector<double> sphere_values(const Packing &p, const ContactNetwork &net, i
 }  // namespace
 
 std::vector<double> local_values(const Packing &p, const ContactNetwork &net, int32_t quantity, int32_t which) {
-  if (quantity < JAM_LOCAL_FORCE || quantity > JAM_LOCAL_COORDINATION)
-    fail(JAM_E_ARGUMENT, "quantity is %d, not a jam_local_quantity", quantity);
-  if (which < JAM_POPULATION_ALL || which > JAM_POPULATION_MEDIAN)
-    fail(JAM_E_ARGUMENT, "population is %d, not a jam_population", which);
+  check_enum(quantity, JAM_LOCAL_FORCE, JAM_LOCAL_COORDINATION, "quantity", "jam_local_quantity");
+  check_enum(which, JAM_POPULATION_ALL, JAM_POPULATION_MEDIAN, "population", "jam_population");
   if (quantity == JAM_LOCAL_FORCE) return class_forces(p, net, which);
   if (which == JAM_POPULATION_SMALLEST || which == JAM_POPULATION_MEDIAN)
     fail(JAM_E_ARGUMENT, "population is %d: smallest and median are populations of forces only", which);

@@ -10,6 +10,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/cancellation.hpp"
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "linalg/blas.hpp"
@@ -29,8 +30,7 @@ jam_modes_options default_modes_options() {
 }
 
 void check_modes_options(const jam_modes_options &o, const RigidityMatrix &g) {
-  if (o.which < JAM_MODES_LOWEST || o.which > JAM_MODES_ALL)
-    fail(JAM_E_ARGUMENT, "which is %d, not a jam_modes_which", o.which);
+  check_enum(o.which, JAM_MODES_LOWEST, JAM_MODES_ALL, "which", "jam_modes_which");
   if (o.which != JAM_MODES_ALL && o.count < 1)
     fail(JAM_E_ARGUMENT, "count is %lld, it must be at least 1", static_cast<long long>(o.count));
   if (!(o.frequency >= 0.0 && std::isfinite(o.frequency)))

@@ -3,6 +3,7 @@
 
 #include "capi/analysis.hpp"
 #include "capi/proof.hpp"
+#include "core/checks.hpp"
 #include "crunch/crunch.hpp"
 #include "network/check.hpp"
 
@@ -62,8 +63,8 @@ jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_ch
     check_out_struct(report, "report");
     jam_check_options full = default_check_options();
     take_options(o, full);
-    if (full.crunch != 0 && full.crunch != 1) fail(JAM_E_ARGUMENT, "crunch is %d, it must be 0 or 1", full.crunch);
-    if (full.prove != 0 && full.prove != 1) fail(JAM_E_ARGUMENT, "prove is %d, it must be 0 or 1", full.prove);
+    check_flag(full.crunch, "crunch");
+    check_flag(full.prove, "prove");
     if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
     CheckResult result = check_as_it_is(sys->packing, cancel_point);
     jam_check_report &r = result.report;

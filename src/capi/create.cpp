@@ -8,6 +8,7 @@
 
 #include "capi/guard.hpp"
 #include "capi/make_system.hpp"
+#include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/limits.hpp"
 #include "core/pairs.hpp"
@@ -190,7 +191,7 @@ jam_status jam_set_progress(jam_system *sys, jam_progress_fn callback, void *use
 
 jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void *user) {
   return guard_set(sys, [&]() -> jam_status {
-    if (level < JAM_LOG_NONE || level > JAM_LOG_DEBUG) fail(JAM_E_ARGUMENT, "level is %d, not a jam_log_level", level);
+    check_enum(level, JAM_LOG_NONE, JAM_LOG_DEBUG, "level", "jam_log_level");
     sys->monitor.log_fn = callback;
     sys->monitor.log_level = level;
     sys->monitor.log_user = user;
@@ -201,7 +202,7 @@ jam_status jam_set_log(jam_system *sys, jam_log_fn callback, int32_t level, void
 
 jam_status jam_set_memory_limit(jam_system *sys, double bytes) {
   return guard_set(sys, [&]() -> jam_status {
-    if (!(bytes > 0.0)) fail(JAM_E_ARGUMENT, "bytes is %g, it must be positive", bytes);
+    check_positive(bytes, "bytes");
     sys->memory_limit = bytes;
     return JAM_OK;
   });

@@ -1,5 +1,6 @@
 // Header section "Monte Carlo, runs from one configuration": the ensemble of runs and its sums.
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
+#include "core/checks.hpp"
 
 #include "capi/guard.hpp"
 
@@ -98,8 +99,7 @@ jam_status jam_isoconf_sums(const jam_system *sys, int64_t block, double *displa
 jam_status jam_isoconf_series(const jam_system *sys, int64_t block, int32_t column, double *out, size_t out_len,
                               size_t *needed) {
   return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
-    if (column < 0 || static_cast<size_t>(column) >= isoconf_columns)
-      fail(JAM_E_ARGUMENT, "column is %d, not a jam_isoconf_column", column);
+    check_enum(column, 0, static_cast<int32_t>(isoconf_columns) - 1, "column", "jam_isoconf_column");
     const RunSums sums = made.sums(block);
     const double box = made.box();
     const double unit = column == JAM_ISOCONF_MSD    ? box * box

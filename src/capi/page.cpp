@@ -4,6 +4,7 @@
 #include "analysis/structure.hpp"
 #include "capi/guard.hpp"
 #include "capi/proof.hpp"
+#include "core/checks.hpp"
 
 using namespace jam;
 
@@ -71,7 +72,7 @@ extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, co
     need(path, "path");
     need(title, "title");
     need(names, "names");
-    if (small != 0 && small != 1) fail(JAM_E_ARGUMENT, "small is %d, it must be 0 or 1", small);
+    check_flag(small, "small");
     PageContent content{sys->packing};
     content.title = title;
     content.small = small;

@@ -1,5 +1,6 @@
 // Header section "jammed or not".
 #include "capi/analysis.hpp"
+#include "core/checks.hpp"
 #include "network/certificate.hpp"
 #include "network/rigidity_test.hpp"
 
@@ -8,8 +9,7 @@ using namespace jam;
 namespace {
 
 Jamming take_kind(int32_t kind) {
-  if (kind != JAM_RIGIDITY_COLLECTIVE && kind != JAM_RIGIDITY_STRICT)
-    fail(JAM_E_ARGUMENT, "kind is %d, not a jam_rigidity_kind", kind);
+  check_enum(kind, JAM_RIGIDITY_COLLECTIVE, JAM_RIGIDITY_STRICT, "kind", "jam_rigidity_kind");
   return kind == JAM_RIGIDITY_STRICT ? Jamming::strict : Jamming::collective;
 }
 

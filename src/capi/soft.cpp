@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "capi/guard.hpp"
+#include "core/checks.hpp"
 #include "crunch/crunch.hpp"
 #include "network/certificate.hpp"
 #include "soft/decompression.hpp"
@@ -134,8 +135,7 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
 jam_status jam_decompress_history(const jam_system *sys, int32_t column, double *out, size_t out_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
     if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: call jam_decompress first");
-    if (column < 0 || column >= static_cast<int32_t>(soft_columns))
-      fail(JAM_E_ARGUMENT, "column is %d, not a jam_soft_column", column);
+    check_enum(column, 0, static_cast<int32_t>(soft_columns) - 1, "column", "jam_soft_column");
     std::vector<double> values;
     for (const SoftRow &row : sys->soft_history) values.push_back(row[static_cast<size_t>(column)]);
     return give_array(values.data(), values.size(), out, out_len, needed);

@@ -1,4 +1,5 @@
 #include "core/create.hpp"
+#include "core/checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,9 @@ void check_options(const jam_create_options &o) {
   if (o.n != 0) check_n(o.n);  // 0: taken from the arrays
   check_box(o.box);
   check_non_additivity(o.non_additivity);
-  if (o.overlap < JAM_OVERLAP_REFUSE || o.overlap > JAM_OVERLAP_ALLOW)
-    fail(JAM_E_ARGUMENT, "overlap is %d, not a jam_overlap_policy", o.overlap);
-  if (o.model != JAM_MODEL_EUCLID && o.model != JAM_MODEL_MK)
-    fail(JAM_E_ARGUMENT, "model is %d, not a jam_model", o.model);
-  if (o.masses != JAM_MASSES_EQUAL && o.masses != JAM_MASSES_VOLUME)
-    fail(JAM_E_ARGUMENT, "masses is %d, not a jam_masses", o.masses);
+  check_enum(o.overlap, JAM_OVERLAP_REFUSE, JAM_OVERLAP_ALLOW, "overlap", "jam_overlap_policy");
+  check_enum(o.model, JAM_MODEL_EUCLID, JAM_MODEL_MK, "model", "jam_model");
+  check_enum(o.masses, JAM_MASSES_EQUAL, JAM_MASSES_VOLUME, "masses", "jam_masses");
   if (!(o.shrink_min >= 0.0 && o.shrink_min <= 1.0))
     fail(JAM_E_ARGUMENT, "shrink_min is %g, supported are 0..1", o.shrink_min);
   check_create_limits(o);
@@ -196,7 +194,7 @@ static void check_below_saturation(const Packing &p) {
 }
 
 void check_create_limits(const jam_create_options &o) {
-  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+  check_positive(o.wall_time, "wall_time");
   if (!(o.memory_limit >= 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must not be negative", o.memory_limit);
 }
 

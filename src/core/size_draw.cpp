@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
@@ -141,8 +142,7 @@ void check_sizes(const std::vector<double> &s) {
 }
 
 void check_amount(const Options &o) {
-  if (o.draw != JAM_DRAW_QUANTILES && o.draw != JAM_DRAW_RANDOM)
-    fail(JAM_E_ARGUMENT, "draw is %d, not a jam_size_draw", o.draw);
+  check_enum(o.draw, JAM_DRAW_QUANTILES, JAM_DRAW_RANDOM, "draw", "jam_size_draw");
   if (!(o.cell_volume >= 0.0) || !std::isfinite(o.cell_volume))
     fail(JAM_E_ARGUMENT, "cell_volume is %g, it must be positive and finite, or 0", o.cell_volume);
   if (!(o.packing_fraction >= 0.0 && o.packing_fraction < 1.0))

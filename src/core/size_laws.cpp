@@ -1,4 +1,5 @@
 #include "core/size_laws.hpp"
+#include "core/checks.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -251,8 +252,7 @@ std::string size_field_names() {
 std::unique_ptr<SizeDistribution> size_distribution(const Options &o, const double *curve, size_t curve_len) {
   const Law &law = law_of(o.law);
   check_dim(o.dim);
-  if (o.share < JAM_SHARE_USUAL || o.share > JAM_SHARE_VOLUME)
-    fail(JAM_E_ARGUMENT, "share is %d, not a jam_size_share", o.share);
+  check_enum(o.share, JAM_SHARE_USUAL, JAM_SHARE_VOLUME, "share", "jam_size_share");
   for (const Field *field : numbers) check_field(law, *field, o);
   if (!(o.low < o.high)) fail(JAM_E_ARGUMENT, "low is %g and high is %g: low must be below high", o.low, o.high);
   if (law.takes_curve != (curve_len > 0))

@@ -1,6 +1,7 @@
 // Options of jam_crunch: defaults and what is refused.
 #include <limits>
 
+#include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -24,29 +25,23 @@ jam_crunch_options default_crunch_options() {
 }
 
 void check_options(const Packing &p, const jam_crunch_options &o) {
-  if (o.lp_solver != JAM_LP_IPM && o.lp_solver != JAM_LP_CLP)
-    fail(JAM_E_ARGUMENT, "lp_solver is %d, not a jam_lp_solver", o.lp_solver);
-  if (o.method != JAM_CRUNCH_BARRIER_PATH && o.method != JAM_CRUNCH_SEQUENTIAL_LP)
-    fail(JAM_E_ARGUMENT, "method is %d, not a jam_crunch_method", o.method);
-  if (o.max_lps < 1) fail(JAM_E_ARGUMENT, "max_lps is %d, it must be at least 1", o.max_lps);
-  if (o.threads < 1 || o.threads > 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
-  const auto positive = [](double v, const char *name) {
-    if (!(v > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, v);
-  };
-  positive(o.gain_tolerance, "gain_tolerance");
-  positive(o.step_tolerance, "step_tolerance");
-  positive(o.lp_tolerance, "lp_tolerance");
-  positive(o.wall_time, "wall_time");
+  check_enum(o.lp_solver, JAM_LP_IPM, JAM_LP_CLP, "lp_solver", "jam_lp_solver");
+  check_enum(o.method, JAM_CRUNCH_BARRIER_PATH, JAM_CRUNCH_SEQUENTIAL_LP, "method", "jam_crunch_method");
+  check_at_least(o.max_lps, 1, "max_lps");
+  check_threads(o.threads);
+  check_positive(o.gain_tolerance, "gain_tolerance");
+  check_positive(o.step_tolerance, "step_tolerance");
+  check_positive(o.lp_tolerance, "lp_tolerance");
+  check_positive(o.wall_time, "wall_time");
   check_range("neighbour_radius", o.neighbour_radius, 0.0, limits::radius_max);
   // Smaller steps are lost in the rounding of positions; larger ones leave the numbers that the LP solvers take.
   if (o.step_bound != 0.0) check_range("step_bound", o.step_bound, 1e-15, limits::radius_max);
-  if (o.full_lps != 0 && o.full_lps != 1) fail(JAM_E_ARGUMENT, "full_lps is %d, it must be 0 or 1", o.full_lps);
-  if (o.steps != 0 && o.steps != 1) fail(JAM_E_ARGUMENT, "steps is %d, it must be 0 or 1", o.steps);
-  if (o.prove != 0 && o.prove != 1) fail(JAM_E_ARGUMENT, "prove is %d, it must be 0 or 1", o.prove);
+  check_flag(o.full_lps, "full_lps");
+  check_flag(o.steps, "steps");
+  check_flag(o.prove, "prove");
   if (o.keep_steps < 0 || o.keep_steps > limits::keep_steps_max)
     fail(JAM_E_ARGUMENT, "keep_steps is %d, it must be 0 .. %d", o.keep_steps, limits::keep_steps_max);
-  if (o.strain < JAM_STRAIN_NONE || o.strain > JAM_STRAIN_FREE)
-    fail(JAM_E_ARGUMENT, "strain is %d, not a jam_free_strain", o.strain);
+  check_enum(o.strain, JAM_STRAIN_NONE, JAM_STRAIN_FREE, "strain", "jam_free_strain");
   if (o.duality_gap != 0.0) {
     check_range("duality_gap", o.duality_gap, limits::duality_gap_min, limits::duality_gap_max);
     if (o.method != JAM_CRUNCH_BARRIER_PATH || o.strain != JAM_STRAIN_NONE)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
@@ -76,16 +77,16 @@ jam_observe_options default_observe_options() {
 }
 
 void check_observe_options(const jam_observe_options &o) {
-  if (o.collisions != 0 && o.collisions != 1) fail(JAM_E_ARGUMENT, "collisions is %d, it must be 0 or 1", o.collisions);
+  check_flag(o.collisions, "collisions");
   if (o.gap_bins < 0 || o.gap_bins == 1 || o.gap_bins > 1000000)
     fail(JAM_E_ARGUMENT, "gap_bins is %d, it must be 0 or in 2..1000000", o.gap_bins);
   if (o.r_bins < 0 || o.r_bins > 1000000) fail(JAM_E_ARGUMENT, "r_bins is %d, it must be in 0..1000000", o.r_bins);
-  if (!(o.sample_every > 0.0)) fail(JAM_E_ARGUMENT, "sample_every is %g, it must be positive", o.sample_every);
+  check_positive(o.sample_every, "sample_every");
   if (!(o.gap_min > 0.0) || !(o.gap_max > o.gap_min) || !(o.gap_max <= 10.0))
     fail(JAM_E_ARGUMENT, "gap_min is %g and gap_max %g: they need 0 < gap_min < gap_max <= 10", o.gap_min, o.gap_max);
   if (!(o.r_max > 0.0 && o.r_max <= limits::radius_max))
     fail(JAM_E_ARGUMENT, "r_max is %g, it must be in (0, %g] mean diameters", o.r_max, limits::radius_max);
-  if (!(o.snapshot_every >= 0.0)) fail(JAM_E_ARGUMENT, "snapshot_every is %g, it must be >= 0", o.snapshot_every);
+  check_not_negative(o.snapshot_every, "snapshot_every");
   if (!(o.snapshot_factor >= 1.0) || !std::isfinite(o.snapshot_factor))
     fail(JAM_E_ARGUMENT, "snapshot_factor is %g, it must be >= 1 and finite", o.snapshot_factor);
 }

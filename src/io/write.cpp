@@ -1,3 +1,4 @@
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "io/files.hpp"
 #include "io/lammps.hpp"
@@ -172,8 +173,7 @@ std::string file_ending(const char *path) {
 }
 
 void write_file(const Packing &p, const std::vector<int32_t> *coordination, const char *path, int32_t format) {
-  if (format < JAM_FORMAT_AUTO || format > JAM_FORMAT_VTP)
-    fail(JAM_E_ARGUMENT, "format is %d, not a jam_format", format);
+  check_enum(format, JAM_FORMAT_AUTO, JAM_FORMAT_VTP, "format", "jam_format");
   if (format == JAM_FORMAT_AUTO) format = format_by_name(path);
   check_fits(p, format);
   OutputFile file(path);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "io/files.hpp"
@@ -101,8 +102,7 @@ int32_t format_by_name(const char *path) {
 }  // namespace
 
 void write_contacts(const Packing &p, const ContactNetwork &net, const char *path, int32_t format) {
-  if (format < JAM_CONTACTS_AUTO || format > JAM_CONTACTS_VTP)
-    fail(JAM_E_ARGUMENT, "format is %d, not a jam_contact_format", format);
+  check_enum(format, JAM_CONTACTS_AUTO, JAM_CONTACTS_VTP, "format", "jam_contact_format");
   if (format == JAM_CONTACTS_AUTO) format = format_by_name(path);
   OutputFile file(path);
   if (format == JAM_CONTACTS_CSV)

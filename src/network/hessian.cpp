@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 
@@ -18,8 +19,7 @@ jam_hessian_options default_hessian_options() {
 }
 
 void check_hessian_options(const jam_hessian_options &o) {
-  if (o.stiffness < JAM_STIFFNESS_HARMONIC || o.stiffness > JAM_STIFFNESS_SOFT)
-    fail(JAM_E_ARGUMENT, "stiffness is %d, not a jam_stiffness", o.stiffness);
+  check_enum(o.stiffness, JAM_STIFFNESS_HARMONIC, JAM_STIFFNESS_SOFT, "stiffness", "jam_stiffness");
   if (o.stiffness == JAM_STIFFNESS_POWER && !(o.alpha > 1.0 && std::isfinite(o.alpha)))
     fail(JAM_E_ARGUMENT, "alpha is %g, it must be finite and above 1", o.alpha);
   if (o.stiffness == JAM_STIFFNESS_SOFT) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "soft/decompression.hpp"
@@ -71,10 +72,10 @@ void check_decompress_options(const jam_decompress_options &o) {
   check_relax_options(r);
   if (!(o.energy_factor > 0.0 && o.energy_factor < 1.0))
     fail(JAM_E_ARGUMENT, "energy_factor is %g, it must be in (0, 1)", o.energy_factor);
-  if (!(o.pressure >= 0.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be >= 0", o.pressure);
-  if (!(o.distance >= 0.0)) fail(JAM_E_ARGUMENT, "distance is %g, it must be >= 0", o.distance);
-  if (o.isostatic != 0 && o.isostatic != 1) fail(JAM_E_ARGUMENT, "isostatic is %d, it must be 0 or 1", o.isostatic);
-  if (o.crunch != 0 && o.crunch != 1) fail(JAM_E_ARGUMENT, "crunch is %d, it must be 0 or 1", o.crunch);
+  check_not_negative(o.pressure, "pressure");
+  check_not_negative(o.distance, "distance");
+  check_flag(o.isostatic, "isostatic");
+  check_flag(o.crunch, "crunch");
   if (o.max_steps < 1) fail(JAM_E_ARGUMENT, "max_steps is %d, it must be at least 1", o.max_steps);
   if (o.reserved != 0) fail(JAM_E_ARGUMENT, "reserved is %d, it must be 0", o.reserved);
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/call_scope.hpp"
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "soft/decompression.hpp"
 
@@ -32,20 +33,15 @@ jam_relax_options default_relax_options() {
 }
 
 void check_relax_options(const jam_relax_options &o) {
-  if (o.minimiser < JAM_MINIMISER_NEWTON || o.minimiser > JAM_MINIMISER_LBFGS)
-    fail(JAM_E_ARGUMENT, "minimiser is %d, not a jam_minimiser", o.minimiser);
-  if (o.scale < JAM_SOFT_RELATIVE || o.scale > JAM_SOFT_BARE)
-    fail(JAM_E_ARGUMENT, "scale is %d, not a jam_soft_scale", o.scale);
-  if (o.precision != JAM_SOFT_REFERENCE && o.precision != JAM_SOFT_DOUBLE)
-    fail(JAM_E_ARGUMENT, "precision is %d, not a jam_soft_precision", o.precision);
+  check_enum(o.minimiser, JAM_MINIMISER_NEWTON, JAM_MINIMISER_LBFGS, "minimiser", "jam_minimiser");
+  check_enum(o.scale, JAM_SOFT_RELATIVE, JAM_SOFT_BARE, "scale", "jam_soft_scale");
+  check_enum(o.precision, JAM_SOFT_REFERENCE, JAM_SOFT_DOUBLE, "precision", "jam_soft_precision");
   if (!(o.alpha > 1.0) || !std::isfinite(o.alpha))
     fail(JAM_E_ARGUMENT, "alpha is %g, it must be finite and above 1", o.alpha);
-  if (!(o.force_tolerance > 0.0)) fail(JAM_E_ARGUMENT, "force_tolerance is %g, it must be positive", o.force_tolerance);
-  if (o.max_evaluations < 1)
-    fail(JAM_E_ARGUMENT, "max_evaluations is %lld, it must be at least 1", static_cast<long long>(o.max_evaluations));
-  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
-  if (o.strain < JAM_STRAIN_NONE || o.strain > JAM_STRAIN_ALL)
-    fail(JAM_E_ARGUMENT, "strain is %d, not a jam_free_strain", o.strain);
+  check_positive(o.force_tolerance, "force_tolerance");
+  check_at_least(o.max_evaluations, 1, "max_evaluations");
+  check_positive(o.wall_time, "wall_time");
+  check_enum(o.strain, JAM_STRAIN_NONE, JAM_STRAIN_ALL, "strain", "jam_free_strain");
   if (o.reserved != 0) fail(JAM_E_ARGUMENT, "reserved is %d, it must be 0", o.reserved);
   const bool volume = (o.strain & JAM_STRAIN_VOLUME) != 0;
   if (!(o.pressure >= 0.0) || !std::isfinite(o.pressure) || volume != (o.pressure > 0.0))

@@ -3,21 +3,11 @@
 
 #include <algorithm>
 
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 
 namespace jam {
-namespace {
-
-void positive(double value, const char *name) {
-  if (!(value > 0.0)) fail(JAM_E_ARGUMENT, "%s is %g, it must be positive", name, value);
-}
-void flag(int32_t value, const char *name) {
-  if (value != 0 && value != 1) fail(JAM_E_ARGUMENT, "%s is %d, it must be 0 or 1", name, value);
-}
-
-}  // namespace
-
 jam_run_options default_run_options() {
   jam_run_options o{};
   o.struct_size = sizeof o;
@@ -35,31 +25,30 @@ jam_compress_options default_compress_options() {
 }
 
 void check_run_options(const jam_run_options &o) {
-  flag(o.resume, "resume");
-  positive(o.collisions_per_particle, "collisions_per_particle");
-  positive(o.wall_time, "wall_time");
-  positive(o.time, "time");
+  check_flag(o.resume, "resume");
+  check_positive(o.collisions_per_particle, "collisions_per_particle");
+  check_positive(o.wall_time, "wall_time");
+  check_positive(o.time, "time");
   if (o.collisions_per_particle == no_limit && o.wall_time == no_limit && o.time == no_limit)
     fail(JAM_E_ARGUMENT, "collisions_per_particle, time and wall_time are all infinite: the run would not end");
 }
 
 void check_compress_options(const jam_compress_options &o) {
-  flag(o.resume, "resume");
-  if (o.growth_rate != 0.0) positive(o.growth_rate, "growth_rate");
+  check_flag(o.resume, "resume");
+  if (o.growth_rate != 0.0) check_positive(o.growth_rate, "growth_rate");
   if (o.growth_rate > limits::growth_rate_max)
     fail(JAM_E_ARGUMENT, "growth_rate is %g, supported are values up to %g", o.growth_rate, limits::growth_rate_max);
   if (!(o.pressure > 1.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be greater than 1", o.pressure);
-  positive(o.packing_fraction, "packing_fraction");
-  positive(o.collisions_per_particle, "collisions_per_particle");
-  positive(o.wall_time, "wall_time");
-  positive(o.time, "time");
+  check_positive(o.packing_fraction, "packing_fraction");
+  check_positive(o.collisions_per_particle, "collisions_per_particle");
+  check_positive(o.wall_time, "wall_time");
+  check_positive(o.time, "time");
   if (!(o.growth_rate_end >= 0.0) || o.growth_rate_end > o.growth_rate)
     fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate, which is %g", o.growth_rate_end,
          o.growth_rate);
   if (o.growth_rate_end > 0.0 && o.pressure == no_limit)
     fail(JAM_E_ARGUMENT, "growth_rate_end needs a finite pressure to be reached at");
-  if (o.growth_law != JAM_GROWTH_DIAMETER && o.growth_law != JAM_GROWTH_DENSITY)
-    fail(JAM_E_ARGUMENT, "growth_law is %d, not a jam_growth_law", o.growth_law);
+  check_enum(o.growth_law, JAM_GROWTH_DIAMETER, JAM_GROWTH_DENSITY, "growth_law", "jam_growth_law");
 }
 
 MdStage stage_of(const jam_run_options &o) {

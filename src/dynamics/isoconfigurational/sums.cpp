@@ -1,6 +1,7 @@
 // Isoconfigurational ensemble: options, the moments of one run, and sums over runs.
 #include <cmath>
 
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
@@ -23,31 +24,25 @@ jam_isoconf_options default_isoconf_options() {
 
 namespace {
 
-void positive(double value, const char *name) {
-  if (!(value > 0.0) || std::isinf(value))
-    fail(JAM_E_ARGUMENT, "%s is %g, it must be positive and finite", name, value);
-}
-
 constexpr int64_t most_runs = int64_t{1} << 27;  // so many streams of 2^36 numbers there are
 
 }  // namespace
 
 void check_isoconf_options(const jam_isoconf_options &o) {
-  if (o.threads != 1 && o.threads != 2) fail(JAM_E_ARGUMENT, "threads is %d, it must be 1 or 2", o.threads);
-  if (o.resume != 0 && o.resume != 1) fail(JAM_E_ARGUMENT, "resume is %d, it must be 0 or 1", o.resume);
-  if (o.clock != JAM_CLOCK_COLLISIONS && o.clock != JAM_CLOCK_TIME)
-    fail(JAM_E_ARGUMENT, "clock is %d, not a jam_clock", o.clock);
+  check_threads(o.threads);
+  check_flag(o.resume, "resume");
+  check_enum(o.clock, JAM_CLOCK_COLLISIONS, JAM_CLOCK_TIME, "clock", "jam_clock");
   if (o.runs < 1 || o.first_run < 0 || o.first_run > most_runs - o.runs || o.runs > most_runs)
     fail(JAM_E_ARGUMENT, "%lld runs from number %lld on: numbers go from 0 to %lld", static_cast<long long>(o.runs),
          static_cast<long long>(o.first_run), static_cast<long long>(most_runs) - 1);
-  if (o.block < 1) fail(JAM_E_ARGUMENT, "block is %lld, it must be at least 1", static_cast<long long>(o.block));
+  check_at_least(o.block, 1, "block");
   if (!(o.density_ratio > 0.0 && o.density_ratio <= 1.0))
     fail(JAM_E_ARGUMENT, "density_ratio is %g, it must be in (0, 1]", o.density_ratio);
-  positive(o.temperature, "temperature");
-  positive(o.wave_number, "wave_number");
-  positive(o.overlap_length, "overlap_length");
-  if (!(o.memory_limit > 0.0)) fail(JAM_E_ARGUMENT, "memory_limit is %g, it must be positive", o.memory_limit);
-  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+  check_positive_finite(o.temperature, "temperature");
+  check_positive_finite(o.wave_number, "wave_number");
+  check_positive_finite(o.overlap_length, "overlap_length");
+  check_positive(o.memory_limit, "memory_limit");
+  check_positive(o.wall_time, "wall_time");
 }
 
 // ---- sums

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
+#include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
@@ -41,25 +42,20 @@ jam_monte_carlo_options default_monte_carlo_options() {
 }
 
 void check_monte_carlo_options(const jam_monte_carlo_options &o) {
-  const auto positive = [](double value, const char *name) {
-    if (!(value > 0.0) || std::isinf(value))
-      fail(JAM_E_ARGUMENT, "%s is %g, it must be positive and finite", name, value);
-  };
   if (o.alpha != 0.0 && !(o.alpha > 1.0 && std::isfinite(o.alpha)))
     fail(JAM_E_ARGUMENT, "alpha is %g, it must be 0 (hard spheres) or more than 1", o.alpha);
-  if (o.energy_unit != JAM_ENERGY_LENGTH && o.energy_unit != JAM_ENERGY_RELATIVE)
-    fail(JAM_E_ARGUMENT, "energy_unit is %d, not a jam_energy_unit", o.energy_unit);
-  positive(o.energy_scale, "energy_scale");
-  positive(o.temperature, "temperature");
+  check_enum(o.energy_unit, JAM_ENERGY_LENGTH, JAM_ENERGY_RELATIVE, "energy_unit", "jam_energy_unit");
+  check_positive_finite(o.energy_scale, "energy_scale");
+  check_positive_finite(o.temperature, "temperature");
   if (!(o.step >= 0.0) || std::isinf(o.step)) fail(JAM_E_ARGUMENT, "step is %g, it must be 0 or positive", o.step);
   if (!(o.acceptance > 0.0 && o.acceptance < 1.0))
     fail(JAM_E_ARGUMENT, "acceptance is %g, it must be in (0, 1)", o.acceptance);
   if (!(o.swap_share >= 0.0 && o.swap_share < 1.0))
     fail(JAM_E_ARGUMENT, "swap_share is %g, it must be in [0, 1)", o.swap_share);
-  if (o.sweeps < 1) fail(JAM_E_ARGUMENT, "sweeps is %lld, it must be at least 1", static_cast<long long>(o.sweeps));
-  if (o.run < 0) fail(JAM_E_ARGUMENT, "run is %lld, it must not be negative", static_cast<long long>(o.run));
+  check_at_least(o.sweeps, 1, "sweeps");
+  check_at_least(o.run, 0, "run");
   if (o.first_sweep < -1) fail(JAM_E_ARGUMENT, "first_sweep is %lld", static_cast<long long>(o.first_sweep));
-  if (!(o.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be positive", o.wall_time);
+  check_positive(o.wall_time, "wall_time");
 }
 
 void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {

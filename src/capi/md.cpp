@@ -45,12 +45,12 @@ class Live {
 
 // Runs a stage; the handle changes only when nothing is thrown. The handle keeps a stage that was stopped early, also
 // before it has begun: then nothing has moved.
-Answer run_md(jam_system *sys, std::unique_ptr<Stage> &stage, const Limits &limits, jam_md_report &report) {
+Answer run_md(jam_system *sys, std::unique_ptr<EventDrivenRun> &stage, const Limits &limits, jam_md_report &report) {
   Listeners listeners;
   listeners.monitor = &sys->monitor;
   if (sys->observing) listeners.observer = sys->observer.get();
   const bool shows = listeners.observer && listeners.observer->has_snapshots();
-  if (shows) listeners.show = [sys](const Packing &p) { sys->show(p); };
+  if (shows) listeners.on_snapshot = [sys](const Packing &p) { sys->show(p); };
   jam_status status = JAM_OK;
   {
     const Live live(sys, stage.get(), shows);
@@ -69,35 +69,36 @@ Answer run_md(jam_system *sys, std::unique_ptr<Stage> &stage, const Limits &limi
   return text.empty() ? stopped(status, report.stop_reason) : Answer(status, std::move(text));
 }
 
-std::unique_ptr<Stage> make_stage(jam_system *sys, const MdStage &stage) {
-  return std::make_unique<Stage>(sys->packing, stage);
+std::unique_ptr<EventDrivenRun> make_stage(jam_system *sys, const GrowthStage &stage) {
+  return std::make_unique<EventDrivenRun>(sys->packing, stage);
 }
 
 // The stage that the handle keeps, or a new one.
-std::unique_ptr<Stage> take_stage(jam_system *sys, bool resume, const MdStage &stage) {
+std::unique_ptr<EventDrivenRun> take_stage(jam_system *sys, bool resume, const GrowthStage &stage) {
   if (!resume) return make_stage(sys, stage);
   if (!sys->paused) fail(JAM_E_STATE, "resume is 1 but no stage was stopped early on this handle");
   const int32_t phase = stage.growth > 0.0 ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN, paused = sys->paused->phase();
   if (paused != phase)
     fail(JAM_E_STATE, "resume is 1 but the paused stage has jam_phase %d, this call resumes %d", paused, phase);
-  // The phase says that it is a Stage. A failure from here on loses the stage, not the packing.
-  return std::unique_ptr<Stage>(static_cast<Stage *>(sys->paused.release()));
+  // The phase says that it is a EventDrivenRun. A failure from here on loses the stage, not the packing.
+  return std::unique_ptr<EventDrivenRun>(static_cast<EventDrivenRun *>(sys->paused.release()));
 }
 
 // Of a stage's time and that of the one which follows: growth takes (N / G) ln p collisions.
-double part_of_protocol(const MdStage &stage) {
+double part_of_protocol(const GrowthStage &stage) {
   if (stage.then == 0.0) return 1.0;
-  const MdStage next = next_stage(stage);
+  const GrowthStage next = next_stage(stage);
   const double own = math::log(stage.pressure) / stage.growth;
   return own / (own + math::log(next.pressure / stage.pressure) / next.growth);
 }
 
 // Runs a stage and those that follow it in its protocol.
-Answer run_all(jam_system *sys, std::unique_ptr<Stage> stage, Limits limits, jam_md_report &report, bool &moved) {
+Answer run_all(jam_system *sys, std::unique_ptr<EventDrivenRun> stage, Limits limits, jam_md_report &report,
+               bool &moved) {
   const double wall_time = limits.wall_time;
   double part = 0.0;
   for (;;) {
-    const MdStage plan = stage->plan();
+    const GrowthStage plan = stage->plan();
     const double first = part;
     part += (1.0 - part) * part_of_protocol(plan);
     sys->monitor.span(first, part);
@@ -110,7 +111,7 @@ Answer run_all(jam_system *sys, std::unique_ptr<Stage> stage, Limits limits, jam
 }
 
 // The same, and one call is one change: after a failure the packing is that of before.
-Answer run_stages(jam_system *sys, std::unique_ptr<Stage> stage, const Limits &limits, jam_md_report &report) {
+Answer run_stages(jam_system *sys, std::unique_ptr<EventDrivenRun> stage, const Limits &limits, jam_md_report &report) {
   std::unique_ptr<Packing> before;
   Results results;
   if (stage->plan().then > 0.0) before = std::make_unique<Packing>(sys->packing), results = sys->results();
@@ -139,7 +140,7 @@ Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_
   take_options(o, full);
   check(full);
   check_aim(sys, full);
-  const MdStage stage = stage_of(full);
+  const GrowthStage stage = stage_of(full);
   jam_md_report made{};
   const Answer answer = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
   give_struct(made, report);

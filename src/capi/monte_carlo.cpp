@@ -17,14 +17,14 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     jam_monte_carlo_options full = default_monte_carlo_options();
     take_options(o, full);
     check_monte_carlo_options(full);
-    std::unique_ptr<MonteCarloStage> stage;
+    std::unique_ptr<MonteCarloRun> stage;
     if (full.resume) {
       if (!sys->paused || sys->paused->phase() != JAM_PHASE_MONTE_CARLO)
         fail(JAM_E_STATE, "resume is 1 but no Monte Carlo run was stopped early on this handle");
-      stage.reset(static_cast<MonteCarloStage *>(sys->paused.release()));
+      stage.reset(static_cast<MonteCarloRun *>(sys->paused.release()));
     } else {
       if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
-      stage = std::make_unique<MonteCarloStage>(sys->packing, full);
+      stage = std::make_unique<MonteCarloRun>(sys->packing, full);
     }
     Limits limits;
     limits.per_particle = static_cast<double>(full.sweeps);

@@ -54,6 +54,10 @@ class Monitor {
   double seconds() const { return now_seconds() - start_; }
   // The call must stop, by the flag or by its limit.
   bool interrupted() const { return cancelled() || seconds() > wall_time; }
+  // Why: the flag comes first.
+  int32_t why_interrupted() const { return cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME; }
+  // The call may take so many seconds from now on.
+  void limit_time(double left) { wall_time = seconds() + left; }
 
   // The fractions that are reported from here on are of this part of the call.
   void span(double first, double last) { first_ = first, last_part_ = last; }

@@ -23,10 +23,10 @@ std::unique_ptr<Dynamics> read_dynamics(const Packing &p, std::string bytes) {
   switch (phase) {
     case JAM_PHASE_RUN:
     case JAM_PHASE_COMPRESS:
-      dynamics = std::make_unique<Stage>(p, from);
+      dynamics = std::make_unique<EventDrivenRun>(p, from);
       break;
     case JAM_PHASE_MONTE_CARLO:
-      dynamics = std::make_unique<MonteCarloStage>(p, from);
+      dynamics = std::make_unique<MonteCarloRun>(p, from);
       break;
     case JAM_PHASE_ISOCONFIGURATIONAL:
       dynamics = std::make_unique<Isoconfigurational>(p, from);

@@ -1,4 +1,4 @@
-// What every dynamics has in common: run, observe, archive. Event-driven molecular dynamics is Stage
+// What every dynamics has in common: run, observe, archive. Event-driven dynamics is EventDrivenRun
 // (event_driven/run.hpp).
 // A new dynamics derives from Dynamics and gets one line in read_dynamics (dynamics.cpp).
 #pragma once
@@ -24,11 +24,11 @@ struct Limits {
   double wall_time = no_limit;     // seconds, of this call
 };
 
-// Whom a run reports to while it goes on; observer and show may be empty.
+// Who hears of a run while it goes on; observer and on_snapshot may be empty.
 struct Listeners {
   Monitor *monitor = nullptr;  // cancellation, progress, log
   Observer *observer = nullptr;
-  std::function<void(const Packing &)> show;  // called before a snapshot is reported
+  std::function<void(const Packing &)> on_snapshot;  // called before a snapshot is reported
 };
 
 // A simulation that has begun and can pause between two events. A pause changes no bit of what follows.

@@ -10,7 +10,6 @@
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
-#include "dynamics/pressure.hpp"
 
 namespace jam {
 
@@ -124,17 +123,16 @@ Observer::Observer(const Packing &p, const jam_observe_options &o)
   }
 }
 
-bool Observer::end_block(double virial, double kinetic_integral) {
-  block_virial_.push_back(virial);
-  block_kinetic_integral_.push_back(kinetic_integral);
-  left_virial = left_kinetic_integral = 0.0;
+bool Observer::end_block(const PressureSums &block) {
+  blocks_.push_back(block);
+  left = PressureSums();
   ++blocks_made_;
   // Histograms: amid the second half of the sample. Collisions by then do not know of this one.
   const bool wanted = gaps_.bins() > 0 || correlation_.bins() > 0;
-  if (wanted && 2 * block_virial_.size() == blocks && std::isinf(histograms_at_))
+  if (wanted && 2 * blocks_.size() == blocks && std::isinf(histograms_at_))
     histograms_at_ = time + 0.5 * (time - sample_time_);
   next_block_ = std::max(seen + 1, in_all(static_cast<double>(blocks_made_ + 1) * options_.sample_every / blocks, n_));
-  return block_virial_.size() == blocks;
+  return blocks_.size() == blocks;
 }
 
 int64_t Observer::end_snapshot() {
@@ -149,20 +147,19 @@ void Observer::take_sample(const Packing &now, const std::vector<double> &displa
   s.time = sample_time_ = time;
   s.collisions = 2.0 * static_cast<double>(seen) / n_;
   s.packing_fraction = packing_fraction(now);
-  double virial = 0.0, kinetic_integral = 0.0, spread = 0.0;
-  for (int k = 0; k < blocks; ++k) virial += block_virial_[k], kinetic_integral += block_kinetic_integral_[k];
-  s.pressure = kinetic_integral > 0.0 ? reduced_pressure(virial, kinetic_integral, n_)
-                                      : std::numeric_limits<double>::quiet_NaN();
-  for (int k = 0; k < blocks; ++k) {
-    const double p = reduced_pressure(block_virial_[k], block_kinetic_integral_[k], n_);
+  PressureSums all;
+  for (const PressureSums &block : blocks_) all += block;
+  s.pressure = all.time_has_passed() ? all.reduced_pressure(n_) : std::numeric_limits<double>::quiet_NaN();
+  double spread = 0.0;
+  for (const PressureSums &block : blocks_) {
+    const double p = block.reduced_pressure(n_);
     spread += (p - s.pressure) * (p - s.pressure);
   }
   s.error = std::sqrt(spread / (blocks * (blocks - 1)));
   for (double x : displacement) s.displacement2 += x * x;
   s.displacement2 *= now.cell.side() * now.cell.side() / n_;
   samples_.push_back(s);
-  block_virial_.clear();
-  block_kinetic_integral_.clear();
+  blocks_.clear();
 }
 
 void Observer::take_histograms(const Packing &now) {

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/packing.hpp"
+#include "dynamics/pressure.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -72,13 +74,13 @@ class Observer {
   bool snapshot_due() const { return seen >= next_snapshot_; }
   double next_histograms() const { return histograms_at_; }  // the `time` of the next histograms
   // Ends a block, an eighth of a sample. True when the sample is complete; then call take_sample.
-  bool end_block(double virial, double kinetic_integral);
+  bool end_block(const PressureSums &block);
   void take_sample(const Packing &now, const std::vector<double> &displacement);
   void take_histograms(const Packing &now);
   bool has_snapshots() const { return options_.snapshot_every > 0.0; }
   int64_t end_snapshot();  // the number of this snapshot, from 1
   // Sums of a block that the end of a call has cut; the next call continues the block.
-  double left_virial = 0.0, left_kinetic_integral = 0.0;
+  PressureSums left;
 
   const std::vector<Sample> &samples() const { return samples_; }
   const std::vector<int64_t> &collisions() const { return collisions_; }
@@ -90,14 +92,14 @@ class Observer {
  private:
   std::vector<double> sample_gaps(const Packing &p) const;
   std::vector<double> sample_correlation(const Packing &p) const;
-  static constexpr int blocks = 8;
+  static constexpr int blocks = SampleTuning::blocks;
   jam_observe_options options_;
   size_t dim_;
   double n_;
   int64_t next_block_, next_snapshot_, blocks_made_ = 0, snapshots_ = 0;
   double snapshot_at_ = 0.0, snapshot_step_;
   double sample_time_ = 0.0, histograms_at_ = std::numeric_limits<double>::infinity();
-  std::vector<double> block_virial_, block_kinetic_integral_;
+  std::vector<PressureSums> blocks_;
   std::vector<Sample> samples_;
   std::vector<int64_t> collisions_;
   std::vector<double> travel_;

@@ -32,16 +32,16 @@ static Packing fluid(int64_t n, int dim, double start, double fraction, Monitor 
 struct Race {
   double ratio, pressure_a, pressure_b, rate_a, rate_b;
 };
-static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &monitor) {
+static Race race(Engine &a, Engine &b, double seconds, const Monitor &monitor) {
   std::vector<double> ratios, rates[2];
-  EngineBase *engine[2] = {&a, &b};
+  Engine *engine[2] = {&a, &b};
   MdSums before[2] = {a.sums, b.sums};
   for (int round = 0; round < 7; ++round) {
     double rate[2];
     for (int k = 0; k < 2; ++k) {
       const double t = cpu();
       const int64_t c = engine[k]->sums.collisions;
-      while (cpu() - t < seconds / 7) engine[k]->advance(20000, monitor, 1e300);
+      while (cpu() - t < seconds / 7) engine[k]->advance(20000, monitor);
       rate[k] = static_cast<double>(engine[k]->sums.collisions - c) / (cpu() - t);
       rates[k].push_back(rate[k]);
     }
@@ -50,8 +50,8 @@ static Race race(EngineBase &a, EngineBase &b, double seconds, const Monitor &mo
   std::sort(ratios.begin(), ratios.end());
   for (auto &r : rates) std::sort(r.begin(), r.end());
   const auto pressure = [&](int k) {
-    return 1.0 + (engine[k]->sums.virial - before[k].virial) /
-                     (engine[k]->sums.kinetic_integral - before[k].kinetic_integral);
+    return 1.0 + (engine[k]->sums.of_pressure.virial - before[k].of_pressure.virial) /
+                     (engine[k]->sums.of_pressure.kinetic_integral - before[k].of_pressure.kinetic_integral);
   };
   return {ratios[3], pressure(0), pressure(1), rates[0][3], rates[1][3]};
 }
@@ -66,7 +66,7 @@ static void engines(const std::vector<int64_t> &sizes, double seconds, Monitor &
       lists.cells = -1;
       cells.cells = 1;
       auto a = make_engine(p, lists), b = make_engine(p, cells);
-      for (EngineBase *e : {a.get(), b.get()}) e->advance(10 * n, monitor, 1e300);
+      for (Engine *e : {a.get(), b.get()}) e->advance(10 * n, monitor);
       const Race found = race(*a, *b, seconds, monitor);
       std::printf(
           "%s\n  {\"n\": %lld, \"packing_fraction\": %g, \"lists\": %.0f, \"cells\": %.0f, \"ratio\": %.3f, "
@@ -91,10 +91,10 @@ static void races(const std::vector<int64_t> &sizes, double seconds, Monitor &mo
          seen = make_engine(p, EngineOptions{}), counted = make_engine(p, EngineOptions{});
     seen->observe(&series);
     counted->observe(&pairs);
-    for (EngineBase *e : {plain.get(), heap.get(), seen.get(), counted.get()}) e->advance(3 * n, monitor, 1e300);
+    for (Engine *e : {plain.get(), heap.get(), seen.get(), counted.get()}) e->advance(3 * n, monitor);
     struct {
       const char *name;
-      EngineBase *engine;
+      Engine *engine;
     } const rivals[] = {
         {"one heap", heap.get()}, {"observed: series", seen.get()}, {"observed: collisions of pairs", counted.get()}};
     for (const auto &r : rivals) {
@@ -125,13 +125,13 @@ int main(int argc, char **argv) {
     for (int64_t n : sizes) {
       const Packing p = fluid(n, 3, 0.25, fraction, monitor);
       auto engine = make_engine(p, EngineOptions{});
-      engine->advance(3 * n, monitor, 1e300);  // shells and buckets adapt
+      engine->advance(3 * n, monitor);  // shells and buckets adapt
       std::vector<double> rates;
       const MdSums before = engine->sums;
       for (int k = 0; k < 5; ++k) {
         const double t = cpu();
         const int64_t c = engine->sums.collisions;
-        while (cpu() - t < seconds / 5) engine->advance(20000, monitor, 1e300);
+        while (cpu() - t < seconds / 5) engine->advance(20000, monitor);
         rates.push_back(static_cast<double>(engine->sums.collisions - c) / (cpu() - t));
       }
       std::sort(rates.begin(), rates.end());
@@ -143,7 +143,8 @@ int main(int argc, char **argv) {
           "\"events_per_collision\": %.3f, \"pressure\": %.3f}",
           comma, static_cast<long long>(n), fraction, rates[2], rates[0], rates[4], rates[2] / base,
           static_cast<double>(now.events - before.events) / static_cast<double>(now.collisions - before.collisions),
-          1.0 + (now.virial - before.virial) / (now.kinetic_integral - before.kinetic_integral));
+          1.0 + (now.of_pressure.virial - before.of_pressure.virial) /
+                    (now.of_pressure.kinetic_integral - before.of_pressure.kinetic_integral));
       comma = ",";
       std::fflush(stdout);
     }

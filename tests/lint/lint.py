@@ -43,6 +43,8 @@ GUESTS = {
 # A sentence of prose has at most so many words; numbers, symbols and formulas are none, a code span is one.
 MAX_WORDS = 25
 GENERATED = ["bindings/fortran/jam.f90", "tests/bindings/layout.c"]
+# Layers whose steering numbers all stand in their tuning.hpp, and files of them whose numbers are physics.
+TUNED = {"dynamics": ["equation_of_state.cpp"]}
 # Files that may keep state of the process, each with its reason.
 STATEFUL = {
     "src/linalg/blas.cpp": "counts, under a lock, who needs OpenBLAS on one thread, and gives the host its own number back"
@@ -254,6 +256,25 @@ def own_math():
                     problem(path, number, f"{found.group(0)}...) has other bits elsewhere; core/math.hpp has its own")
 
 
+def steering_numbers():
+    """Fractions and large numbers that choose what is done stand in the layer's tuning file. Free are simple ones, roundings
+    and what stands for infinity (powers of ten from 1e-6 and 1e6 on), option defaults, and binary fractions."""
+    number = r"(?<![\w.])(?:\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+)(?![\w.])"
+    simple = r"(0\.0|0\.25|0\.5|1\.0|2\.0|3\.0|4\.0|8\.0|10\.0|1e-(?:[6-9]|\d\d)|\de(?:[6-9]|1\d))$"
+    if [x for x in re.findall(number, "0.3 * 1e-12 + 2.0 + 7") if not re.match(simple, x)] != ["0.3"]:
+        problem("tests/lint/lint.py", 0, "this rule is broken")
+    for layer, physics in TUNED.items():
+        for path in files(f"src/{layer}/**/*.[ch]pp"):
+            if path.name in physics or path == root / "src" / layer / "tuning.hpp":
+                continue
+            for line, code in enumerate(without_comments(path.read_text()).splitlines(), 1):
+                if re.match(r"\s*o\.\w+ = ", code):
+                    continue
+                for found in re.findall(number, code):
+                    if not re.match(simple, found):
+                        problem(path, line, f"{found} belongs into src/{layer}/tuning.hpp")
+
+
 def plain_words():
     """Text files are ASCII (Python: but for labels) without trailing blanks, and speak of nobody's machine."""
     for path in files(
@@ -360,7 +381,7 @@ def columns():
 
 
 RULES = [layers, python_layers, private_headers, doc_comments, names, table_of_calls, file_sizes, no_side_effects, own_math]
-RULES += [plain_words, sentence_length, columns]
+RULES += [steering_numbers, plain_words, sentence_length, columns]
 for rule in RULES:
     if sys.argv[1] in ("all", rule.__name__):
         rule()

@@ -4,6 +4,7 @@
 
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/lattice.hpp"
 #include "dynamics/event_driven/options.hpp"
 #include "naive_dynamics.hpp"
 
@@ -30,7 +31,7 @@ Monitor &begun() {
 void lattice_vectors(void **) {
   for (const auto *rows : {&oblique, &slender}) {
     const Cell cell = Cell::from_triangle(2, rows->data());
-    const Units<true> units(cell);
+    const Units<Offsets::listed> units(cell);
     const Lattice<2> lattice(cell, units.scale);
     Rng rng(1, Stream::rsa_positions);
     for (int k = 0; k < 200; ++k) {
@@ -76,12 +77,12 @@ void two_disks_meet_through_the_face(void **) {
   wrap_positions(p);
   const auto engine = make_engine(p, EngineOptions{});
   assert_true(engine->with_images());
-  assert_int_equal(engine->advance(1, begun(), 1e300), Halt::window);
+  assert_int_equal(engine->advance(1, begun()), Halt::window);
   assert_true(std::fabs(engine->elapsed() - (1.0 - start - sigma / length)) < 1e-14);
   engine->write_state(p);
   assert_true(std::fabs(p.velocity[3]) < 1e-14 && std::fabs(p.velocity[1] - a[1] / p.cell.side()) < 1e-14);
   // It comes round to the other side of the one at rest.
-  assert_int_equal(engine->advance(1, begun(), 1e300), Halt::window);
+  assert_int_equal(engine->advance(1, begun()), Halt::window);
   assert_true(std::fabs(engine->elapsed() - (2.0 - start - 3.0 * sigma / length)) < 1e-13);
 }
 
@@ -105,7 +106,7 @@ void agrees_with_naive_engine(void **) {
     EngineOptions o;
     o.growth = c.growth;
     const auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(c.collisions, begun(), 1e300), Halt::window);
+    assert_int_equal(engine->advance(c.collisions, begun()), Halt::window);
     engine->write_state(p);
     const double distance = furthest(p, q);
     if (!(distance < 1e-7)) print_error("d=%d n=%d growth=%g: %g\n", c.dim, c.n, c.growth, distance);
@@ -127,7 +128,7 @@ void a_cube_in_disguise(void **) {
     for (int k = 0; k < 2; ++k) {
       const auto engine = make_engine(*state[k], o);
       assert_true(k == 0 || engine->with_images());
-      assert_int_equal(engine->advance(2 * n, begun(), 1e300), Halt::window);
+      assert_int_equal(engine->advance(2 * n, begun()), Halt::window);
       engine->write_state(*state[k]);
       time[k] = engine->elapsed();
     }
@@ -180,7 +181,7 @@ void instruction_sets_give_the_same_bits(void **) {
     o.growth = 0.1;
     o.instruction_set = set;
     const auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(20000, begun(), 1e300), Halt::window);
+    assert_int_equal(engine->advance(20000, begun()), Halt::window);
     engine->write_state(p);
     if (set == InstructionSet::portable) first = p;
     assert_memory_equal(p.position.data(), first.position.data(), p.position.size() * sizeof(double));

@@ -21,7 +21,7 @@ using namespace jamtest;
 
 namespace {
 
-MdStage nve(double collisions_per_particle) { return {0.0, 0.0, 0.0, collisions_per_particle, 1e9}; }
+GrowthStage nve(double collisions_per_particle) { return {0.0, 0.0, 0.0, collisions_per_particle, 1e9}; }
 
 struct Case {
   int dim, n;
@@ -52,7 +52,7 @@ void agrees_with_naive_engine(void **) {
       Monitor monitor;
       monitor.begin();
       auto engine = make_engine(p, o);
-      assert_int_equal(engine->advance(c.collisions, monitor, 1e300), Halt::window);
+      assert_int_equal(engine->advance(c.collisions, monitor), Halt::window);
       engine->write_state(p);
       const double distance = furthest(p, q);
       if (engine->cells_alone() != (cells == 1 && c.n == 40))
@@ -80,9 +80,11 @@ void engine_follows_the_density(void **) {
       assert_true(engine->cells_alone() == (k == 1));
       std::vector<double> p;
       for (int block = 0; block < 20; ++block) {
-        const double virial = engine->sums.virial, kinetic_integral = engine->sums.kinetic_integral;
-        assert_int_equal(engine->advance(10000, monitor, 1e300), Halt::window);
-        p.push_back((engine->sums.virial - virial) / (engine->sums.kinetic_integral - kinetic_integral));
+        const double virial = engine->sums.of_pressure.virial,
+                     kinetic_integral = engine->sums.of_pressure.kinetic_integral;
+        assert_int_equal(engine->advance(10000, monitor), Halt::window);
+        p.push_back((engine->sums.of_pressure.virial - virial) /
+                    (engine->sums.of_pressure.kinetic_integral - kinetic_integral));
       }
       double mean = 0.0, square = 0.0;
       for (double x : p) mean += x / 20.0;
@@ -99,7 +101,7 @@ void engine_follows_the_density(void **) {
   growing.growth = 0.1;
   auto engine = make_engine(random_packing(3, 500, 0.05, 1.0, 3), growing);
   assert_true(engine->cells_alone());
-  while (engine->packing_fraction() < 0.4) assert_int_equal(engine->advance(1000, monitor, 1e300), Halt::window);
+  while (engine->packing_fraction() < 0.4) assert_int_equal(engine->advance(1000, monitor), Halt::window);
   assert_true(!engine->cells_alone() && engine->max_overlap < 1e-14);
 }
 
@@ -161,7 +163,7 @@ void an_overlap_between_lists_is_seen(void **) {
   auto engine = make_engine(p, EngineOptions{});
   assert_true(std::fabs(engine->max_overlap - 1e-5) < 1e-12);  // of the start
   engine->max_overlap = 0.0;
-  assert_int_equal(engine->advance(1, monitor, 1e300), Halt::window);
+  assert_int_equal(engine->advance(1, monitor), Halt::window);
   assert_true(std::fabs(engine->max_overlap - (1e-5 - 1e-6)) < 2e-8);  // 0 has gone 1e-3 of the way of 2
 }
 
@@ -210,7 +212,7 @@ void same_bits_twice(void **) {
     Monitor monitor;
     monitor.begin();
     jam_md_report report{};
-    const MdStage stage = k == 0 ? nve(50.0) : MdStage{0.01, 1e4, never, never, never};
+    const GrowthStage stage = k == 0 ? nve(50.0) : GrowthStage{0.01, 1e4, never, never, never};
     run_stage(p, stage, monitor, report);
     run_stage(q, stage, monitor, report);
     assert_memory_equal(p.position.data(), q.position.data(), p.position.size() * sizeof(double));
@@ -246,7 +248,7 @@ void instruction_sets_give_the_same_bits(void **) {
       Monitor monitor;
       monitor.begin();
       auto engine = make_engine(p, o);
-      Halt halt = engine->advance(60 * c.n, monitor, 1e300);
+      Halt halt = engine->advance(60 * c.n, monitor);
       assert_true(halt == Halt::window || halt == Halt::needs_images);
       engine->write_state(p);
       assert_true(engine->max_overlap < 1e-13);

@@ -135,7 +135,7 @@ void never_stalls_while_an_event_exists(void **) {
                                       engine->sums.events < 30 * static_cast<int64_t>(p.n()) + 500;
                    end += 0.02) {
                 engine->set_time_limit(end - engine->elapsed());
-                halt = engine->advance(3000, monitor, 1e300);
+                halt = engine->advance(3000, monitor);
               }
               // Two spheres may grow until they touch their own images.
               const bool good = halt == Halt::time || halt == Halt::window || halt == Halt::needs_images ||
@@ -172,7 +172,7 @@ void agrees_with_naive_engine(void **) {
             Monitor monitor;
             monitor.begin();
             const auto engine = make_engine(p, o);
-            const Halt halt = engine->advance(collisions, monitor, 1e300);
+            const Halt halt = engine->advance(collisions, monitor);
             engine->write_state(p);
             // Dilute spheres turn by large angles: rounding grows tenfold in a collision of each. A wrong one moves by
             // 0.1.
@@ -194,11 +194,11 @@ void a_rare_collision_is_waited_for(void **) {
   monitor.begin();
   EngineOptions o;
   auto engine = make_engine(p, o);
-  assert_int_equal(engine->advance(3, monitor, 1e300), Halt::window);
+  assert_int_equal(engine->advance(3, monitor), Halt::window);
   print_message("3 collisions in %lld events\n", static_cast<long long>(engine->sums.events));
   for (int c = 0; c < 3; ++c) p.velocity[3 + c] = p.velocity[c];
   engine = make_engine(p, o);
-  assert_int_equal(engine->advance(3, monitor, 1e300), Halt::stalled);
+  assert_int_equal(engine->advance(3, monitor), Halt::stalled);
 }
 
 // A state of no motion has no event: that alone is stalled.
@@ -210,7 +210,7 @@ void rest_is_stalled(void **) {
     monitor.begin();
     EngineOptions o;
     const auto engine = make_engine(p, o);
-    assert_int_equal(engine->advance(10, monitor, 1e300), Halt::stalled);
+    assert_int_equal(engine->advance(10, monitor), Halt::stalled);
   }
 }
 

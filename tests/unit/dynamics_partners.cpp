@@ -6,6 +6,7 @@
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine.hpp"
 #include "dynamics/event_driven/options.hpp"
+#include "dynamics/event_driven/partner_table.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam;
@@ -57,7 +58,7 @@ template <int D>
 void check_search(int n, double zeta, const std::vector<double> &rows) {
   const Packing p = quenched(D, n, zeta, rows);
   const MkShifts shifts(p);
-  const Units<true> units(p.cell);
+  const Units<Offsets::listed> units(p.cell);
   const Lattice<D> lattice(p.cell, units.scale);
   PartnerTable<D> table(shifts, lattice, n);
   std::vector<int32_t> found, first;
@@ -114,7 +115,7 @@ template <int D>
 void check_edge(double zeta, const std::vector<double> &rows, bool small) {
   Packing p = quenched(D, 2, zeta, rows);
   const MkShifts shifts(p);
-  const Units<true> units(p.cell);
+  const Units<Offsets::listed> units(p.cell);
   const Lattice<D> lattice(p.cell, units.scale);
   double s[D], shift[D];
   shifts.get(0, 1, s);

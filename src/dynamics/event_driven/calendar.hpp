@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/archive.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -23,7 +24,7 @@ struct Event {
 
 class Calendar {
  public:
-  explicit Calendar(size_t n) : time_(n, never), event_(n), heads_(buckets_per_sphere * n + 2, -1) {}
+  explicit Calendar(size_t n) : time_(n, never), event_(n), heads_(CalendarTuning::buckets_per_sphere * n + 2, -1) {}
 
   Event &operator[](int32_t i) { return event_[i]; }
   const Event &operator[](int32_t i) const { return event_[i]; }
@@ -100,7 +101,6 @@ class Calendar {
   }
 
  private:
-  static constexpr size_t buckets_per_sphere = 6;
   bool before(int32_t i, int32_t j) const { return time_[i] < time_[j] || (time_[i] == time_[j] && i < j); }
   // The last head collects everything beyond the horizon.
   int32_t last_bucket() const { return static_cast<int32_t>(heads_.size()) - 1; }

@@ -1,4 +1,4 @@
-// Lattice vectors of the periodic cell in the integer coordinates of the engine with images (engine.hpp).
+// Lattice vectors of the periodic cell in the integer coordinates of the engine with offsets (engine.hpp).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -7,25 +7,31 @@
 #include <vector>
 
 #include "core/cell.hpp"
+#include "dynamics/event_driven/kernel/pair_kernel.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
-// Integer units to V^(1/d): a power of two. Without images differences wrap by themselves, to the nearest image of a
-// cube. With images coordinates may lie some boxes outside. A cell that is no cube needs space for its longest vector.
-template <bool Shift>
+// Lengths wrap as coordinates do, so that no number of a damaged checkpoint overflows.
+inline int64_t wrapping_sum(int64_t a, int64_t b) {
+  return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
+}
+
+// Integer units to V^(1/d): a power of two. Without offsets differences wrap by themselves, to the nearest image of a
+// cube. With offsets coordinates may lie some boxes outside. A cell that is no cube needs space for its longest vector.
+template <Offsets O>
 struct Units {
   static constexpr double scale = 0x1p64, unit = 0x1p-64, resolution = 0x1p-61;
   explicit Units(const Cell &) {}
 };
 template <>
-struct Units<true> {
+struct Units<Offsets::listed> {
   const double scale, unit, resolution;
   explicit Units(const Cell &cell) : scale(scale_of(cell)), unit(1.0 / scale), resolution(unit) {}
 
  private:
   static double scale_of(const Cell &cell) {
     if (cell.cube()) return 0x1p61;
-    constexpr double longest_distance = 12.0;  // of two spheres in each other's list, V^(1/d)
     double widest = 0.0;
     for (int c = 0; c < cell.dim(); ++c) {
       double width = 0.0;
@@ -33,7 +39,7 @@ struct Units<true> {
       widest = std::max(widest, width);
     }
     int power;  // the next power of two
-    if (std::frexp(widest + longest_distance, &power) == 0.5) --power;
+    if (std::frexp(widest + ListTuning::longest_distance, &power) == 0.5) --power;
     return std::ldexp(1.0, 62 - power);
   }
 };

@@ -4,15 +4,15 @@
 
 #include "core/with_dimension.hpp"
 #include "dynamics/dynamics.hpp"
-#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/engine_of.hpp"
 
 namespace jam {
 namespace {
 
-std::unique_ptr<EngineBase> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
-  return with_dimension(p.dim, [&](auto d) -> std::unique_ptr<EngineBase> {
-    if (images) return std::make_unique<Engine<d, true>>(p, o, from);
-    return std::make_unique<Engine<d, false>>(p, o, from);
+std::unique_ptr<Engine> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
+  return with_dimension(p.dim, [&](auto d) -> std::unique_ptr<Engine> {
+    if (images) return std::make_unique<EngineOf<d, Offsets::listed>>(p, o, from);
+    return std::make_unique<EngineOf<d, Offsets::wrapped>>(p, o, from);
   });
 }
 
@@ -35,13 +35,13 @@ std::vector<int32_t> curve_order(const Packing &p) {
   return order;
 }
 
-std::unique_ptr<EngineBase> make_engine(const Packing &p, const EngineOptions &o) {
-  const bool images =
-      p.model == JAM_MODEL_MK || !p.cell.cube() || !Engine<2, false>::fits(contact_distance_max(p) / p.cell.side());
+std::unique_ptr<Engine> make_engine(const Packing &p, const EngineOptions &o) {
+  const bool images = p.model == JAM_MODEL_MK || !p.cell.cube() ||
+                      !Lists<2, Offsets::wrapped>::fit_wrapped(contact_distance_max(p) / p.cell.side());
   return choose(p, o, images, nullptr);
 }
 
-std::unique_ptr<EngineBase> make_engine(const Packing &p, Archive &from) {
+std::unique_ptr<Engine> make_engine(const Packing &p, Archive &from) {
   int64_t images = 0;
   from(images);
   if (images == not_begun) return nullptr;

@@ -6,6 +6,7 @@
 #include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 jam_run_options default_run_options() {
@@ -51,25 +52,20 @@ void check_compress_options(const jam_compress_options &o) {
   check_enum(o.growth_law, JAM_GROWTH_DIAMETER, JAM_GROWTH_DENSITY, "growth_law", "jam_growth_law");
 }
 
-MdStage stage_of(const jam_run_options &o) {
-  MdStage s;
+GrowthStage stage_of(const jam_run_options &o) {
+  GrowthStage s;
   s.collisions_per_particle = o.collisions_per_particle;
   s.wall_time = o.wall_time;
   s.time = o.time;
   return s;
 }
 
-namespace {
-// The protocol that avoids crystals in d = 3: fast where a fluid could order, slower near jamming.
-constexpr double first_rate = 1e-2, first_pressure = 500.0, last_rate = 3e-3;
-}  // namespace
-
-MdStage stage_of(const jam_compress_options &o) {
-  MdStage s{o.growth_rate, o.pressure, o.packing_fraction, o.collisions_per_particle, o.wall_time};
+GrowthStage stage_of(const jam_compress_options &o) {
+  GrowthStage s{o.growth_rate, o.pressure, o.packing_fraction, o.collisions_per_particle, o.wall_time};
   if (o.growth_rate == 0.0) {
-    s.growth = first_rate;
-    s.pressure = std::min(o.pressure, first_pressure);
-    s.then = o.pressure > first_pressure ? o.pressure : 0.0;
+    s.growth = ProtocolTuning::first_rate;
+    s.pressure = std::min(o.pressure, ProtocolTuning::first_pressure);
+    s.then = o.pressure > ProtocolTuning::first_pressure ? o.pressure : 0.0;
   }
   s.time = o.time;
   s.growth_end = o.growth_rate_end;
@@ -77,9 +73,9 @@ MdStage stage_of(const jam_compress_options &o) {
   return s;
 }
 
-MdStage next_stage(const MdStage &stage) {
-  MdStage next = stage;
-  next.growth = last_rate;
+GrowthStage next_stage(const GrowthStage &stage) {
+  GrowthStage next = stage;
+  next.growth = ProtocolTuning::last_rate;
   next.pressure = stage.then;
   next.then = 0.0;
   return next;

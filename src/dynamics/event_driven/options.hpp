@@ -5,7 +5,7 @@
 namespace jam {
 
 // One stage: whichever target or limit comes first ends it. growth == 0 is NVE.
-struct MdStage {
+struct GrowthStage {
   double growth = 0.0;  // G = d<sigma>/dt / sqrt(kT/m), or with `relative` d ln<sigma>/dt in units of n^(1/d) / box
   double pressure = 0.0;
   double packing_fraction = 0.0;
@@ -23,11 +23,11 @@ jam_compress_options default_compress_options();
 // Throw JAM_E_ARGUMENT naming the value.
 void check_run_options(const jam_run_options &o);
 void check_compress_options(const jam_compress_options &o);
-MdStage stage_of(const jam_run_options &o);
-MdStage stage_of(const jam_compress_options &o);  // the first one of the protocol without a growth rate
-MdStage next_stage(const MdStage &stage);         // of the protocol: stage.then > 0
+GrowthStage stage_of(const jam_run_options &o);
+GrowthStage stage_of(const jam_compress_options &o);  // the first one of the protocol without a growth rate
+GrowthStage next_stage(const GrowthStage &stage);     // of the protocol: stage.then > 0
 
 // Begins a stage, runs it and takes its packing: for tests and benchmarks.
-jam_status run_stage(Packing &p, const MdStage &stage, Monitor &monitor, jam_md_report &report);
+jam_status run_stage(Packing &p, const GrowthStage &stage, Monitor &monitor, jam_md_report &report);
 
 }  // namespace jam

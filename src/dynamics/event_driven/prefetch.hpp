@@ -1,15 +1,10 @@
 // The engine loads memory ahead of its use. A load from main memory takes 150 ns when the program waits for it and 20
-// ns when it was asked for early. The buckets of the calendar hold the spheres that come next: their events are loaded
-// first, then bodies and lists, then neighbours. Below `smallest` spheres all of it stays in the cache.
+// ns when it was asked for early. The buckets of the calendar say which spheres come next: their events are loaded
+// first, then bodies and lists, then neighbours. Below LookAhead::smallest spheres all of it stays in the cache.
 #pragma once
-#include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/engine_of.hpp"
 
 namespace jam {
-
-// How many buckets (mean times between events) ahead; tests/bench/md_race shows what looking ahead is worth.
-struct LookAhead {
-  static constexpr int32_t smallest = 8192, events = 48, bodies = 24, neighbours = 10;
-};
 
 // GCC takes a function that only calls its builtin for one without effect, and drops the call.
 inline void prefetch_line(const void *at) {
@@ -25,42 +20,42 @@ void prefetch_object(const T *at, size_t count = 1) {
   for (size_t k = 0; k < count * sizeof(T); k += 64) prefetch_line(first + k);
 }
 
-template <int D, bool Shift>
-void Engine<D, Shift>::prefetch_lists(int32_t i) const {
-  prefetch_object(&body_[i]);
-  prefetch_line(&neighbours_[i]);
-  prefetch_object(list_of(i), std::min<size_t>(capacity_, 32));
-  if constexpr (Shift) prefetch_object(offset_of(i, 0), D * capacity_);
-  prefetch_line(&centre_[i]);
-  prefetch_line(&safe_[i]);
+template <int D, Offsets O>
+void EngineOf<D, O>::prefetch_lists(int32_t i) const {
+  prefetch_object(&spheres_.body[i]);
+  prefetch_line(&lists_.count[i]);
+  prefetch_object(lists_.of(i), std::min<size_t>(lists_.capacity, 32));
+  if constexpr (listed) prefetch_object(lists_.offset_of(i, 0), D * lists_.capacity);
+  prefetch_line(&lists_.centre[i]);
+  prefetch_line(&lists_.safe[i]);
 }
 
-template <int D, bool Shift>
-void Engine<D, Shift>::prefetch_neighbours(int32_t i) const {
-  const int32_t *list = list_of(i);
-  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) {
-    prefetch_object(&body_[list[e]]);
+template <int D, Offsets O>
+void EngineOf<D, O>::prefetch_neighbours(int32_t i) const {
+  const int32_t *list = lists_.of(i);
+  for (int32_t e = 0, m = lists_.count[i]; e < m; ++e) {
+    prefetch_object(&spheres_.body[list[e]]);
     prefetch_line(&calendar_.times()[list[e]]);
   }
 }
 
 // What recentre(i) will touch: lists of all neighbours, and blocks.
-template <int D, bool Shift>
-void Engine<D, Shift>::prefetch_search(int32_t i) const {
-  const int32_t *list = list_of(i);
-  for (int32_t e = 0, m = neighbours_[i]; e < m; ++e) {
-    prefetch_line(list_of(list[e]));
-    prefetch_line(&centre_[list[e]]);
+template <int D, Offsets O>
+void EngineOf<D, O>::prefetch_search(int32_t i) const {
+  const int32_t *list = lists_.of(i);
+  for (int32_t e = 0, m = lists_.count[i]; e < m; ++e) {
+    prefetch_line(lists_.of(list[e]));
+    prefetch_line(&lists_.centre[list[e]]);
   }
-  if (cells_ == 0) return;
-  const size_t count = cells_around(home_of(i));
-  for (size_t k = 0; k < count; ++k) prefetch_object(&block_[around_[k]]);
+  if (!grid_.used()) return;
+  const size_t count = grid_.cells_around(grid_.home(lists_.centre[i], lattice_), lattice_);
+  for (size_t k = 0; k < count; ++k) prefetch_object(&list_cells_.block[grid_.around[k]]);
 }
 
 // Called once a bucket.
-template <int D, bool Shift>
-void Engine<D, Shift>::look_ahead() const {
-  if (n_ < LookAhead::smallest || cells_alone_) return;
+template <int D, Offsets O>
+void EngineOf<D, O>::look_ahead() const {
+  if (spheres_.n < LookAhead::smallest || in_cell_mode()) return;
   const int32_t far = calendar_.first_ahead(LookAhead::events);
   if (far >= 0) prefetch_line(&calendar_[far]);
   calendar_.each_ahead(LookAhead::bodies, [&](int32_t i, const Event &e) {

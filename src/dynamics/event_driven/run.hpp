@@ -1,27 +1,56 @@
-// One stage of molecular dynamics: windows of pressure, thermostat, limits, report. It can stop between any two events
-// and go on to the same bits, in this process or another. So every value that a decision uses is in archive().
+// One run of event-driven dynamics, at constant volume or growing: windows of pressure, thermostat, limits, report. It
+// can stop between any two events and go on to the same bits, in this process or another. So every value that a
+// decision uses is in archive().
 #pragma once
 #include <string>
 
 #include "dynamics/event_driven/engine.hpp"
 #include "dynamics/event_driven/options.hpp"
 #include "dynamics/observer.hpp"
+#include "dynamics/pressure.hpp"
 
 namespace jam {
 
-// Sum of m v^2 about the centre of mass.
-double twice_kinetic(const Packing &p);
+// The current window and its parts, each with a pressure of its own.
+struct PressureWindow {
+  int64_t length = 1;  // collisions of a whole window
+  int64_t part = 0, part_goal = 0;
+  PressureSums of_part, whole;    // of this part before an engine with images took over; of the parts before it
+  int64_t steady = 1;             // no part of the window is far below the target pressure
+  std::vector<double> pressures;  // of parts
+};
 
-class Stage final : public Dynamics {
+// Sums and counts before this part (`sums`), and before the engine of now (the others).
+struct BeforeEngine {
+  PressureSums sums;
+  double time = 0.0, worst_overlap = 0.0;
+  int64_t collisions = 0, events = 0;
+};
+
+// When velocities were scaled last.
+struct Cooling {
+  double time = 0.0;
+  int64_t collisions = 0;
+};
+
+// What was seen in this call; not in the archive.
+struct ThisCall {
+  bool box_full = false;
+  PressureSums block;  // at the beginning of the observer's block
+  double seen_time = 0.0;
+  int64_t seen_collisions = 0, first_collisions = 0, report_collisions = 0;
+};
+
+class EventDrivenRun final : public Dynamics {
  public:
-  Stage(Packing p, const MdStage &stage);  // the engine is made by the first run, which may be stopped meanwhile
-  Stage(Packing p, Archive &from);
+  EventDrivenRun(Packing p, const GrowthStage &stage);  // the engine is made by the first run(), which may be stopped
+  EventDrivenRun(Packing p, Archive &from);
 
   int32_t phase() const override { return growing() ? JAM_PHASE_COMPRESS : JAM_PHASE_RUN; }
   jam_status run(const Limits &limits, const Listeners &listeners) override;
   const Packing &packing() const override { return p_; }
   Packing current() const override;
-  const MdStage &plan() const { return stage_; }
+  const GrowthStage &plan() const { return stage_; }
   void archive(Archive &a) override;
   bool begun() const { return engine_ != nullptr; }
   // Why the last run ended before its aim, in a sentence; empty where it did not.
@@ -31,20 +60,27 @@ class Stage final : public Dynamics {
 
  private:
   bool growing() const { return stage_.growth > 0.0; }
+  int64_t parts() const;  // of a window
   void take_limits(const Limits &limits);
   EngineOptions options() const;
   int32_t begin(Monitor &monitor);
-  int32_t go_on(const Listeners &listeners, double wall_end);
-  int32_t advance_part(const Listeners &listeners, double wall_end);
+  void finish(int32_t reason);
+  double standard_error() const;
+  jam_status status_of(int32_t reason) const;
+
+  // -- windows.cpp
+  int32_t run_windows(const Listeners &listeners);
+  int32_t advance_part(const Listeners &listeners);
   void begin_part();
   void end_part();
   void plan_window();
-  int32_t judge();
+  int32_t reason_to_end();
   double finest_pressure() const;
   void thermostat();
   void slow_down();
   void change_engine(Observer *observer);
 
+  // -- run_report.cpp
   void attach(Observer *observer);
   void detach(Observer *observer);
   void update(Observer &observer) const;
@@ -55,40 +91,25 @@ class Stage final : public Dynamics {
   double fraction() const;
   jam_progress progress() const;
 
-  void finish(int32_t reason);
-  double standard_error() const;
-  jam_status status_of(int32_t reason) const;
-  int64_t collisions() const { return old_collisions_ + engine_->sums.collisions; }
-  int64_t events() const { return old_events_ + engine_->sums.events; }
-  double time() const { return old_time_ + engine_->elapsed(); }
-  // Sums of virial and kinetic_integral over the stage.
-  double virial() const { return old_virial_ + engine_->sums.virial; }
-  double kinetic_integral() const { return old_kinetic_integral_ + engine_->sums.kinetic_integral; }
+  int64_t collisions() const { return before_.collisions + engine_->sums.collisions; }
+  int64_t events() const { return before_.events + engine_->sums.events; }
+  double time() const { return before_.time + engine_->elapsed(); }
+  PressureSums sums() const { return before_.sums + engine_->sums.of_pressure; }  // over the run
+  PressureSums part_sums() const { return window_.of_part + engine_->sums.of_pressure; }
 
   Packing p_;
-  MdStage stage_;
+  GrowthStage stage_;
   double n_;
-  std::unique_ptr<EngineBase> engine_;
-  double goal_ = 0.0, kinetic_ = 0.0, pressure_ = std::numeric_limits<double>::quiet_NaN();
-  int64_t window_ = 1;
-
-  // the current window: its parts, each with its own pressure
-  int64_t part_ = 0, part_goal_ = 0;
-  double part_virial_ = 0.0, part_kinetic_integral_ = 0.0, window_virial_ = 0.0, window_kinetic_integral_ = 0.0;
-  int64_t steady_ = 1;           // no part of the window is far below the target pressure
-  std::vector<double> windows_;  // pressures of parts
-
-  // sums before this part; part_... above: of this part before an engine with images took over
-  double old_virial_ = 0.0, old_kinetic_integral_ = 0.0, old_time_ = 0.0, worst_ = 0.0;
-  int64_t old_collisions_ = 0, old_events_ = 0;
-
-  double cooled_ = 0.0, first_pressure_ = 0.0, growth_ = 0.0;
-  int64_t cooled_collisions_ = 0, frozen_ = 0;
-
-  // of this call, not in the archive
-  bool box_full_ = false;
-  double block_virial_ = 0.0, block_kinetic_integral_ = 0.0, seen_time_ = 0.0;
-  int64_t seen_collisions_ = 0, call_collisions_ = 0, report_collisions_ = 0;
+  std::unique_ptr<Engine> engine_;
+  double goal_ = 0.0;                                                                  // collisions
+  double kinetic_ = 0.0;                                                               // sum of m v^2 at the beginning
+  double pressure_ = std::numeric_limits<double>::quiet_NaN(), first_pressure_ = 0.0;  // of the last, the first window
+  double growth_ = 0.0;                                                                // the rate at which it grows
+  int64_t frozen_ = 0;  // windows in which no time passed or gaps were noise
+  PressureWindow window_;
+  BeforeEngine before_;
+  Cooling cooling_;
+  ThisCall call_;
 };
 
 }  // namespace jam

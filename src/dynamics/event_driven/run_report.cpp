@@ -1,60 +1,59 @@
-// What a stage reports while it runs and at its end: observers, progress, report.
+// What a run of event-driven dynamics reports while it goes on and at its end: observers, progress, report.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "core/call_scope.hpp"
 #include "dynamics/event_driven/run.hpp"
+#include "dynamics/event_driven/velocities.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
-void Stage::attach(Observer *observer) {
+void EventDrivenRun::attach(Observer *observer) {
   if (!observer) return;
-  seen_collisions_ = collisions();
-  seen_time_ = time();
-  block_virial_ = virial() - observer->left_virial;
-  block_kinetic_integral_ = kinetic_integral() - observer->left_kinetic_integral;
+  call_.seen_collisions = collisions();
+  call_.seen_time = time();
+  call_.block = sums() - observer->left;
   engine_->observe(observer);
 }
 
-void Stage::update(Observer &observer) const {
-  observer.seen += collisions() - seen_collisions_;
-  observer.time += time() - seen_time_;
+void EventDrivenRun::update(Observer &observer) const {
+  observer.seen += collisions() - call_.seen_collisions;
+  observer.time += time() - call_.seen_time;
 }
 
-void Stage::detach(Observer *observer) {
+void EventDrivenRun::detach(Observer *observer) {
   if (!observer) return;
   engine_->observe(nullptr);
   update(*observer);
-  observer->left_virial = virial() - block_virial_;
-  observer->left_kinetic_integral = kinetic_integral() - block_kinetic_integral_;
+  observer->left = sums() - call_.block;
 }
 
 // What is due at this collision; true when the callback asks to stop.
-bool Stage::observe(const Listeners &listeners) {
+bool EventDrivenRun::observe(const Listeners &listeners) {
   Observer &observer = *listeners.observer;
   update(observer);
-  seen_collisions_ = collisions();
-  seen_time_ = time();
+  call_.seen_collisions = collisions();
+  call_.seen_time = time();
   if (observer.block_due()) {
-    const bool whole = observer.end_block(virial() - block_virial_, kinetic_integral() - block_kinetic_integral_);
-    block_virial_ = virial();
-    block_kinetic_integral_ = kinetic_integral();
+    const bool whole = observer.end_block(sums() - call_.block);
+    call_.block = sums();
     if (whole) sample(observer);
   }
   if (!observer.snapshot_due()) return false;
   jam_progress q = progress();
   q.snapshot = observer.end_snapshot();
-  if (listeners.show) listeners.show(current());
+  if (listeners.on_snapshot) listeners.on_snapshot(current());
   return listeners.monitor->report(q, true);
 }
 
-double Stage::until_histograms(const Observer *observer) const {
-  return observer ? seen_time_ + (observer->next_histograms() - observer->time) : no_limit;
+double EventDrivenRun::until_histograms(const Observer *observer) const {
+  return observer ? call_.seen_time + (observer->next_histograms() - observer->time) : no_limit;
 }
 
 // Between two collisions; nothing of the run changes. False: the call must stop, and the next one takes them.
-bool Stage::sample_histograms(Observer &observer, double at) const {
+bool EventDrivenRun::sample_histograms(Observer &observer, double at) const {
   Packing p = p_;
   engine_->write_state(p, at - time());
   const LeavingScope scope;
@@ -66,7 +65,7 @@ bool Stage::sample_histograms(Observer &observer, double at) const {
   return true;
 }
 
-void Stage::sample(Observer &observer) const {
+void EventDrivenRun::sample(Observer &observer) const {
   std::vector<double> way(p_.position.size());
   engine_->displacements(way);
   observer.take_sample(current(), way);
@@ -75,7 +74,7 @@ void Stage::sample(Observer &observer) const {
 // ---- progress and report
 
 // Of the aim that comes first. Growth takes about equal times for equal factors of pressure.
-double Stage::fraction() const {
+double EventDrivenRun::fraction() const {
   double most = std::numeric_limits<double>::quiet_NaN();  // fmax leaves it out
   if (goal_ < no_limit) most = static_cast<double>(collisions()) / goal_;
   if (stage_.time < no_limit) most = std::fmax(most, time() / stage_.time);
@@ -86,48 +85,50 @@ double Stage::fraction() const {
   return most;
 }
 
-jam_progress Stage::progress() const {
+jam_progress EventDrivenRun::progress() const {
   jam_progress q = progress_of(phase());
   q.packing_fraction = engine_->packing_fraction();
   q.pressure = pressure_;
-  q.collisions = report_collisions_ + collisions() - call_collisions_;
+  q.collisions = call_.report_collisions + collisions() - call_.first_collisions;
   q.fraction = fraction();
   return q;
 }
 
 // Adds to the report, so that stages run one after the other give one.
-void Stage::finish(int32_t reason) {
+void EventDrivenRun::finish(int32_t reason) {
   report.stop_reason = reason;
   report.collisions_per_second = static_cast<double>(report.collisions) / std::max(report.seconds, 1e-9);
   report.pressure = p_.pressure;
   report.pressure_error = standard_error();
   report.packing_fraction = jam::packing_fraction(p_);
   report.energy_drift = kinetic_ > 0.0 && !growing() ? std::fabs(twice_kinetic(p_) / kinetic_ - 1.0) : 0.0;
-  report.max_overlap = std::max({report.max_overlap, worst_, engine_->max_overlap, engine_->worst_overlap()});
+  report.max_overlap =
+      std::max({report.max_overlap, before_.worst_overlap, engine_->max_overlap, engine_->worst_overlap()});
   report.growth_rate = engine_->growth();
 }
 
 // NVE: of the mean over all windows. Growing: the last window is the mean of the last four parts.
-double Stage::standard_error() const {
-  if (windows_.size() < (growing() ? 8u : 5u)) return std::numeric_limits<double>::quiet_NaN();
+double EventDrivenRun::standard_error() const {
+  if (window_.pressures.size() < (growing() ? 2 * WindowTuning::parts : WindowTuning::fewest_for_error))
+    return std::numeric_limits<double>::quiet_NaN();
   double mean = 0.0, square = 0.0;
-  const double m = static_cast<double>(windows_.size());
-  for (double p : windows_) mean += p / m;
-  for (double p : windows_) square += (p - mean) * (p - mean) / (m - 1.0);
-  return std::sqrt(square / (growing() ? 4.0 : m));
+  const double m = static_cast<double>(window_.pressures.size());
+  for (double p : window_.pressures) mean += p / m;
+  for (double p : window_.pressures) square += (p - mean) * (p - mean) / (m - 1.0);
+  return std::sqrt(square / (growing() ? static_cast<double>(WindowTuning::parts) : m));
 }
 
-std::string Stage::text() const {
+std::string EventDrivenRun::text() const {
   char line[300] = "";
   const auto largest = std::max_element(p_.diameter.begin(), p_.diameter.end());
   const long long sphere = largest - p_.diameter.begin();
   const double phi = jam::packing_fraction(p_);
   switch (report.stop_reason) {
     case JAM_STOP_STALLED:
-      if (box_full_ && *largest > 0.999 * p_.cell.shortest())
+      if (call_.box_full && *largest > WindowTuning::as_good_as_touching * p_.cell.shortest())
         std::snprintf(line, sizeof line,
                       "sphere %lld touches its own image, nothing can grow here (packing fraction %.6g)", sphere, phi);
-      else if (box_full_)
+      else if (call_.box_full)
         std::snprintf(line, sizeof line,
                       "two unlike spheres of the largest sizes would fill the cell, nothing can grow here (packing "
                       "fraction %.6g)",
@@ -168,7 +169,7 @@ std::string Stage::text() const {
   return line;
 }
 
-jam_status Stage::status_of(int32_t reason) const {
+jam_status EventDrivenRun::status_of(int32_t reason) const {
   switch (reason) {
     case JAM_STOP_PRESSURE:
     case JAM_STOP_PACKING_FRACTION:

@@ -5,63 +5,46 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "dynamics/event_driven/engine.hpp"
-#include "dynamics/event_driven/run.hpp"
+#include "dynamics/event_driven/velocities.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/pressure.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
 void draw_run_velocities(Packing &p, int64_t run, double temperature) {
-  const size_t n = p.n(), d = static_cast<size_t>(p.dim);
-  std::vector<double> mass = sphere_masses(p);
-  if (mass.empty()) mass.assign(n, 1.0);
   Rng rng(p.seed, Stream::run_velocities, static_cast<uint64_t>(run) << 36);
-  for (size_t k = 0; k < n * d; ++k) p.velocity[k] = rng.normal() / std::sqrt(mass[k / d]);
+  draw_velocities(p, rng);
+  const size_t n = p.n(), d = static_cast<size_t>(p.dim);
+  const std::vector<double> mass = sphere_masses(p);
   double twice_kinetic = 0.0;
-  for (size_t c = 0; c < d; ++c) {
-    double mean = 0.0;
-    for (size_t i = 0; i < n; ++i) mean += mass[i] * p.velocity[i * d + c];
-    mean /= static_cast<double>(n);
+  for (size_t c = 0; c < d; ++c)
     for (size_t i = 0; i < n; ++i) {
-      double &v = p.velocity[i * d + c];
-      if (n > 1) v -= mean;
-      twice_kinetic += mass[i] * v * v;
+      const double v = p.velocity[i * d + c];
+      twice_kinetic += (mass.empty() ? 1.0 : mass[i]) * v * v;
     }
-  }
   const double factor = std::sqrt(temperature * static_cast<double>(n * d) / twice_kinetic);
   for (double &v : p.velocity) v *= factor;
-  p.has_velocity = true;
 }
 
 namespace {
 
-int32_t reason_of(Halt halt) {
-  switch (halt) {
-    case Halt::cancelled:
-      return JAM_STOP_CANCELLED;
-    case Halt::wall_time:
-      return JAM_STOP_WALL_TIME;
-    default:
-      return JAM_STOP_STALLED;
-  }
-}
-
 // Advances to the instant; NONE when it is reached. `left` is the time from the last event to the instant.
-int32_t advance_to(EngineBase &engine, const RunPlan &plan, double instant, const RunControl &control, double &left) {
-  constexpr int64_t slice = 1 << 16;  // collisions between two looks at the progress callback, some 20 ms
+int32_t advance_to(Engine &engine, const RunPlan &plan, double instant, const RunControl &control, double &left) {
   const bool by_time = plan.options.clock == JAM_CLOCK_TIME;
   const double twice = static_cast<double>(plan.start.n());
   const int64_t goal = by_time ? std::numeric_limits<int64_t>::max() : std::llround(0.5 * instant * twice);
   left = 0.0;
   if (by_time) engine.set_time_limit(instant - engine.elapsed());
   while (engine.sums.collisions < goal) {
-    const Halt halt = engine.advance(std::min(slice, goal - engine.sums.collisions), control.monitor, control.wall_end);
+    const Halt halt = engine.advance(
+        std::min(EnsembleTuning::collisions_between_reports, goal - engine.sums.collisions), control.monitor);
     if (halt == Halt::time) {
       left = instant - engine.elapsed();
       return JAM_STOP_NONE;
     }
-    if (halt != Halt::window) return reason_of(halt);
-    if (control.stopped()) return JAM_STOP_CANCELLED;
+    if (halt != Halt::window && halt != Halt::interrupted) return JAM_STOP_STALLED;
+    if (control.stopped()) return control.monitor.why_interrupted();
   }
   return JAM_STOP_NONE;
 }
@@ -74,10 +57,10 @@ void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &
   const std::vector<double> begun = p.velocity, mass = sphere_masses(p);
   const size_t coordinates = p.position.size(), d = static_cast<size_t>(p.dim);
   Observer observer(p, default_observe_options());
-  const std::unique_ptr<EngineBase> engine =
+  const std::unique_ptr<Engine> engine =
       make_engine_for(control, record, [&] { return make_engine(p, EngineOptions{}); });
   if (!engine) return;
-  if (engine->max_overlap > 1e-10)
+  if (engine->max_overlap > overlap_of_rounding)
     fail(JAM_E_OVERLAP, "spheres overlap by %g of sigma at the start of the runs", engine->max_overlap);
   engine->observe(&observer);
   const double kinetic = engine->twice_kinetic();
@@ -96,9 +79,8 @@ void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &
     series[JAM_ISOCONF_TIME] = engine->elapsed() + left;
     series[JAM_ISOCONF_COLLISIONS] = 2.0 * static_cast<double>(engine->sums.collisions) / static_cast<double>(p.n());
     series[JAM_ISOCONF_VELOCITY] = product / kinetic;
-    const double integral = engine->sums.kinetic_integral;
-    series[JAM_ISOCONF_PRESSURE] =
-        integral > 0.0 ? reduced_pressure(engine->sums.virial, integral, static_cast<double>(p.n())) : 1.0;
+    const PressureSums &sums = engine->sums.of_pressure;
+    series[JAM_ISOCONF_PRESSURE] = sums.time_has_passed() ? sums.reduced_pressure(static_cast<double>(p.n())) : 1.0;
     take_moments(plan, m, record);
   }
   record.energy_drift = std::fabs(twice_kinetic(p) / kinetic - 1.0);

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -76,7 +77,7 @@ void Isoconfigurational::check_memory() const {
   const double blocks = static_cast<double>((o.first_run + o.runs - 1) / o.block - o.first_run / o.block + 1);
   const double sums = 8.0 * m * spheres * (2.0 * d + 2.0) * (blocks + 1.0);
   const double sets = 8.0 * spheres * d * static_cast<double>(o.runs) * static_cast<double>(kept_instants_.size());
-  const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads == 2 ? runs_ahead : 1);
+  const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads == 2 ? EnsembleTuning::runs_ahead : 1);
   if (sums + sets + records > o.memory_limit)
     fail(JAM_E_MEMORY, "%.3g bytes are needed (sums of %g blocks %.3g, displacement sets %.3g), memory_limit is %.3g",
          sums + sets + records, blocks, sums, sets, o.memory_limit);
@@ -85,17 +86,16 @@ void Isoconfigurational::check_memory() const {
 // Positions are doubles, so a contact is closed to a few 1e-16 of the box. Gaps opened by less than some hundred times
 // that would be rounding.
 void Isoconfigurational::check_resolution(bool jammed) const {
-  constexpr double safety = 100.0;
   const double ratio = plan_.options.density_ratio;
   const double smallest = *std::min_element(plan_.start.diameter.begin(), plan_.start.diameter.end());
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * plan_.start.cell.side() / smallest;
   const double opened = (1.0 - ratio) / static_cast<double>(dim());
-  if ((jammed || ratio < 1.0) && opened < safety * rounding)
+  if ((jammed || ratio < 1.0) && opened < EnsembleTuning::roundings_of_gap * rounding)
     fail(
         JAM_E_ARGUMENT,
         "density_ratio 1 - %.3g opens contacts by %.3g; at least %.3g is needed, as positions are rounded to %.1g of a "
         "diameter",
-        1.0 - ratio, opened, safety * rounding, rounding);
+        1.0 - ratio, opened, EnsembleTuning::roundings_of_gap * rounding, rounding);
 }
 
 void Isoconfigurational::continue_with(const Packing &p, const jam_isoconf_options &o,

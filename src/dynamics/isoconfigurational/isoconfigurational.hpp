@@ -56,13 +56,14 @@ struct RunPlan {
   std::vector<double> instants;  // ascending, > 0
 };
 
-// Asked now and then by the calling thread's run; true: stop.
-using Tick = std::function<bool()>;
+// When a run must stop. Runs poll it now and then.
 struct RunControl {
   const Monitor &monitor;
-  double wall_end;
-  Tick tick;  // empty on the second thread
-  bool stopped() const { return monitor.cancelled() || (tick && tick()); }
+  std::function<void()> report_step;  // empty on the second thread
+  bool stopped() const {
+    if (report_step) report_step();
+    return monitor.interrupted();
+  }
 };
 
 // An engine, whose searches for pairs may be left: then null, and the record says why.
@@ -72,7 +73,7 @@ auto make_engine_for(const RunControl &control, RunRecord &record, Make &&make) 
   try {
     return make();
   } catch (const Cancelled &) {
-    record.stop_reason = control.monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+    record.stop_reason = control.monitor.why_interrupted();
     return nullptr;
   }
 }
@@ -121,12 +122,10 @@ class Isoconfigurational final : public Dynamics {
   size_t dim() const { return static_cast<size_t>(packing_.dim); }
   void check_memory() const;
   void check_resolution(bool jammed) const;
-  bool tick(Monitor &monitor) const;
-  // A run that has begun is at most so many numbers ahead of the sums; its record waits in memory.
-  static constexpr int64_t runs_ahead = 32;
+  void report_step(Monitor &monitor) const;
   struct Queue;
   bool take(Queue &queue, int64_t &run, RunRecord &record) const;
-  void hand_in(Queue &queue, int64_t run, RunRecord &record, double wall_end);
+  void hand_in(Queue &queue, int64_t run, RunRecord &record, const Monitor &monitor);
   void work(Queue &queue, const RunControl &control);
   void fold(int64_t run, const RunRecord &record);
   jam_status finish(int32_t reason, double begin);

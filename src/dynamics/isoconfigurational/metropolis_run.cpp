@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
 void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record) {
-  constexpr int64_t sweeps_between_looks = 16;
   const std::unique_ptr<MonteCarlo> mc =
       make_engine_for(control, record, [&] { return make_monte_carlo(plan.start, plan.monte_carlo, run); });
   if (!mc) return;
@@ -17,11 +17,10 @@ void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control,
   for (size_t m = 0; m < plan.instants.size(); ++m) {
     for (const int64_t goal = std::llround(plan.instants[m]); sweep < goal; ++sweep) {
       mc->sweep(sweep);
-      if (sweep % sweeps_between_looks != 0) continue;
-      record.stop_reason = control.stopped()                  ? JAM_STOP_CANCELLED
-                           : now_seconds() > control.wall_end ? JAM_STOP_WALL_TIME
-                                                              : JAM_STOP_NONE;
-      if (record.stop_reason != JAM_STOP_NONE) return;
+      if (sweep % EnsembleTuning::sweeps_between_looks != 0) continue;
+      if (!control.stopped()) continue;
+      record.stop_reason = control.monitor.why_interrupted();
+      return;
     }
     std::copy(mc->displacement().begin(), mc->displacement().end(),
               record.displacement.begin() + static_cast<std::ptrdiff_t>(m * coordinates));

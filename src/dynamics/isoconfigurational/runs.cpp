@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
+#include "dynamics/tuning.hpp"
 #include "linalg/two_threads.hpp"
 
 namespace jam {
@@ -47,20 +48,20 @@ void Isoconfigurational::fold(int64_t run, const RunRecord &record) {
   report_.acceptance += (record.acceptance - report_.acceptance) / static_cast<double>(report_.runs);
 }
 
-// Tells the progress callback; true: stop.
-bool Isoconfigurational::tick(Monitor &monitor) const {
+void Isoconfigurational::report_step(Monitor &monitor) const {
   jam_progress p = progress_of(phase());
   p.packing_fraction = plan_.fraction;
   p.fraction = static_cast<double>(report_.runs) / static_cast<double>(plan_.options.runs);
   p.steps = report_.runs;
-  return monitor.report(p);
+  monitor.report(p);
 }
 
 // Hands a number out, and memory for its record. False: no more.
 bool Isoconfigurational::take(Queue &queue, int64_t &run, RunRecord &record) const {
   std::unique_lock<std::mutex> lock(queue.mutex);
   const int64_t first = plan_.options.first_run;
-  queue.moved.wait(lock, [&] { return queue.stopped || queue.next < first + report_.runs + runs_ahead; });
+  queue.moved.wait(lock,
+                   [&] { return queue.stopped || queue.next < first + report_.runs + EnsembleTuning::runs_ahead; });
   if (queue.stopped || queue.next >= first + plan_.options.runs) return false;
   run = queue.next++;
   if (!queue.spare.empty()) {
@@ -74,7 +75,7 @@ bool Isoconfigurational::take(Queue &queue, int64_t &run, RunRecord &record) con
 }
 
 // Takes a record, and folds all that are next.
-void Isoconfigurational::hand_in(Queue &queue, int64_t run, RunRecord &record, double wall_end) {
+void Isoconfigurational::hand_in(Queue &queue, int64_t run, RunRecord &record, const Monitor &monitor) {
   const std::lock_guard<std::mutex> lock(queue.mutex);
   if (record.stop_reason != JAM_STOP_NONE) queue.stopped = true;
   queue.waiting.emplace(run, std::move(record));
@@ -85,7 +86,7 @@ void Isoconfigurational::hand_in(Queue &queue, int64_t run, RunRecord &record, d
     queue.spare.push_back(std::move(at->second));
     at = queue.waiting.erase(at);
   }
-  if (report_.runs < plan_.options.runs && now_seconds() > wall_end) queue.stop(JAM_STOP_WALL_TIME);
+  if (report_.runs < plan_.options.runs && monitor.interrupted()) queue.stop(monitor.why_interrupted());
 }
 
 void Isoconfigurational::work(Queue &queue, const RunControl &control) {
@@ -94,12 +95,13 @@ void Isoconfigurational::work(Queue &queue, const RunControl &control) {
   try {
     for (RunRecord record; take(queue, run, record);) {
       one(plan_, run, control, record);
-      hand_in(queue, run, record, control.wall_end);
+      hand_in(queue, run, record, control.monitor);
       queue.moved.notify_all();
-      if (control.tick && control.tick()) {
-        const std::lock_guard<std::mutex> lock(queue.mutex);
-        queue.stop(JAM_STOP_CANCELLED);
-      }
+      if (!control.report_step) continue;
+      control.report_step();
+      if (!control.monitor.cancelled()) continue;
+      const std::lock_guard<std::mutex> lock(queue.mutex);
+      queue.stop(JAM_STOP_CANCELLED);
     }
   } catch (...) {
     const std::lock_guard<std::mutex> lock(queue.mutex);
@@ -111,13 +113,14 @@ void Isoconfigurational::work(Queue &queue, const RunControl &control) {
 
 jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listeners) {
   Monitor &monitor = *listeners.monitor;
-  const double begin = now_seconds(), wall_end = begin + limits.wall_time;
+  const double begin = now_seconds();
+  monitor.limit_time(limits.wall_time);
   if (plan_.metropolis && plan_.monte_carlo.step == 0.0) {
     const LeavingScope scope;
     try {
       plan_.monte_carlo.step = report_.step = tuned_step(plan_.start, plan_.monte_carlo);
     } catch (const Cancelled &) {
-      return finish(monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME, begin);
+      return finish(monitor.why_interrupted(), begin);
     }
   }
   // All memory of the sets now: no run is lost for want of it.
@@ -125,14 +128,14 @@ jam_status Isoconfigurational::run(const Limits &limits, const Listeners &listen
   Queue queue;
   queue.next = plan_.options.first_run + report_.runs;
   // The callback may read the sums: they rest meanwhile.
-  const Tick tell = [&] {
+  const std::function<void()> report = [&] {
     const std::lock_guard<std::mutex> lock(queue.mutex);
-    return tick(monitor);
+    report_step(monitor);
   };
   const double memory_limit = CallScope::memory_limit();
   const auto thread = [&](int number) {
     const CallScope scope(memory_limit, number == 0 ? &monitor : nullptr, &queue.mutex);
-    work(queue, RunControl{monitor, wall_end, number == 0 ? tell : Tick()});
+    work(queue, RunControl{monitor, number == 0 ? report : nullptr});
   };
   if (plan_.options.threads == 2)
     on_two_threads(thread);

@@ -11,11 +11,9 @@
 #include "core/cell.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
-
-// Pairs nearer than this share of the distance of two faces have one image in reach, the one that differences wrap to.
-constexpr double monte_carlo_range = 0.499;
 
 template <int D, bool Cube>
 class MonteCarloGeometry {
@@ -25,13 +23,11 @@ class MonteCarloGeometry {
   static constexpr double scale = 0x1p64, unit = 0x1p-64;
 
   MonteCarloGeometry(const Cell &cell, double contact_max)
-      : cell_(cell), height_(cell.height_min() / cell.side()), widest_(monte_carlo_range * height_) {
-    // In between, lists would have no skin, and the pressure of hard spheres no gaps to count.
-    constexpr double fullest = 0.8, beyond = 1.25;
+      : cell_(cell), height_(cell.height_min() / cell.side()), widest_(MonteCarloTuning::range * height_) {
     for (int c = 0; c < D; ++c)
       for (int k = 0; k <= c; ++k) row_[c][k] = cell.row(c)[k] / cell.side();
-    if (Cube || contact_max <= fullest * widest_) return;
-    widest_ = beyond * contact_max;
+    if (Cube || contact_max <= MonteCarloTuning::fullest * widest_) return;
+    widest_ = MonteCarloTuning::beyond * contact_max;
     check_images();
     add_images(D - 1, {});
   }

@@ -17,13 +17,12 @@ void MonteCarloMeans::sample(MonteCarlo &mc) {
     return;
   }
   if (h_max_ == 0.0) {
-    // Gaps up to about 1/(4 p): three quarters of a pair a sphere lie there.
-    std::vector<double> all(4096, 0.0);
+    std::vector<double> all(SampleTuning::first_bins, 0.0);
     const double range = mc.gap_range();
     mc.count_gaps(range, all);
     double sum = 0.0;
     size_t k = 0;
-    while (k < all.size() && sum < 0.25 * dim_ * n_) sum += all[k++];
+    while (k < all.size() && sum < SampleTuning::pairs_counted * dim_ * n_) sum += all[k++];
     h_max_ = range * static_cast<double>(k) / static_cast<double>(all.size());
   }
   std::vector<double> now(bins, 0.0);
@@ -57,7 +56,7 @@ double density_at_contact(const std::vector<double> &count, double h_max) {
   return math::exp(m[0][3] / m[0][0]);
 }
 
-constexpr size_t parts = 20;  // of a run, for the errors of its means
+constexpr size_t parts = SampleTuning::parts;
 
 void mean_of(const std::vector<double> &x, double &mean, double &error) {
   mean = error = std::numeric_limits<double>::quiet_NaN();

@@ -19,6 +19,7 @@
 #include "core/monitor.hpp"
 #include "core/packing.hpp"
 #include "dynamics/dynamics.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -72,7 +73,7 @@ class MonteCarloMeans {
   void archive(Archive &a);
 
  private:
-  static constexpr size_t bins = 16;
+  static constexpr size_t bins = SampleTuning::gap_bins;  // checkpoints hold so many
   void give_hard(jam_monte_carlo_report &report) const;
   double n_, dim_, temperature_;
   bool hard_;
@@ -82,10 +83,10 @@ class MonteCarloMeans {
 };
 
 // A Monte Carlo run as it goes on. Per particle, the limits count sweeps since it began.
-class MonteCarloStage final : public Dynamics {
+class MonteCarloRun final : public Dynamics {
  public:
-  MonteCarloStage(const Packing &p, const jam_monte_carlo_options &o);
-  MonteCarloStage(const Packing &p, Archive &from);
+  MonteCarloRun(const Packing &p, const jam_monte_carlo_options &o);
+  MonteCarloRun(const Packing &p, Archive &from);
 
   int32_t phase() const override { return JAM_PHASE_MONTE_CARLO; }
   jam_status run(const Limits &limits, const Listeners &listeners) override;
@@ -97,13 +98,13 @@ class MonteCarloStage final : public Dynamics {
 
  private:
   int32_t begin(Monitor &monitor);
-  bool tell(Monitor &monitor, double goal) const;
+  void report_step(Monitor &monitor, double goal) const;
   void take_displacement(Observer *observer);
   Packing p_;
   jam_monte_carlo_options options_;
   std::unique_ptr<MonteCarlo> engine_;  // made by the first run, which may be stopped meanwhile
   MonteCarloMeans means_;
-  std::vector<double> seen_;  // displacement that observers were given
+  std::vector<double> seen_;  // displacement that observers have
   int64_t done_ = 0;
   int32_t stop_reason_ = JAM_STOP_NONE;
   double seconds_ = 0.0, trials_ = 0.0;  // of the last call

@@ -11,6 +11,7 @@
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/with_dimension.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -19,9 +20,9 @@ template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run);
 
 double largest_monte_carlo_step(const Packing &p) {
-  // Along a cell vector a step in a cube of that half side goes no farther than 0.49 of it.
+  // Along a cell vector a step in a cube of that half side goes no farther than the share of it.
   const double far = p.cell.cube() ? 1.0 : std::sqrt(static_cast<double>(p.dim));
-  return 0.49 * p.cell.height_min() / far / diameter_mean(p);
+  return MonteCarloTuning::longest_step * p.cell.height_min() / far / diameter_mean(p);
 }
 
 std::unique_ptr<MonteCarlo> make_monte_carlo(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
@@ -68,18 +69,17 @@ void check_monte_carlo(const Packing &p, const jam_monte_carlo_options &o) {
 // ---- tuning
 
 double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
-  constexpr int coarse = 60, fine = 20, coarse_sweeps = 4, fine_sweeps = 12;  // 480 sweeps, 0.1 s at n = 1024
-  constexpr double smallest = 1e-12;
+  using Tuning = StepTuning;
   jam_monte_carlo_options o = given;
   check_monte_carlo(p, o);
   const double largest = largest_monte_carlo_step(p), length = diameter_mean(p) / p.cell.side();
-  double step = std::min(0.1, largest), mean_log = 0.0;
+  double step = std::min(Tuning::first, largest), mean_log = 0.0;
   o.step = step;
   const std::unique_ptr<MonteCarlo> mc = make_monte_carlo(p, o, -1);  // no run has this number
   int64_t number = 0;
-  for (int k = 0; k < coarse + fine; ++k) {
+  for (int k = 0; k < Tuning::coarse + Tuning::fine; ++k) {
     const MonteCarloCounts before = mc->counts;
-    for (int s = 0; s < (k < coarse ? coarse_sweeps : fine_sweeps); ++s) {
+    for (int s = 0; s < (k < Tuning::coarse ? Tuning::coarse_sweeps : Tuning::fine_sweeps); ++s) {
       CallScope::look();
       mc->sweep(number++);
     }
@@ -87,13 +87,15 @@ double tuned_step(const Packing &p, const jam_monte_carlo_options &given) {
     const double share =
         tried ? static_cast<double>(mc->counts.moved - before.moved) / static_cast<double>(tried) : 1.0;
     // Acceptance falls about exponentially with the step.
-    const double factor = math::log(std::max(share, 1e-3)) / math::log(o.acceptance);
-    step = std::min(largest,
-                    step * std::min(2.0, std::max(0.3, math::pow(std::max(factor, 1e-3), k < coarse ? -1.0 : -0.5))));
-    if (step < smallest)
-      fail(JAM_E_ARGUMENT, "no step above %g mean diameters is accepted: the spheres are in contact", smallest);
+    const double factor = math::log(std::max(share, Tuning::least_share)) / math::log(o.acceptance);
+    step =
+        std::min(largest, step * std::min(Tuning::most_growth,
+                                          std::max(Tuning::most_fall, math::pow(std::max(factor, Tuning::least_share),
+                                                                                k < Tuning::coarse ? -1.0 : -0.5))));
+    if (step < Tuning::smallest)
+      fail(JAM_E_ARGUMENT, "no step above %g mean diameters is accepted: the spheres are in contact", Tuning::smallest);
     mc->set_step(step * length);
-    if (k >= coarse) mean_log += math::log(step) / fine;
+    if (k >= Tuning::coarse) mean_log += math::log(step) / Tuning::fine;
   }
   return std::min(largest, math::exp(mean_log));
 }

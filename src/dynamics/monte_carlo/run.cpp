@@ -5,16 +5,17 @@
 #include "core/call_scope.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 #include "dynamics/observer.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
-MonteCarloStage::MonteCarloStage(const Packing &p, const jam_monte_carlo_options &o)
+MonteCarloRun::MonteCarloRun(const Packing &p, const jam_monte_carlo_options &o)
     : p_(p), options_(o), means_(p, o), seen_(p.position.size(), 0.0) {
   check_monte_carlo(p_, options_);
 }
 
 // Tunes the step if it is 0, and makes lists. A reason to stop: the next run begins anew.
-int32_t MonteCarloStage::begin(Monitor &monitor) {
+int32_t MonteCarloRun::begin(Monitor &monitor) {
   if (engine_) return JAM_STOP_NONE;
   jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
@@ -31,17 +32,17 @@ int32_t MonteCarloStage::begin(Monitor &monitor) {
     if (options_.alpha > 0.0) p_.overlap_allowed = true;  // soft spheres leave overlaps: calls for hard ones must look
     std::fill(p_.velocity.begin(), p_.velocity.end(), 0.0);
   } catch (const Cancelled &) {
-    return monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
+    return monitor.why_interrupted();
   }
   return JAM_STOP_NONE;
 }
 
-MonteCarloStage::MonteCarloStage(const Packing &p, Archive &from)
+MonteCarloRun::MonteCarloRun(const Packing &p, Archive &from)
     : p_(p), options_(default_monte_carlo_options()), means_(p, options_) {
   archive(from);
 }
 
-void MonteCarloStage::archive(Archive &a) {
+void MonteCarloRun::archive(Archive &a) {
   int64_t done = engine_ ? done_ : not_begun;
   a(options_);
   a(done);
@@ -60,22 +61,22 @@ void MonteCarloStage::archive(Archive &a) {
   if (engine_) engine_->archive(a);
 }
 
-Packing MonteCarloStage::current() const {
+Packing MonteCarloRun::current() const {
   Packing p = p_;
   if (!engine_) return p;
   engine_->write_state(p);
   return p;
 }
 
-bool MonteCarloStage::tell(Monitor &monitor, double goal) const {
+void MonteCarloRun::report_step(Monitor &monitor, double goal) const {
   jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
   q.fraction = static_cast<double>(done_) / goal;
   q.steps = done_;
-  return monitor.report(q);
+  monitor.report(q);
 }
 
-void MonteCarloStage::take_displacement(Observer *observer) {
+void MonteCarloRun::take_displacement(Observer *observer) {
   const std::vector<double> &moved = engine_->displacement();
   const size_t d = static_cast<size_t>(p_.dim);
   if (observer)
@@ -84,22 +85,22 @@ void MonteCarloStage::take_displacement(Observer *observer) {
   seen_ = moved;
 }
 
-jam_status MonteCarloStage::run(const Limits &limits, const Listeners &listeners) {
-  constexpr int64_t sample_every = 10;  // sweeps; a sample takes about the time of a sweep
-  const double started = now_seconds(), wall_end = started + limits.wall_time;
-  listeners.monitor->wall_time = limits.wall_time;
+jam_status MonteCarloRun::run(const Limits &limits, const Listeners &listeners) {
+  const double started = now_seconds();
+  listeners.monitor->limit_time(limits.wall_time);
   stop_reason_ = begin(*listeners.monitor);
   if (stop_reason_ != JAM_STOP_NONE) return stop_reason_ == JAM_STOP_CANCELLED ? JAM_CANCELLED : JAM_LIMIT;
   const int64_t goal = static_cast<int64_t>(std::min(limits.per_particle, 9e15)), before = done_;
   stop_reason_ = JAM_STOP_COLLISIONS;
   while (done_ < goal) {
     engine_->sweep(options_.first_sweep + done_++);
-    if (done_ % sample_every != 0) continue;
+    if (done_ % SampleTuning::sweeps != 0) continue;
     means_.sample(*engine_);
     if (done_ == goal) break;
-    if (tell(*listeners.monitor, static_cast<double>(goal))) stop_reason_ = JAM_STOP_CANCELLED;
-    if (now_seconds() > wall_end) stop_reason_ = JAM_STOP_WALL_TIME;
-    if (stop_reason_ != JAM_STOP_COLLISIONS) break;
+    report_step(*listeners.monitor, static_cast<double>(goal));
+    if (!listeners.monitor->interrupted()) continue;
+    stop_reason_ = listeners.monitor->why_interrupted();
+    break;
   }
   take_displacement(listeners.observer);
   engine_->write_state(p_);
@@ -110,7 +111,7 @@ jam_status MonteCarloStage::run(const Limits &limits, const Listeners &listeners
   return stop_reason_ == JAM_STOP_WALL_TIME ? JAM_LIMIT : JAM_OK;
 }
 
-jam_monte_carlo_report MonteCarloStage::report() const {
+jam_monte_carlo_report MonteCarloRun::report() const {
   jam_monte_carlo_report r{};
   r.struct_size = sizeof r;
   r.stop_reason = stop_reason_;

@@ -10,6 +10,7 @@
 #include "dynamics/monte_carlo/cells.hpp"
 #include "dynamics/monte_carlo/geometry.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 
@@ -37,10 +38,13 @@ class MonteCarloSpheres : public MonteCarlo {
 
   void set_step(double step) final {
     step_ = step;
-    // A trial from where the lists were made must stay within half the skin. Longer lists hold for longer; trials take
-    // least time near 8 steps, and shorter ones than 0.35 diameters (tests/bench/monte_carlo).
-    const double least = 2.02 * std::sqrt(static_cast<double>(D)) * step, room = geometry_.widest() - contact_max_;
-    const double best = std::min(longest_skin, std::max(0.03, skin_steps * step / contact_max_)) * contact_max_;
+    // A trial from where the lists were made must stay within half the skin.
+    using Tuning = MonteCarloTuning;
+    const double least = 2.0 * Tuning::half_skin_kept * std::sqrt(static_cast<double>(D)) * step,
+                 room = geometry_.widest() - contact_max_;
+    const double best =
+        std::min(Tuning::longest_skin, std::max(Tuning::shortest_skin, Tuning::skin_steps * step / contact_max_)) *
+        contact_max_;
     skin_ = std::max(least, std::min(best, room));
     if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed, for ever
     choose_cells();
@@ -87,9 +91,7 @@ class MonteCarloSpheres : public MonteCarlo {
 
  protected:
   using Place = std::array<uint64_t, D>;
-  static constexpr double skin_steps = 12.0, longest_skin = 0.7, everything = 1e9;
-  // Beyond it cells are faster, in contact distances (tests/bench/monte_carlo).
-  static constexpr double longest_step_of_lists = 0.1;
+  static constexpr double everything = 1e9;
 
   double contact(int32_t i, int32_t k) const {
     const double sum = radius_[i] + radius_[k];
@@ -106,8 +108,9 @@ class MonteCarloSpheres : public MonteCarlo {
     ++counts.lists;
     found_.clear();
     const auto cells = static_cast<int64_t>(geometry_.height() / list_range());
-    if (cells >= 4 && math::pow(3.0, D) < n_)
-      find_in_cells(std::min<int64_t>(cells, static_cast<int64_t>(math::pow(2.0 * n_, 1.0 / D)) + 1));
+    if (cells >= MonteCarloTuning::fewest_cells && math::pow(3.0, D) < n_)
+      find_in_cells(std::min<int64_t>(
+          cells, static_cast<int64_t>(math::pow(MonteCarloTuning::cells_per_sphere * n_, 1.0 / D)) + 1));
     else
       for (int32_t i = 0; i < n_; ++i) {
         look_at_limits(i);
@@ -166,9 +169,11 @@ class MonteCarloSpheres : public MonteCarlo {
   void choose_cells() {
     cells_.clear();
     const auto side = static_cast<int64_t>(geometry_.height() / contact_max_);
-    if (hard_ && step_ > longest_step_of_lists * contact_max_ && side >= 4 && math::pow(3.0, D) < n_)
-      cells_.build(
-          x_, static_cast<size_t>(std::min<int64_t>(side, static_cast<int64_t>(math::pow(2.0 * n_, 1.0 / D)) + 1)));
+    if (hard_ && step_ > MonteCarloTuning::longest_step_of_lists * contact_max_ &&
+        side >= MonteCarloTuning::fewest_cells && math::pow(3.0, D) < n_)
+      cells_.build(x_,
+                   static_cast<size_t>(std::min<int64_t>(
+                       side, static_cast<int64_t>(math::pow(MonteCarloTuning::cells_per_sphere * n_, 1.0 / D)) + 1)));
   }
   // Longest distance at which a pair is listed, of all pairs and of this one. With swaps any two spheres can get the
   // largest diameters.
@@ -179,7 +184,7 @@ class MonteCarloSpheres : public MonteCarlo {
     if (geometry_.nearest2(x_[i], x_[k]) < range * range) found_.push_back({i, k});
   }
   void look_at_limits(int64_t step) const {
-    if (step % 64 == 0) CallScope::look();
+    if (step % MonteCarloTuning::spheres_between_looks == 0) CallScope::look();
     // A pair found is two entries of the lists besides.
     CallScope::need_memory(static_cast<double>(found_.size()) * 4.0 * sizeof(int32_t), "neighbour lists");
   }

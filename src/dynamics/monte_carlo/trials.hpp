@@ -166,7 +166,7 @@ class MonteCarloOf final : public MonteCarloSpheres<D, Cube> {
 
 template <int D>
 std::unique_ptr<MonteCarlo> make_monte_carlo_of(const Packing &p, const jam_monte_carlo_options &o, int64_t run) {
-  const bool cube = p.cell.cube() && contact_distance_max(p) < monte_carlo_range * p.cell.side();
+  const bool cube = p.cell.cube() && contact_distance_max(p) < MonteCarloTuning::range * p.cell.side();
   if (o.alpha == 0.0) {
     if (cube) return std::make_unique<MonteCarloOf<D, false, true>>(p, o, run);
     return std::make_unique<MonteCarloOf<D, false, false>>(p, o, run);

@@ -3,14 +3,12 @@
 #include "core/with_dimension.hpp"
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/event_driven/kernel/simd.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam {
 namespace JAM_SIMD_NAMESPACE {
 
-// Below this (r^2 - sigma^2) / sigma^2 doubles lose too many digits of the gap and integers take over.
-constexpr double near_contact = 1e-3;
-// A gap below this is an overlap and not rounding.
-constexpr double overlap = -1e-14;
+constexpr double near_contact = CollisionTuning::near_contact, overlap = CollisionTuning::overlap;
 
 // Words of four bodies, lane by lane.
 template <int D>
@@ -47,7 +45,7 @@ struct Squares {
   JAM_SIMD_INLINE void subtract(const Squares &other) {
     for (int k = 0; k < 4; ++k) digit[k] -= other.digit[k];
   }
-  // Rounded as Engine::exact_gap rounds its 128-bit integer: both words apart.
+  // Rounded as EngineOf::exact_gap rounds its 128-bit integer: both words apart.
   JAM_SIMD_INLINE Double4 rounded() const {
     const Long4 one = digit[1] + (digit[0] >> 32), two = digit[2] + (one >> 32);
     const Unsigned4 low = ((Unsigned4)digit[0] & 0xffffffffu) | (Unsigned4)one << 32;
@@ -57,7 +55,7 @@ struct Squares {
 };
 
 // Four pairs.
-template <int D, bool Shift>
+template <int D, Offsets O>
 struct FourPairs {
   FourBodies<D> other;
   Long4 difference[D];
@@ -68,7 +66,7 @@ struct FourPairs {
     other.load_from(q.body, q.list + e, q.count - e);
     for (int c = 0; c < D; ++c) {
       Unsigned4 d = q.self->x[c] - other.x(c);  // wraps to the nearest image
-      if (Shift) d += load<Unsigned4>(q.offset + static_cast<size_t>(c) * q.stride + e);
+      if (O == Offsets::listed) d += load<Unsigned4>(q.offset + static_cast<size_t>(c) * q.stride + e);
       difference[c] = (Long4)d;
     }
     dt = q.now - other.time();
@@ -115,14 +113,14 @@ struct FourPairs {
   }
 };
 
-template <int D, bool Shift>
+template <int D, Offsets O>
 JAM_SIMD_TARGET uint64_t earliest_collision(const PairBatch<D> &q, Earliest &earliest) {
   alignas(32) double when[PairKernel<D>::batch];
   const Double4 none = Double4{} + __builtin_inf();
   uint64_t left_out = 0;
   Double4 least = none;
   for (int32_t e = 0; e < q.count; e += 4) {
-    FourPairs<D, Shift> pairs;
+    FourPairs<D, O> pairs;
     pairs.load_from(q, e);
     unsigned skip = 0;
     Double4 t = pairs.times(q, skip);
@@ -162,7 +160,8 @@ JAM_SIMD_TARGET uint64_t earliest_collision(const PairBatch<D> &q, Earliest &ear
 
 template <int D>
 JAM_SIMD_TARGET uint64_t collisions(const PairBatch<D> &q, Earliest &earliest) {
-  return q.offset ? earliest_collision<D, true>(q, earliest) : earliest_collision<D, false>(q, earliest);
+  return q.offset ? earliest_collision<D, Offsets::listed>(q, earliest)
+                  : earliest_collision<D, Offsets::wrapped>(q, earliest);
 }
 
 template <int D>

@@ -27,6 +27,11 @@ struct alignas(32) Block {
   static constexpr int32_t link_to(int32_t block) { return -2 - block; }  // its own inverse
 };
 
+// How the difference of two places becomes that of the images that meet: `wrapped`, integers wrap to the nearest image
+// by themselves; `listed`, each entry of a list carries an offset to be added, an image or, in the Mari-Kurchan model,
+// the quenched shift of the pair.
+enum class Offsets { wrapped, listed };
+
 // Pairs of sphere `self`, which stands at `now`, with those of `list`.
 template <int D>
 struct PairBatch {

@@ -17,7 +17,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses the border of a file
 
 #if !defined(JAM_SIMD_256)
-#include "dynamics/simd_halves.hpp"
+#include "dynamics/event_driven/kernel/simd_halves.hpp"
 #endif
 
 namespace jam {

@@ -1,0 +1,231 @@
+// The engine: making all lists anew, or that of one sphere.
+#pragma once
+#include <algorithm>
+
+#include "core/call_scope.hpp"
+#include "core/math.hpp"
+#include "dynamics/event_driven/engine_of.hpp"
+
+namespace jam {
+
+// Growth uses up the margin. Lists reach 1 + margin + 2 shells. Without images the difference of two places must stay
+// below half the box, or it wraps to another image than that of the list: both spheres may stand at the far ends of
+// their safe spheres, two shells further. With images lists reach as far as the integers hold.
+template <int D, Offsets O>
+void EngineOf<D, O>::choose_margin(double sigma) {
+  using Tuning = ListTuning;
+  double &margin = lists_.margin, &shell = lists_.shell;
+  margin = Tuning::without_growth;
+  if (clock_.rate > 0.0) {
+    const double wanted = pace_.collision_time > 0.0 ? Tuning::collisions * clock_.rate * pace_.collision_time
+                                                     : Tuning::first_margin * shell;
+    margin = std::min(std::max(wanted, Tuning::smallest_margin),
+                      std::max(Tuning::smallest_margin, Tuning::most_margin * shell));
+  }
+  const double widest = listed ? (lattice_.cube() ? Tuning::reach_cube : Tuning::reach_cell) : Tuning::reach_wrapped;
+  const double space = widest / sigma - 1.0, shells = listed ? 2.0 : 4.0;
+  margin = std::min(margin, space - shells * Tuning::smallest_shell);
+  if (clock_.rate > 0.0) clock_.lists_end = margin * Tuning::used_up / clock_.rate;
+  pace_.widest_shell =
+      std::max(Tuning::smallest_shell, std::min(Tuning::widest_shell, Tuning::used_up * (space - margin) / shells));
+  shell = std::min(std::max(shell, Tuning::smallest_shell), pace_.widest_shell);
+}
+
+// Safe spheres and lists are around the places of now.
+template <int D, Offsets O>
+void EngineOf<D, O>::place_centres(double largest) {
+  const double mean = spheres_.mean_radius(), shell = lists_.shell;
+  lists_.rho_max = 0.0;
+  for (int32_t i = 0; i < spheres_.n; ++i) {
+    Body<D> &b = spheres_.body[i];
+    if (observer_) note_path(i);
+    if constexpr (listed) lattice_.wrap(b.x);
+    for (int c = 0; c < D; ++c) lists_.centre[i][c] = b.x[c];
+    const double radius = static_cast<double>(b.radius);
+    // Small spheres among large ones are as quick, so their shells are wider in proportion.
+    double &safe = lists_.safe[i], &rho = lists_.rho[i];
+    safe = 2.0 * shell * std::sqrt(radius * std::min(mean, largest));
+    safe = std::min(safe, 2.0 * shell * largest);
+    rho = (radius * spheres_.reach_factor * (1.0 + lists_.margin) + safe) * (1.0 + 1e-12);
+    lists_.rho_max = std::max(lists_.rho_max, rho);
+  }
+}
+
+template <int D, Offsets O>
+bool EngineOf<D, O>::choose_cell_mode(double sigma) {
+  if constexpr (listed) {
+    (void)sigma;
+    return false;
+  } else {
+    if (!cell_mode_.choose(spheres_.n, sigma, options_.cells, lists_.margin, grid_)) return false;
+    if (clock_.rate > 0.0) clock_.lists_end = lists_.margin * ListTuning::used_up / clock_.rate;
+    grid_.make_scratch();
+    cell_mode_.build(lists_.centre, grid_, lattice_);
+    return true;
+  }
+}
+
+template <int D, Offsets O>
+void EngineOf<D, O>::choose_grid() {
+  if constexpr (listed)
+    if (lattice_.cube() || mari_kurchan_) {
+      grid_.forbid();
+      pace_.search_cost = spheres_.n * (mari_kurchan_ ? ListTuning::look_in_vectors : ListTuning::look);
+      return;
+    }
+  pace_.search_cost = grid_.choose(spheres_.n, 2.0 * lists_.rho_max * unit, lattice_);
+}
+
+template <int D, Offsets O>
+void EngineOf<D, O>::build_lists() {
+  const double largest = spheres_.largest_radius();
+  const double sigma = 2.0 * largest * unit * spheres_.reach_factor;  // largest contact distance
+  if (!listed && !Lists<D, O>::fit_wrapped(sigma)) {
+    wants_images_ = true;
+    return;
+  }
+  choose_margin(sigma);
+  place_centres(largest);
+  if (choose_cell_mode(sigma)) {
+    lists_.clear();
+    return rebuild_done();
+  }
+  if (mari_kurchan_)
+    for (int32_t i = 0; i < spheres_.n; ++i) note_centre(i);
+  choose_grid();
+  if (grid_.used()) {
+    grid_.make_scratch();
+    list_cells_.clear(grid_.total());
+    for (int32_t i = 0; i < spheres_.n; ++i) list_cells_.put(i, cell_of(i), lists_.centre);
+  }
+  lists_.clear();
+  for (int32_t i = 0; i < spheres_.n; ++i) {
+    if (i % ListTuning::spheres_between_looks == 0) CallScope::look();
+    candidates(i, [&](int32_t k, const Offset *offset) {
+      if (k > i) lists_.append(i, k, offset);
+    });
+  }
+  rebuild_done();
+}
+
+template <int D, Offsets O>
+void EngineOf<D, O>::rebuild_done() {
+  max_overlap = std::max(max_overlap, worst_overlap());
+  check_pairs();
+}
+
+// f(k, offset) for every image of k within the reach of the list of i, between centres; the offset makes x_i - x_k that
+// image.
+template <int D, Offsets O>
+template <class F>
+void EngineOf<D, O>::each_image(int32_t i, int32_t k, const Offset &shift, F &&f) const {
+  Offset distance = lists_.between_centres(i, k);
+  for (int c = 0; c < D; ++c) distance[c] = wrapping_sum(distance[c], shift[c]);
+  lattice_.images(distance, lists_.rho[i] + lists_.rho[k], [&](const Offset &image) {
+    Offset offset;
+    for (int c = 0; c < D; ++c) offset[c] = wrapping_sum(shift[c], image[c]);
+    f(k, &offset);
+  });
+}
+
+// Floats and the upper 32 bits of coordinates decide in a search of cells: the factor covers the rounding of the
+// floats, the sum the bits cut off.
+template <int D, Offsets O>
+float EngineOf<D, O>::search_reach(int32_t i) const {
+  return static_cast<float>((lists_.rho[i] + lists_.rho_max) * 0x1p-32 * (1.0 + CellTuning::rounding) +
+                            CellTuning::cut_off_bits);
+}
+
+// f(k, offset) for every sphere k (and image) that the cells around i give and that belongs into its list.
+template <int D, Offsets O>
+template <class F>
+void EngineOf<D, O>::search(int32_t i, F &&f) const {
+  const Place &centre = lists_.centre[i];
+  const float reach = search_reach(i);
+  // The first `cells` of grid_.around, which stand at the image `now`.
+  const auto search_cells = [&](size_t cells, const Offset &now) {
+    int32_t x[D];
+    for (int c = 0; c < D; ++c) x[c] = static_cast<int32_t>((centre[c] - static_cast<uint64_t>(now[c])) >> 32);
+    const int32_t found = kernel_.search(list_cells_.block.data(), grid_.around.data(), cells, x, reach, found_.data());
+    for (int32_t e = 0; e < found; ++e) {
+      const int32_t k = found_[e];
+      if (k == i) continue;
+      const double cutoff = lists_.rho[i] + lists_.rho[k];
+      const Offset between = lists_.between_centres(i, k);
+      Offset offset;
+      double r2 = 0.0;
+      for (int c = 0; c < D; ++c) {
+        offset[c] = -now[c];
+        const auto r = static_cast<double>(wrapping_sum(between[c], offset[c]));
+        r2 += r * r;
+      }
+      if (r2 < cutoff * cutoff) f(k, &offset);
+    }
+  };
+  const auto home = grid_.home(centre, lattice_);
+  if constexpr (!listed) {
+    search_cells(grid_.cells_around(home, lattice_), Offset{});
+  } else {
+    size_t cells = 0;
+    Offset now{};
+    grid_.each_around(home, lattice_, [&](size_t cell, const Offset &image) {
+      if (cells > 0 && image != now) {
+        search_cells(cells, now);
+        cells = 0;
+      }
+      now = image;
+      grid_.around[cells++] = cell;
+    });
+    if (cells > 0) search_cells(cells, now);
+  }
+}
+
+// f(k, offset) for every k (and image) that belongs into the list of i.
+template <int D, Offsets O>
+template <class F>
+void EngineOf<D, O>::candidates(int32_t i, F &&f) const {
+  if (grid_.used()) return search(i, f);
+  if constexpr (listed)
+    if (mari_kurchan_) {
+      mari_kurchan_->each_partner(spheres_.user[i], kernel_, found_.data(),
+                                  [&](int32_t k, const Offset &shift) { each_image(i, k, shift, f); });
+      return;
+    }
+  for (int32_t k = 0; k < spheres_.n; ++k) {
+    if (k == i) continue;
+    if constexpr (listed) {
+      each_image(i, k, Offset{}, f);
+    } else {
+      const double cutoff = lists_.rho[i] + lists_.rho[k];
+      double r2 = 0.0;
+      for (const int64_t x : lists_.between_centres(i, k)) {
+        const double r = static_cast<double>(x);
+        r2 += r * r;
+      }
+      if (r2 < cutoff * cutoff) f(k, nullptr);
+    }
+  }
+}
+
+// Sphere i, which stands at the present, gets a new safe sphere and list.
+template <int D, Offsets O>
+void EngineOf<D, O>::recentre(int32_t i) {
+  Body<D> &b = spheres_.body[i];
+  if constexpr (!listed)
+    if (cell_mode_.on) {
+      cell_mode_.cross(i, b, grid_, scale);
+      if (observer_) note_path(i);
+      for (int c = 0; c < D; ++c) lists_.centre[i][c] = b.x[c];
+      return;
+    }
+  lists_.forget(i);
+  if (observer_) note_path(i);
+  if (grid_.used()) list_cells_.drop(i, cell_of(i));
+  if constexpr (listed) lattice_.wrap(b.x);
+  for (int c = 0; c < D; ++c) lists_.centre[i][c] = b.x[c];
+  if (grid_.used()) list_cells_.put(i, cell_of(i), lists_.centre);
+  if (mari_kurchan_) note_centre(i);
+  candidates(i, [&](int32_t k, const Offset *offset) { lists_.append(i, k, offset); });
+}
+
+}  // namespace jam

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include "analysis/spectrum.hpp"
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/rng.hpp"
@@ -67,7 +68,7 @@ struct Interval {
 
 // mu_m = <v| T_m(x) |v>, m < moments, by two moments a product: T_{2m} = 2 T_m T_m - 1, T_{2m+1} = 2 T_{m+1} T_m - T_1.
 void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std::vector<double> &mu,
-                const std::function<void()> &cancel_point) {
+                const std::function<void()> &report_step) {
   const size_t n = v.size();
   const double scale = 2.0 / (span.high - span.low), shift = (span.high + span.low) / (span.high - span.low);
   auto apply = [&](const std::vector<double> &x, std::vector<double> &y) {
@@ -79,7 +80,7 @@ void moments_of(const BlockMatrix &h, Interval span, std::vector<double> v, std:
   mu[0] = dot(v, v);
   if (mu.size() > 1) mu[1] = dot(v, now);
   for (size_t m = 1; 2 * m < mu.size(); ++m) {
-    cancel_point();
+    report_step();
     mu[2 * m] = 2.0 * dot(now, now) - mu[0];
     apply(now, next);
     for (size_t k = 0; k < n; ++k) next[k] = 2.0 * next[k] - before[k];
@@ -155,8 +156,7 @@ struct Average {
 
 }  // namespace
 
-DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o,
-                                  const CancellationPoint &cancel_point) {
+DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o) {
   if (o.moments < 8 || o.moments > 1000000) fail(JAM_E_ARGUMENT, "moments is %d, it must be in 8..1e6", o.moments);
   if (o.vectors < 2 || o.vectors > 100000) fail(JAM_E_ARGUMENT, "vectors is %d, it must be in 2..1e5", o.vectors);
   if (o.points < 1 || o.points > 10000000) fail(JAM_E_ARGUMENT, "points is %d, it must be in 1..1e7", o.points);
@@ -175,7 +175,7 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
     Rng rng(o.seed, Stream::analysis_start, static_cast<uint64_t>(r) << 32);
     for (double &x : v) x = rng.bits() & 1 ? 1.0 : -1.0;
     remove_translation(g.dim, g.nodes, v.data());
-    moments_of(h, span, v, mu, [&] { cancel_point(r, static_cast<double>(r) / o.vectors); });
+    moments_of(h, span, v, mu, [&] { CallScope::report_share(r, static_cast<double>(r) / o.vectors); });
     // Each vector over its own length: the integral is 1 for every one of them.
     for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];
     for (size_t k = 0; k < points; ++k) {

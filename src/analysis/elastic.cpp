@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 #include "analysis/spectrum.hpp"
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 
 namespace jam {
@@ -57,8 +58,7 @@ struct Network {
 }  // namespace
 
 // The relaxed tensor is the form of what is left of two strains, not a difference of two energies: no digits cancel.
-ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                             const CancellationPoint &cancel_point) {
+ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w) {
   const size_t d = static_cast<size_t>(p.dim), gradients = d * d;
   const double volume = p.cell.volume();
   const GroundedSolver solver(g, w);
@@ -68,7 +68,7 @@ ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const Co
   const Network network{g, w, solver};
   std::vector<std::vector<double>> strained, left;
   for (size_t e = 0; e < gradients; ++e) {
-    cancel_point();
+    CallScope::report_share();
     std::vector<double> du(g.contacts() * d, 0.0);
     for (size_t k = 0; k < g.contacts(); ++k) du[k * d + e / d] = g.distance[k] * g.normal[k * d + e % d];
     left.push_back(network.relaxed(du));
@@ -87,12 +87,11 @@ ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const Co
 
 // With pre-stress the strain measure matters. Shear: simple shear x_a += gamma x_b, both ways round. Bulk:
 // K = V d^2 E / dV^2 = (E'' - (d - 1) E') / (d^2 V) for a stretch of all lengths, E' = -sum (force times length).
-jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                                 const CancellationPoint &cancel_point) {
+jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w) {
   jam_moduli_report m{};
   const size_t d = static_cast<size_t>(p.dim);
   const double dim = p.dim, directions = dim * (dim - 1.0);
-  const ElasticTensor tensor = elastic_tensor(p, g, w, cancel_point);
+  const ElasticTensor tensor = elastic_tensor(p, g, w);
   const auto at = [&](const std::vector<double> &c, size_t ab, size_t cd) { return c[ab * d * d + cd]; };
   for (size_t k = 0; k < g.contacts() && !w.transverse.empty(); ++k)
     m.bulk += w.transverse[k] * g.distance[k] * g.distance[k] * (dim - 1.0) / (dim * dim * p.cell.volume());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include "analysis/structure.hpp"
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/blas.hpp"
@@ -14,10 +15,9 @@ void FloppyModes::resize(size_t m) {
   for (auto *x : {&median, &weight, &s_plus, &s_star, &stability, &s_return}) x->resize(m);
 }
 
-FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
-                           const CancellationPoint &cancel_point)
-    : g_(g), space_(g, cancel_point) {
-  const StressStates s = find_stress(g, space_, false, cancel_point);
+FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g)
+    : g_(g), space_(g) {
+  const StressStates s = find_stress(g, space_, false);
   if (s.dimension != 1 || s.zero_modes != g.dim)
     fail(JAM_E_STATE,
          "opening one contact needs exactly one state of self-stress and %d zero modes; there are %lld and %lld", g.dim,
@@ -97,16 +97,15 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
   out.s_return[l] = 2.0 * out.s_star[l];  // d(s) = f s - B s^2 / 2 is a parabola
 }
 
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
-                             const CancellationPoint &cancel_point) {
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g) {
   const BlasSingleThread single;
-  const FloppySolver solver(p, network, g, cancel_point);
+  const FloppySolver solver(p, network, g);
   const size_t m = g.contacts(), n = g.unknowns(), block = 64;
   FloppyModes out;
   out.resize(m);
   std::vector<double> dr;
   for (size_t first = 0; first < m; first += block) {
-    cancel_point(static_cast<int64_t>(first), static_cast<double>(first) / static_cast<double>(m));
+    CallScope::report_share(static_cast<int64_t>(first), static_cast<double>(first) / static_cast<double>(m));
     const int count = static_cast<int>(std::min(block, m - first));
     solver.fields(first, count, dr);
     for (int q = 0; q < count; ++q) solver.measure(first + q, &dr[q * n], out);

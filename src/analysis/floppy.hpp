@@ -21,8 +21,7 @@ struct FloppyModes {
 class FloppySolver {
  public:
   // JAM_E_STATE unless there is exactly one state of self-stress and translations are the only zero modes.
-  FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
-               const CancellationPoint &cancel_point = CancellationPoint());
+  FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g);
   // dr (count, nodes, dim) of contacts first .. first + count - 1.
   void fields(size_t first, int count, std::vector<double> &dr) const;
   double inflation(size_t contact) const { return -force_[contact] / force_sigma_; }
@@ -41,7 +40,6 @@ class FloppySolver {
 };
 
 // All contacts, in blocks.
-FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g,
-                             const CancellationPoint &cancel_point = CancellationPoint());
+FloppyModes all_floppy_modes(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g);
 
 }  // namespace jam

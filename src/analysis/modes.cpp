@@ -9,7 +9,7 @@
 #include <Spectra/SymEigsSolver.h>
 #include <Eigen/SparseCholesky>
 
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "core/checks.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -51,12 +51,12 @@ namespace {
 class Operator {
  public:
   using Scalar = double;
-  Operator(const RigidityMatrix &g, std::function<void(const double *, double *)> apply, Monitor &monitor)
-      : g_(g), apply_(std::move(apply)), cancel_point_(monitor), work_(g.unknowns()) {}
+  Operator(const RigidityMatrix &g, std::function<void(const double *, double *)> apply)
+      : g_(g), apply_(std::move(apply)), work_(g.unknowns()) {}
   Eigen::Index rows() const { return static_cast<Eigen::Index>(g_.unknowns()); }
   Eigen::Index cols() const { return rows(); }
   void perform_op(const double *x, double *y) const {
-    cancel_point_(++count_);
+    CallScope::report_share(++count_);
     std::copy(x, x + g_.unknowns(), work_.begin());
     project(work_.data());
     apply_(work_.data(), y);
@@ -76,7 +76,6 @@ class Operator {
   }
   const RigidityMatrix &g_;
   std::function<void(const double *, double *)> apply_;
-  CancellationPoint cancel_point_;
   mutable std::vector<double> work_;
   mutable int64_t count_ = 0;
 };
@@ -230,12 +229,12 @@ void select(const RigidityMatrix &g, const jam_modes_options &o, Modes &m) {
 }
 
 jam_status few_modes(const RigidityMatrix &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o,
-                     Monitor &monitor, Modes &out) {
+                     Modes &out) {
   const size_t n = g.unknowns();
   std::vector<double> theta;
   bool complete = false;
   auto run = [&](std::function<void(const double *, double *)> apply, Spectra::SortRule rule) {
-    Operator op(g, std::move(apply), monitor);
+    Operator op(g, std::move(apply));
     complete = search(op, o.count, rule, o.tolerance, theta);
     harvest(g, w, op, theta, rule == Spectra::SortRule::LargestMagn, o.count, out);
   };
@@ -287,8 +286,9 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
     if (status == JAM_CANCELLED) out = Modes();
     if (status == JAM_OK && o.which != JAM_MODES_ALL) select(g, o, out);
   } else {
+    const LeavingScope scope(CallScope::memory_limit(), &monitor);
     try {
-      status = few_modes(g, w, h, o, monitor, out);
+      status = few_modes(g, w, h, o, out);
     } catch (const Cancelled &) {
       out = Modes();
       status = JAM_CANCELLED;

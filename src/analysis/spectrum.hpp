@@ -13,18 +13,15 @@ struct DensityOfStates {
   double step = 0.0;                                 // width of a bin
 };
 // Kernel polynomial method (Weisse et al., Rev. Mod. Phys. 78, 275 (2006)).
-DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o,
-                                  const CancellationPoint &cancel_point = CancellationPoint());
+DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o);
 
 // Second derivatives of the energy a volume by the gradients E_ab and E_cd of x -> (1 + E) x, tables (d, d, d, d):
 // spheres moved by it alone, and relaxed. JAM_E_STATE when pre-stress makes the network unstable.
 struct ElasticTensor {
   std::vector<double> affine, relaxed;
 };
-ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                             const CancellationPoint &cancel_point = CancellationPoint());
+ElasticTensor elastic_tensor(const Packing &p, const RigidityMatrix &g, const ContactWeights &w);
 // Moduli from that tensor.
-jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w,
-                                 const CancellationPoint &cancel_point = CancellationPoint());
+jam_moduli_report elastic_moduli(const Packing &p, const RigidityMatrix &g, const ContactWeights &w);
 
 }  // namespace jam

@@ -1,7 +1,7 @@
 // Structure of a packing: gaps, classes of contacts, vectors of a sphere's contacts, correlations, bond order.
 #pragma once
 #include <vector>
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
@@ -48,9 +48,7 @@ struct StructureFactor {
   std::vector<double> q, s;  // one value for each length of a wave vector of the cell, ascending
 };
 // lengths_only: q is right, s is not.
-StructureFactor structure_factor(const Packing &p, double q_max,
-                                 const CancellationPoint &cancel_point = CancellationPoint(),
-                                 bool lengths_only = false);
+StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_only = false);
 
 // Q_l of every sphere from all neighbours with |r| < cutoff sigma_ij.
 std::vector<double> bond_order(const Packing &p, int l, double cutoff);

@@ -86,13 +86,12 @@ std::vector<double> phases_of(const Packing &p) {
 
 class Sum {
  public:
-  Sum(const Packing &p, double reach, double vectors, const CancellationPoint &cancel_point, bool lengths_only)
+  Sum(const Packing &p, double reach, double vectors, bool lengths_only)
       : lattice_(p.cell),
         n_(lengths_only ? 0 : p.n()),
         spheres_(static_cast<double>(p.n())),
         reach2_(reach * reach),
         vectors_(vectors),
-        cancel_point_(cancel_point),
         re_(p.dim + 1, std::vector<double>(n_, 1.0)),
         im_(p.dim + 1, std::vector<double>(n_, 0.0)) {
     const int d = p.dim;
@@ -141,7 +140,7 @@ class Sum {
     }
   }
   void add(double q2) {
-    cancel_point_(done_, static_cast<double>(done_) / vectors_);
+    CallScope::report_share(done_, static_cast<double>(done_) / vectors_);
     ++done_;
     double x = 0.0, y = 0.0;
     for (size_t i = 0; i < n_; ++i) x += re_[lattice_.dim][i], y += im_[lattice_.dim][i];
@@ -151,7 +150,6 @@ class Sum {
   const Reciprocal lattice_;
   const size_t n_;
   const double spheres_, reach2_, vectors_;
-  const CancellationPoint &cancel_point_;
   std::vector<int> most_;
   std::vector<std::vector<double>> co_, si_, re_, im_;
   Cell::Vector coefficient_{};
@@ -161,8 +159,7 @@ class Sum {
 
 }  // namespace
 
-StructureFactor structure_factor(const Packing &p, double q_max, const CancellationPoint &cancel_point,
-                                 bool lengths_only) {
+StructureFactor structure_factor(const Packing &p, double q_max, bool lengths_only) {
   const double unit = diameter_mean(p), step = 2.0 * M_PI / p.cell.side();
   if (!(q_max > 0.0 && std::isfinite(q_max)))
     fail(JAM_E_ARGUMENT, "q_max is %g per mean diameter, it must be finite and > 0", q_max);
@@ -170,7 +167,7 @@ StructureFactor structure_factor(const Packing &p, double q_max, const Cancellat
   const double vectors = 0.5 * unit_sphere_volume(p.dim) * math::pow(2.0 * reach, p.dim);
   if (vectors * static_cast<double>(p.n()) > 2e10)
     fail(JAM_E_ARGUMENT, "q_max = %g means %.3g wave vectors for %zu spheres: too much work", q_max, vectors, p.n());
-  Sum sum(p, reach, vectors, cancel_point, lengths_only);
+  Sum sum(p, reach, vectors, lengths_only);
   return sum.run(step, unit);
 }
 

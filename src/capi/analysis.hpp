@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 #include "capi/guard.hpp"
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "network/hessian.hpp"
 #include "network/rigidity_matrix.hpp"
 
@@ -19,7 +19,7 @@ jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
   return guard_verb(sys, [&]() -> Answer {
     const LeavingScope scope;
     try {
-      return f(CancellationPoint(sys->monitor));
+      return f();
     } catch (const Cancelled &) {
       return {JAM_CANCELLED, "jam_cancel or a callback stopped the call; it has changed and written nothing"};
     }

@@ -8,7 +8,7 @@ using namespace jam;
 extern "C" {
 
 jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t out_len, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     if (contact < 0 || static_cast<size_t>(contact) >= g.contacts())
@@ -16,20 +16,20 @@ jam_status jam_floppy_mode(jam_system *sys, int64_t contact, double *out, size_t
            g.contacts() ? g.contacts() - 1 : 0);
     std::vector<double> dr(g.unknowns());
     if (out && out_len >= dr.size())
-      FloppySolver(sys->packing, sys->contacts, g, cancel_point).fields(static_cast<size_t>(contact), 1, dr);
+      FloppySolver(sys->packing, sys->contacts, g).fields(static_cast<size_t>(contact), 1, dr);
     return give_array(dr.data(), dr.size(), out, out_len, needed);
   });
 }
 
 jam_status jam_floppy_modes(jam_system *sys, double *table, size_t table_len, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     constexpr size_t columns = JAM_FLOPPY_S_RETURN + 1;
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const bool wanted = table_wanted(g.contacts(), columns, table, table_len, needed);
     if (g.contacts() == 0) return JAM_NOT_JAMMED;
     if (!wanted) return JAM_OK;
-    const FloppyModes f = all_floppy_modes(sys->packing, sys->contacts, g, cancel_point);
+    const FloppyModes f = all_floppy_modes(sys->packing, sys->contacts, g);
     put_column(f.median, JAM_FLOPPY_MEDIAN, columns, table);
     put_column(f.weight, JAM_FLOPPY_WEIGHT, columns, table);
     put_column(f.s_plus, JAM_FLOPPY_S_PLUS, columns, table);

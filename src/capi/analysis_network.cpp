@@ -51,11 +51,11 @@ jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) {
 }
 
 jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
+  return guard_cancellable(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     jam_geometry_options full = default_geometry_options();
     take_options(o, full);
-    GeometryResult result = contacts_from_geometry(sys->packing, full, cancel_point);
+    GeometryResult result = contacts_from_geometry(sys->packing, full);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     jam_crunch_report r{};
     certify(sys->packing, result.network, r);
@@ -89,13 +89,13 @@ jam_status jam_contact_candidates(const jam_system *sys, double window, double *
 
 jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
                              double *residual, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
+  return guard_cancellable(sys, [&]() -> Answer {
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     check_output(force, force_len, g.contacts(), "force");
     if (!basis && basis_len != 0) fail(JAM_E_NULL, "basis is NULL but its length is %zu", basis_len);
     if (!needed && !force && !basis && !residual) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    const StressStates s = find_stress(g, basis != nullptr, cancel_point);
+    const StressStates s = find_stress(g, basis != nullptr);
     if (needed) *needed = static_cast<size_t>(s.dimension);
     check_output(basis, basis_len, s.basis.size(), "basis");
     put_output(s.force, force, s.force.size());

@@ -4,6 +4,7 @@
 #include "analysis/spectrum.hpp"
 #include "capi/analysis.hpp"
 #include "capi/table.hpp"
+#include "core/call_scope.hpp"
 
 using namespace jam;
 
@@ -15,7 +16,7 @@ jam_status jam_dos_options_init(jam_dos_options *o, size_t size) {
 
 jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, const jam_dos_options *o, double *table,
                                  size_t table_len, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     constexpr size_t columns = JAM_DOS_CUMULATIVE_ERROR + 1;
     const jam_hessian_options options = take_hessian_options(h);
     jam_dos_options full = default_dos_options();
@@ -25,8 +26,7 @@ jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, 
     const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
     if (!table_wanted(points, columns, table, table_len, needed)) return JAM_OK;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    const DensityOfStates dos =
-        density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full, cancel_point);
+    const DensityOfStates dos = density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full);
     std::vector<double> edge = dos.omega;
     for (double &x : edge) x += 0.5 * dos.step;
     put_column(dos.omega, JAM_DOS_OMEGA, columns, table);
@@ -73,22 +73,21 @@ jam_status jam_project(const jam_system *sys, const double *vector, size_t vecto
 }
 
 jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_report *moduli) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need(moduli, "moduli");
     check_out_struct(moduli, "moduli");
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), cancel_point),
-                moduli);
+    give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options)), moduli);
     return JAM_OK;
   });
 }
 
 jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, double *affine, size_t affine_len,
                               double *relaxed, size_t relaxed_len, size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     const jam_hessian_options options = take_hessian_options(h);
     need_network(sys);
     const size_t d = static_cast<size_t>(sys->packing.dim), count = d * d * d * d;
@@ -99,8 +98,7 @@ jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, dou
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     if (!affine && !relaxed) return JAM_OK;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    const ElasticTensor c =
-        elastic_tensor(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options), cancel_point);
+    const ElasticTensor c = elastic_tensor(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options));
     put_output(c.affine, affine, count);
     put_output(c.relaxed, relaxed, count);
     return JAM_OK;

@@ -95,9 +95,9 @@ jam_status jam_pair_correlation(const jam_system *sys, const int32_t *kind, size
 
 jam_status jam_structure_factor(jam_system *sys, double q_max, double *q, size_t q_len, double *s, size_t s_len,
                                 size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     if (!needed && !q && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    const StructureFactor f = structure_factor(sys->packing, q_max, cancel_point, !q && !s);
+    const StructureFactor f = structure_factor(sys->packing, q_max, !q && !s);
     if (needed) *needed = f.q.size();
     check_output(q, q_len, f.q.size(), "q");
     check_output(s, s_len, f.s.size(), "s");

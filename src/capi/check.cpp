@@ -59,14 +59,14 @@ jam_status jam_check_options_init(jam_check_options *o, size_t size) {
 }
 
 jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
+  return guard_cancellable(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     jam_check_options full = default_check_options();
     take_options(o, full);
     check_flag(full.crunch, "crunch");
     check_flag(full.prove, "prove");
     if (!(full.wall_time > 0.0)) fail(JAM_E_ARGUMENT, "wall_time is %g, it must be > 0", full.wall_time);
-    CheckResult result = check_as_it_is(sys->packing, cancel_point);
+    CheckResult result = check_as_it_is(sys->packing);
     jam_check_report &r = result.report;
     r.struct_size = sizeof r;
     without_proof(r);

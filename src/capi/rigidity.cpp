@@ -35,8 +35,8 @@ Answer answer_of(const jam_rigidity_report &r) {
                    kind, n(r.undecided_contacts), r.rigidity_margin)};
 }
 
-PackingVerdict test(const jam_system *sys, Jamming kind, const CancellationPoint &cancel_point) {
-  return test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind, cancel_point);
+PackingVerdict test(const jam_system *sys, Jamming kind) {
+  return test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind);
 }
 
 }  // namespace
@@ -44,10 +44,10 @@ PackingVerdict test(const jam_system *sys, Jamming kind, const CancellationPoint
 extern "C" {
 
 jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> Answer {
+  return guard_cancellable(sys, [&]() -> Answer {
     check_out_struct(report, "report");
     const Jamming jamming = take_kind(kind);
-    const PackingVerdict v = test(sys, jamming, cancel_point);
+    const PackingVerdict v = test(sys, jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);
     jam_rigidity_report r{};
     r.kind = kind;
@@ -70,7 +70,7 @@ jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *repo
 
 jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain, size_t strain_len,
                     size_t *needed) {
-  return guard_cancellable(sys, [&](const CancellationPoint &cancel_point) -> jam_status {
+  return guard_cancellable(sys, [&]() -> jam_status {
     const Jamming jamming = take_kind(kind);
     const size_t d = static_cast<size_t>(sys->packing.dim), size = sys->packing.position.size();
     if (!needed && !out && !strain) fail(JAM_E_NULL, "needed is NULL and there is no output array");
@@ -78,7 +78,7 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
     check_output(strain, strain_len, d * d, "strain");
     if (needed) *needed = size;
     if (!out && !strain) return JAM_OK;
-    const PackingVerdict v = test(sys, jamming, cancel_point);
+    const PackingVerdict v = test(sys, jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
       fail(JAM_E_STATE, v.result.jammed == Verdict::yes ? "the packing is jammed: it has no flex"
                                                         : "no flex was found; the verdict is undecided");

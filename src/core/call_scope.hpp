@@ -5,8 +5,8 @@
 
 #include <mutex>
 
-#include "core/cancellation.hpp"
 #include "core/error.hpp"
+#include "core/monitor.hpp"
 
 namespace jam {
 
@@ -14,6 +14,8 @@ namespace jam {
 inline double default_memory_limit() {
   return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
+
+struct Cancelled {};  // thrown by CallScope::look; the entry points turn it into JAM_CANCELLED
 
 // Made at the boundary for each call; calls that callbacks make nest. look() is how work learns that it must stop.
 class CallScope {
@@ -43,6 +45,11 @@ class CallScope {
     return false;
   }
   static bool can_tell() { return current() && current()->monitor_ && current()->monitor_->progress; }
+  // look() of an analysis, which reports where it begins and, if it knows, how far it is: items done, and their share
+  // of all.
+  static void report_share(int64_t items = 0, double share = std::numeric_limits<double>::quiet_NaN()) {
+    ask([&](Monitor &monitor) { return monitor.report_share(items, share); });
+  }
   // look() with a record of its own.
   static void report(const jam_progress &p) {
     ask([&](Monitor &monitor) { return monitor.report(p) || monitor.interrupted(); });

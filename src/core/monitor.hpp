@@ -87,6 +87,15 @@ class Monitor {
     again.snapshot = 0;
     return report(again);
   }
+  // How far an analysis is. Inside a verb that reports a phase of its own this is look(). Returns true when the call
+  // must stop.
+  bool report_share(int64_t items, double share) {
+    if (last_report_.phase != JAM_PHASE_ANALYSE) return look();
+    jam_progress p = progress_of(JAM_PHASE_ANALYSE);
+    p.steps = items;
+    p.fraction = share;
+    return report(p) || interrupted();
+  }
   // What look() reports before the first report, and how far a long LP is.
   void expect(const jam_progress &p) { last_report_ = p; }
   void expect_factorisations(int64_t so_far) { last_report_.factorisations = so_far; }

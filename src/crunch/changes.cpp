@@ -2,7 +2,7 @@
 #include <cmath>
 #include <exception>
 
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "core/pair_rule.hpp"
 #include "crunch/state.hpp"
 #include "network/resolution.hpp"

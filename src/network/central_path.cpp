@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/call_scope.hpp"
 #include "core/math.hpp"
 
 namespace jam {
@@ -21,16 +22,11 @@ double longest(const std::vector<double> &v, const std::vector<double> &dv) {
 
 }  // namespace
 
-CentralPath::CentralPath(const ConstraintRows &rows, const CancellationPoint &cancel_point)
-    : rows_(rows),
-      cancel_point_(cancel_point),
-      solver_(rows),
-      x_(rows.columns(), 0.0),
-      f_(rows.rows(), 1.0),
-      w_(rows.rows(), 1.0) {}
+CentralPath::CentralPath(const ConstraintRows &rows)
+    : rows_(rows), solver_(rows), x_(rows.columns(), 0.0), f_(rows.rows(), 1.0), w_(rows.rows(), 1.0) {}
 
 bool CentralPath::step() {
-  cancel_point_();
+  CallScope::report_share();
   const size_t m = f_.size();
   std::vector<double> weight(m);
   for (size_t k = 0; k < m; ++k) weight[k] = f_[k] / w_[k];

@@ -11,7 +11,7 @@ namespace jam {
 
 class CentralPath {
  public:
-  CentralPath(const ConstraintRows &rows, const CancellationPoint &cancel_point);
+  explicit CentralPath(const ConstraintRows &rows);
   // One step towards a smaller mu. False where steps have become too short to go on.
   bool step();
 
@@ -27,7 +27,6 @@ class CentralPath {
                  std::vector<double> &dx) const;
 
   const ConstraintRows &rows_;
-  const CancellationPoint &cancel_point_;
   NormalSolver solver_;
   std::vector<double> x_, f_, w_;
   double mu_ = 1.0;

@@ -132,9 +132,8 @@ std::string why_not_jammed(const PackingVerdict &v, Jamming kind) {
   return line;
 }
 
-void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,
-                     const CancellationPoint &cancel_point) {
-  report_verdict(test_packing(p, &contacts, Jamming::collective, cancel_point), p.dim, report);
+void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report) {
+  report_verdict(test_packing(p, &contacts, Jamming::collective), p.dim, report);
 }
 
 }  // namespace jam

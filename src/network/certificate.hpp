@@ -20,7 +20,6 @@ void report_verdict(const PackingVerdict &verdict, int dim, jam_crunch_report &r
 // Strict: forces must balance on the cell too, up to a pressure.
 std::string why_not_jammed(const PackingVerdict &verdict, Jamming kind = Jamming::collective);
 // Both in one: tests the packing with these contacts and puts the answer into the report.
-void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report,
-                     const CancellationPoint &cancel_point = CancellationPoint());
+void certify_jamming(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report);
 
 }  // namespace jam

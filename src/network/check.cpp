@@ -87,7 +87,7 @@ bool may_touch_own_image(const Packing &p, const GapResolution &resolution) {
 
 }  // namespace
 
-CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_point) {
+CheckResult check_as_it_is(const Packing &p) {
   CheckResult out;
   out.tested = p;
   jam_check_report &r = out.report;
@@ -98,12 +98,12 @@ CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_poi
   const GapResolution resolution = take_overlaps(out);
   const Packing &q = out.tested;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
-  PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective, cancel_point);
+  PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective);
   r.jammed = verdict_code(verdict.result.jammed);
   r.strictly_jammed = JAM_VERDICT_NO;
   // Only where a sphere is held by its own images alone can the strict test find more than the collective one.
   if (r.jammed != JAM_VERDICT_NO || may_touch_own_image(q, resolution)) {
-    const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict, cancel_point);
+    const PackingVerdict strict = test_packing(q, resolution, nullptr, Jamming::strict);
     r.strictly_jammed = verdict_code(strict.result.jammed);
     r.strict_flexes = strict.result.flexes;
     if (strict.result.jammed == Verdict::yes && r.jammed != JAM_VERDICT_YES) {
@@ -118,7 +118,7 @@ CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_poi
   // much as was lost. Where all pairs are open by more than rounding, nothing touches.
   if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no && r.nearest_gap < contact_gap_limit &&
       q.n() > 1) {
-    const GeometryResult wide = contacts_from_geometry(q, default_geometry_options(), cancel_point);
+    const GeometryResult wide = contacts_from_geometry(q, default_geometry_options());
     if (wide.clear && wide.when_closed == Verdict::yes) {
       r.jammed = r.strictly_jammed = JAM_VERDICT_UNDECIDED;
       changes = true;

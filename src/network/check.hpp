@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "core/packing.hpp"
 #include "jam/jam.h"
 #include "network/contact_network.hpp"
@@ -14,7 +14,7 @@ struct CheckResult {
   Packing tested;           // with the diameters that were tested: no pair overlaps
   ContactNetwork carrying;  // contacts with force of the verdict
 };
-CheckResult check_as_it_is(const Packing &p, const CancellationPoint &cancel_point = CancellationPoint());
+CheckResult check_as_it_is(const Packing &p);
 
 // check_text.cpp: the report as one paragraph.
 std::string text_of(const jam_check_report &report);

@@ -1,4 +1,5 @@
 #include "network/constraint_rows.hpp"
+#include "core/call_scope.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -138,8 +139,7 @@ void NormalSolver::solve(double *x, int count) const {
   }
 }
 
-void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, std::vector<double> &f,
-                        const CancellationPoint &cancel_point) {
+void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, std::vector<double> &f) {
   std::vector<double> y(rows.columns()), s(rows.rows()), best(f);
   double last = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_refinements; ++pass) {
@@ -152,15 +152,15 @@ void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, 
     const bool slow = residual > 0.5 * last;
     last = residual, best = f;
     if (slow && pass > 1) return;
-    cancel_point();
+    CallScope::report_share();
     solver.solve(y.data());
     rows.multiply(y.data(), s.data());
     for (size_t k = 0; k < f.size(); ++k) f[k] -= s[k];
   }
 }
 
-std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolver &solver, const std::vector<double> &y,
-                                   const CancellationPoint &cancel_point) {
+std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolver &solver,
+                                   const std::vector<double> &y) {
   std::vector<double> x(rows.columns(), 0.0), g(rows.columns()), s(rows.rows()), r(y);
   double last = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_refinements; ++pass) {
@@ -168,7 +168,7 @@ std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolve
     const double residual = norm(g);
     if (!(residual < 0.5 * last)) break;
     last = residual;
-    cancel_point();
+    CallScope::report_share();
     solver.solve(g.data());
     for (size_t k = 0; k < x.size(); ++k) x[k] += g[k];
     rows.multiply(x.data(), s.data());

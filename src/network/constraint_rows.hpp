@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "linalg/shifted_factor.hpp"
 #include "network/hessian.hpp"
 #include "network/rigidity_matrix.hpp"
@@ -47,10 +47,9 @@ class NormalSolver {
 };
 
 // With a solver of unit weights: f := its part with A^T f = 0, refined until the residual |A^T f| stops falling.
-void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, std::vector<double> &f,
-                        const CancellationPoint &cancel_point);
+void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, std::vector<double> &f);
 // x with A x nearest to y, refined likewise.
-std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolver &solver, const std::vector<double> &y,
-                                   const CancellationPoint &cancel_point);
+std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolver &solver,
+                                   const std::vector<double> &y);
 
 }  // namespace jam

@@ -131,8 +131,7 @@ ContactCandidates contact_candidates(const Packing &p, double window) {
   return out;
 }
 
-GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o,
-                                      const CancellationPoint &cancel_point) {
+GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o) {
   if (!(o.tolerance >= 0.0 && o.tolerance < 1.0))
     fail(JAM_E_ARGUMENT, "tolerance is %g, it must be in [0, 1)", o.tolerance);
   check_window(o.window);
@@ -186,10 +185,10 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   if (o.tolerance > 0.0) r.jump = r.gap_above / std::max(r.gap_below, r.resolution);
   if (out.network.coordination.empty()) out.network.coordination.assign(p.n(), 0);
   // With the contacts of this tolerance taken as closed, whatever their gaps.
-  const RigidityResult closed = test_rigidity(make_rigidity_matrix(p, out.network), Jamming::collective, cancel_point);
+  const RigidityResult closed = test_rigidity(make_rigidity_matrix(p, out.network), Jamming::collective);
   if (closed.stressed == Verdict::yes) out.network = between_carrying(out.network, closed.carrying, p.dim);
   const RigidityMatrix graph = make_rigidity_matrix(p, out.network);
-  const StressStates stress = find_stress(graph, false, cancel_point);
+  const StressStates stress = find_stress(graph, false);
   out.network.force = stress.force;
   r.contacts = static_cast<int64_t>(out.network.size());
   r.self_stresses = stress.dimension;
@@ -202,7 +201,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   // hyperstatic.
   clear = clear ||
           (wide && stress.dimension == 1 && stress.zero_modes == p.dim && r.excess_contacts == 0 && second_excess > 0);
-  out.verdict = test_packing(p, resolution, &out.network, Jamming::collective, cancel_point);
+  out.verdict = test_packing(p, resolution, &out.network, Jamming::collective);
   out.when_closed = closed.jammed;
   out.clear = clear;
   const bool wide_gaps = out.verdict.result.jammed != closed.jammed;

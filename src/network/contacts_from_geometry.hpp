@@ -17,8 +17,7 @@ struct GeometryResult {
   jam_status status = JAM_OK;         // JAM_OK, JAM_AMBIGUOUS, JAM_NOT_JAMMED
 };
 
-GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o,
-                                      const CancellationPoint &cancel_point = CancellationPoint());
+GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_options &o);
 
 // Where the sorted gaps jump, largest jump first: the tolerances that give enough contacts for a rigid network.
 struct ContactCandidates {

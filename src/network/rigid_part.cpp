@@ -46,8 +46,7 @@ std::vector<double> balanced_forces(const RigidityMatrix &within, const std::vec
 
 }  // namespace
 
-bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind,
-                          const CancellationPoint &cancel_point, RigidityResult &out) {
+bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind, RigidityResult &out) {
   if (cone.positive.empty()) return false;
   const size_t m = sub.contacts();
   std::vector<char> body(sub.nodes, 0), inside(m);
@@ -62,7 +61,7 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
   const ConstraintRows rows(k_part, kind == Jamming::strict);
   NormalSolver solver(rows);
   solver.factorise(std::vector<double>(rows.rows(), 1.0), flex_eigenvalue);
-  const SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, 1, cancel_point);
+  const SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, 1);
   if (!modes.flexes.empty() || modes.margin < undecided_eigenvalue) return false;
   out.jammed = out.stressed = Verdict::yes;
   out.margin = modes.margin;
@@ -77,7 +76,7 @@ bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jam
   out.force_residual = balance_residual(sub, out.force.data());
   const RigidityMatrix rest = merge(sub, inside, body);
   if (rest.contacts() > 0) {
-    const RigidityResult r = test_rigidity(rest, Jamming::collective, cancel_point);
+    const RigidityResult r = test_rigidity(rest, Jamming::collective);
     if (r.stressed != Verdict::no) {
       out.jammed = r.jammed, out.stressed = r.stressed;
       out.flexes = r.flexes, out.margin = std::min(out.margin, r.margin);

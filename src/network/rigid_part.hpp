@@ -10,7 +10,6 @@ namespace jam {
 
 // sub: contacts of spheres that may carry force. cone: undecided, with its positive set. False: K is not rigid. True:
 // the verdict on sub is in `out`, its flags, forces and flex on contacts and nodes of sub.
-bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind,
-                          const CancellationPoint &cancel_point, RigidityResult &out);
+bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind, RigidityResult &out);
 
 }  // namespace jam

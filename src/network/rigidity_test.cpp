@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/blas.hpp"
 #include "network/rigid_part.hpp"
@@ -95,8 +96,8 @@ void spread(const std::vector<char> &on, const std::vector<char> &carrying, cons
 
 }  // namespace
 
-static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
-  cancel_point();
+static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
+  CallScope::report_share();
   const bool strain = kind == Jamming::strict;
   const size_t m = g.contacts();
   RigidityResult out;
@@ -112,15 +113,15 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const 
   }
   NormalSolver solver(rows);
   solver.factorise(std::vector<double>(sub.contacts(), 1.0), flex_eigenvalue);
-  SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, most_flexes, cancel_point);
+  SoftestModes modes = softest_modes(rows, solver, flex_eigenvalue, most_flexes);
   const int64_t rank = static_cast<int64_t>(rows.columns()) - g.dim - static_cast<int64_t>(modes.flexes.size());
   const int64_t states = modes.complete ? std::max<int64_t>(0, static_cast<int64_t>(sub.contacts()) - rank) : -1;
-  const StressCone cone = find_stress_cone(rows, solver, states, cancel_point);
+  const StressCone cone = find_stress_cone(rows, solver, states);
   if (!cone.decided) {
     RigidityResult part;
     out.jammed = out.stressed = Verdict::undecided;
     out.margin = modes.margin;
-    if (!test_from_rigid_part(sub, cone, kind, cancel_point, part)) return out;
+    if (!test_from_rigid_part(sub, cone, kind, part)) return out;
     out.jammed = part.jammed, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;
     out.force_residual = part.force_residual;
     spread(on, part.carrying, part.force, out);
@@ -141,7 +142,7 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const 
   if (count < sub.contacts()) {
     NormalSolver inner(kept);
     inner.factorise(std::vector<double>(count, 1.0), flex_eigenvalue);
-    modes = softest_modes(kept, inner, flex_eigenvalue, most_flexes, cancel_point);
+    modes = softest_modes(kept, inner, flex_eigenvalue, most_flexes);
   }
   out.flexes = static_cast<int64_t>(modes.flexes.size());
   out.margin = modes.margin;
@@ -173,14 +174,13 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind, const 
 // Spheres whose contact vectors nearly but not quite balance, as two that are opposite but for 1e-6, carry no force,
 // and each can slip out. Vectors are known to rounding, so that none is too near to a balance. Without them the rest
 // may be proved jammed. False where it is not.
-static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point,
-                                    RigidityResult &out) {
+static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, RigidityResult &out) {
   std::vector<char> clear(g.contacts(), 1), on(g.contacts(), 1);
   const auto nodes = static_cast<size_t>(g.nodes);
   release_unbalanced(g.dim, nodes, g.a, g.b, g.normal, on, direction_errors(g));
   drop_unbalanced(g.dim, nodes, g.a, g.b, g.normal, clear);
   if (on == clear || std::count(on.begin(), on.end(), 1) == 0) return false;
-  RigidityResult part = find_verdict(subset(g, on), kind, cancel_point);
+  RigidityResult part = find_verdict(subset(g, on), kind);
   if (part.jammed != Verdict::yes) return false;
   out = part;
   out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);
@@ -190,11 +190,11 @@ static bool test_without_unbalanced(const RigidityMatrix &g, Jamming kind, const
 }
 
 // A no is proved by its motion. Where none holds up, K+ was not what it seemed, and nothing is decided.
-RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind, const CancellationPoint &cancel_point) {
+RigidityResult test_rigidity(const RigidityMatrix &g, Jamming kind) {
   const BlasSingleThread single;
-  RigidityResult out = find_verdict(g, kind, cancel_point);
+  RigidityResult out = find_verdict(g, kind);
   if (out.jammed == Verdict::yes || g.contacts() == 0) return out;
-  if (test_without_unbalanced(g, kind, cancel_point, out)) return out;
+  if (test_without_unbalanced(g, kind, out)) return out;
   if (out.jammed != Verdict::no || !out.flex.empty()) return out;
   const bool stressed = out.stressed == Verdict::yes, useless = !(out.force_residual < useless_residual);
   if (stressed && useless) {
@@ -212,11 +212,10 @@ ContactNetwork PackingVerdict::carrying(int dim) const { return subset(contacts,
 namespace {
 
 // Result on the rows that are `on`, with its arrays as long as those of the whole list.
-RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, Jamming kind,
-                         const CancellationPoint &cancel_point) {
-  if (std::count(on.begin(), on.end(), 0) == 0) return test_rigidity(g, kind, cancel_point);
+RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, Jamming kind) {
+  if (std::count(on.begin(), on.end(), 0) == 0) return test_rigidity(g, kind);
   const RigidityMatrix part = subset(g, on);
-  RigidityResult r = test_rigidity(part, kind, cancel_point);
+  RigidityResult r = test_rigidity(part, kind);
   std::vector<char> carrying(g.contacts(), 0);
   std::vector<double> force(g.contacts(), 0.0);
   for (size_t k = 0, at = 0; k < g.contacts(); ++k)
@@ -263,21 +262,20 @@ bool may_hold_spheres(const RigidityMatrix &g) {
 
 // A sphere that touches nothing but its own images has no motion of its own. It is held where their forces balance on
 // the cell too.
-void judge_alone(const RigidityMatrix &g, RigidityResult &r, const CancellationPoint &cancel_point) {
-  const RigidityResult strict = test_rigidity(subset(g, r.carrying), Jamming::strict, cancel_point);
+void judge_alone(const RigidityMatrix &g, RigidityResult &r) {
+  const RigidityResult strict = test_rigidity(subset(g, r.carrying), Jamming::strict);
   r.margin = strict.margin;
   r.jammed = strict.stressed == Verdict::yes ? Verdict::yes : Verdict::undecided;
 }
 
 }  // namespace
 
-PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
-                            const CancellationPoint &cancel_point) {
-  return test_packing(p, gap_resolution(p), listed, kind, cancel_point);
+PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind) {
+  return test_packing(p, gap_resolution(p), listed, kind);
 }
 
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
-                            Jamming kind, const CancellationPoint &cancel_point) {
+                            Jamming kind) {
   PackingVerdict out;
   ContactNetwork &net = out.contacts;
   ContactNetwork near;
@@ -305,10 +303,10 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
   out.undecided_contacts = std::count(closed.begin(), closed.end(), 0);
   const RigidityMatrix g = make_rigidity_matrix(p, net);
   out.sphere = g.sphere;
-  out.result = test_part(g, closed, kind, cancel_point);
+  out.result = test_part(g, closed, kind);
   out.when_closed = out.result.jammed;
   if (near_enough != closed && !(out.result.jammed == Verdict::yes && within_jammed(g, closed, out.result.carrying))) {
-    RigidityResult shut = test_part(g, near_enough, kind, cancel_point);
+    RigidityResult shut = test_part(g, near_enough, kind);
     const bool same = shut.jammed == out.result.jammed;
     out.when_closed = shut.jammed;
     // Jammed with and without the pairs in doubt: closed contacts alone prove it. Else the flex of the open ones is
@@ -322,8 +320,7 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
   }
   if (out.result.jammed == Verdict::no && resolution.coarse(p) && may_hold_spheres(g))
     out.result.jammed = Verdict::undecided;
-  if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0)
-    judge_alone(g, out.result, cancel_point);
+  if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0) judge_alone(g, out.result);
   net.force = out.result.force;
   double sum = 0.0;
   for (size_t k = 0; k < g.contacts(); ++k) sum += net.force[k] * g.sigma[k] * g.sigma[k] / g.distance[k];

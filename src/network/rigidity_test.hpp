@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "core/packing.hpp"
 #include "network/contact_network.hpp"
 #include "network/rattlers.hpp"
@@ -47,8 +47,7 @@ struct RigidityResult {
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
   std::vector<double> strain;  // (dim, dim) that goes with it; strict only
 };
-RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind,
-                             const CancellationPoint &cancel_point = CancellationPoint());
+RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
 
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
 // below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
@@ -65,10 +64,9 @@ struct PackingVerdict {
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };
-PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind,
-                            const CancellationPoint &cancel_point = CancellationPoint());
+PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind);
 // The same where the resolution of gaps is known.
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
-                            Jamming kind, const CancellationPoint &cancel_point = CancellationPoint());
+                            Jamming kind);
 
 }  // namespace jam

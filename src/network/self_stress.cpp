@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include "core/call_scope.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "linalg/blas.hpp"
@@ -46,8 +47,7 @@ void scale_to_mean(std::vector<double> &f) {
 
 }  // namespace
 
-NullSpace::NullSpace(const RigidityMatrix &g, const CancellationPoint &cancel_point)
-    : g_(g), cancel_point_(cancel_point), solver_(g, unit_weights(g)) {}
+NullSpace::NullSpace(const RigidityMatrix &g) : g_(g), solver_(g, unit_weights(g)) {}
 
 int NullSpace::project(std::vector<double> &f, int refinements) const {
   std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
@@ -62,7 +62,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
     }
     last = residual;
     best = f;
-    cancel_point_();
+    CallScope::report_share();
     solver_.apply(y.data(), 1);
     apply_compatibility(g_, y.data(), s.data());
     for (size_t k = 0; k < f.size(); ++k) f[k] -= s[k];
@@ -86,7 +86,7 @@ int64_t NullSpace::zero_modes() const {
     std::vector<double> x(n * block);
     for (double &v : x) v = rng.normal();
     for (int pass = 0; pass < 4; ++pass) {
-      cancel_point_();
+      CallScope::report_share();
       solver_.apply(x.data(), block);
       for (double &v : x) v *= solver_.shift();
     }
@@ -114,13 +114,12 @@ int64_t NullSpace::dimension() const {
   return static_cast<int64_t>(g_.contacts()) - static_cast<int64_t>(g_.unknowns()) + zero_modes();
 }
 
-StressStates find_stress(const RigidityMatrix &g, bool with_basis, const CancellationPoint &cancel_point) {
+StressStates find_stress(const RigidityMatrix &g, bool with_basis) {
   const BlasSingleThread single;
-  return g.contacts() == 0 ? StressStates() : find_stress(g, NullSpace(g, cancel_point), with_basis, cancel_point);
+  return g.contacts() == 0 ? StressStates() : find_stress(g, NullSpace(g), with_basis);
 }
 
-StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis,
-                         const CancellationPoint &cancel_point) {
+StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis) {
   StressStates out;
   const size_t m = g.contacts();
   const auto fresh = [&](uint64_t stream) {
@@ -161,7 +160,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
   }
   if (out.dimension > 1) {
     // The middle of the non-negative states; without one what (1, 1, ...) projects on, whatever its signs.
-    const RigidityResult test = test_rigidity(g, Jamming::collective, cancel_point);
+    const RigidityResult test = test_rigidity(g, Jamming::collective);
     out.positive = test.stressed == Verdict::yes;
     if (out.positive) out.force = test.force;
   } else if (norm(out.force) <=

@@ -1,7 +1,7 @@
 // States of self-stress from positions alone: the null space of S^T, without a dense matrix.
 #pragma once
 #include <vector>
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "network/grounded_solver.hpp"
 
 namespace jam {
@@ -10,7 +10,7 @@ namespace jam {
 class NullSpace {
  public:
   static constexpr int64_t most_zero_modes = 256;  // counted beyond the translations, no more
-  explicit NullSpace(const RigidityMatrix &g, const CancellationPoint &cancel_point = CancellationPoint());
+  explicit NullSpace(const RigidityMatrix &g);
   // f := f - S (S^T S)^+ S^T f by iterative refinement; refinements < 0: until the residual stops falling.
   // Returns the number of solves.
   int project(std::vector<double> &f, int refinements = -1) const;
@@ -21,7 +21,6 @@ class NullSpace {
 
  private:
   const RigidityMatrix &g_;
-  CancellationPoint cancel_point_;
   GroundedSolver solver_;
   mutable int64_t zeros_ = -1;
 };
@@ -37,9 +36,7 @@ struct StressStates {
 };
 
 // The force of a network. Throws nothing for unjammed networks: dimension 0, or `positive` false.
-StressStates find_stress(const RigidityMatrix &g, bool with_basis,
-                         const CancellationPoint &cancel_point = CancellationPoint());
-StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis,
-                         const CancellationPoint &cancel_point = CancellationPoint());
+StressStates find_stress(const RigidityMatrix &g, bool with_basis);
+StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool with_basis);
 
 }  // namespace jam

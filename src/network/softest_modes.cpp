@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/call_scope.hpp"
 #include "core/rng.hpp"
 
 namespace jam {
@@ -18,7 +19,7 @@ class BlockIteration {
   BlockIteration(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most)
       : rows_(rows), solver_(solver), limit_(limit), most_(most), random_(5, Stream::analysis_start) {}
 
-  SoftestModes run(const CancellationPoint &cancel_point) {
+  SoftestModes run() {
     const size_t dim = static_cast<size_t>(rows_.g.dim);
     const size_t motions = rows_.columns() > dim ? rows_.columns() - dim : 0;  // beyond translations
     size_t block = first_block;
@@ -33,7 +34,7 @@ class BlockIteration {
         out_.margin = 0.0, out_.complete = false;
         return out_;
       }
-      cancel_point();
+      CallScope::report_share();
       refill(std::min(block, motions - found));
       step();
       const size_t flexes = lock();
@@ -144,9 +145,8 @@ class BlockIteration {
 
 }  // namespace
 
-SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes,
-                           const CancellationPoint &cancel_point) {
-  return BlockIteration(rows, solver, limit, most_flexes).run(cancel_point);
+SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes) {
+  return BlockIteration(rows, solver, limit, most_flexes).run();
 }
 
 }  // namespace jam

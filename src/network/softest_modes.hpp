@@ -12,7 +12,6 @@ struct SoftestModes {
   bool complete = true;                     // false: there are more flexes than were asked for
 };
 // solver: factored with unit weights and a shift near `limit`.
-SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes,
-                           const CancellationPoint &cancel_point);
+SoftestModes softest_modes(const ConstraintRows &rows, const NormalSolver &solver, double limit, size_t most_flexes);
 
 }  // namespace jam

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/call_scope.hpp"
 #include "core/rng.hpp"
 #include "network/central_path.hpp"
 
@@ -26,18 +27,17 @@ double mean_size(const std::vector<double> &f) {
 
 // No state, or one: the null vector decides by its signs. A f >= 0 state with zeros leaves them to open, one with both
 // signs lets all contacts open.
-StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, int64_t states,
-                        const CancellationPoint &cancel_point) {
+StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, int64_t states) {
   StressCone out;
   const size_t m = rows.rows();
   std::vector<double> f(m, 0.0);
   if (states == 1) {
     f.assign(m, 1.0);
-    project_on_balance(rows, solver, f, cancel_point);
+    project_on_balance(rows, solver, f);
     if (mean_size(f) < 1e-6) {  // nearly orthogonal to (1, 1, ...): forces of both signs
       Rng rng(3, Stream::analysis_start);
       for (double &v : f) v = rng.normal();
-      project_on_balance(rows, solver, f, cancel_point);
+      project_on_balance(rows, solver, f);
     }
     double sum = 0.0;
     for (const double v : f) sum += v;
@@ -64,7 +64,7 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
     else if (f[k] != 0.0)
       opening[k] = static_cast<double>(m) / (2.0 * (f[k] > 0.0 ? push : pull));  // orthogonal to f
   }
-  if (!all) out.motion = nearest_motion(rows, solver, opening, cancel_point);
+  if (!all) out.motion = nearest_motion(rows, solver, opening);
   out.force.assign(m, 0.0);
   if (positive) out.force = f;
   return out;
@@ -108,7 +108,7 @@ enum class Support { no, positive, whole };
 // Both certificates of a guess of K+: a positive stress on it, and a motion that opens the others and keeps it closed.
 // positive: the first alone.
 Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, const CentralPath &path,
-                        const std::vector<char> &guess, StressCone &out, const CancellationPoint &cancel_point) {
+                        const std::vector<char> &guess, StressCone &out) {
   const size_t m = rows.rows();
   out.carrying = guess;
   const auto count = static_cast<size_t>(std::count(guess.begin(), guess.end(), 1));
@@ -130,7 +130,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
       if (out.carrying[k]) f.push_back(path.f()[k]);
     double mean = mean_size(f);
     for (double &v : f) v /= mean;
-    project_on_balance(on, *inner, f, cancel_point);
+    project_on_balance(on, *inner, f);
     mean = mean_size(f);
     size_t at = 0;
     for (size_t k = 0; k < m; ++k)
@@ -147,7 +147,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
     std::vector<double> open;
     for (size_t k = 0; k < m; ++k)
       if (out.carrying[k]) open.push_back(y[k]);
-    const std::vector<double> back = nearest_motion(on, *inner, open, cancel_point);
+    const std::vector<double> back = nearest_motion(on, *inner, open);
     for (int32_t i = 0; i < sub.nodes; ++i)
       for (int c = 0; c < sub.dim; ++c) x[static_cast<size_t>(sub.sphere[i]) * sub.dim + c] -= back[i * sub.dim + c];
     // The strain of both is measured by the mean contact distance of its own rows.
@@ -181,14 +181,14 @@ void keep_positive(const CentralPath &path, const std::vector<char> &guess, Stre
 // f = 1 / w, by damped Newton steps. w: 1 / f of a state near it, or all ones; then the unit solver makes the first
 // step. Returns the forces, balanced to rounding, mean 1; empty when one of them vanishes.
 std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit, std::vector<double> w, bool ones,
-                           int &factorisations, const CancellationPoint &cancel_point) {
+                           int &factorisations) {
   constexpr int most_steps = 50;
   constexpr double largest_ratio = 1e12;  // of two forces
   const size_t m = rows.rows();
   std::vector<double> f(m), step(rows.columns()), dw(m), weight(m);
   NormalSolver solver(rows);
   for (int pass = 0; pass < most_steps; ++pass) {
-    cancel_point();
+    CallScope::report_share();
     const double widest = *std::max_element(w.begin(), w.end());
     if (!(widest < largest_ratio * *std::min_element(w.begin(), w.end()))) return {};
     for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k], weight[k] = f[k] * f[k];
@@ -212,7 +212,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
   for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k];
   double mean = mean_size(f);
   for (double &v : f) v /= mean;
-  project_on_balance(rows, unit, f, cancel_point);
+  project_on_balance(rows, unit, f);
   mean = mean_size(f);
   for (double &v : f) v /= mean;
   if (*std::min_element(f.begin(), f.end()) <= zero_force) f.clear();
@@ -221,26 +221,24 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
 
 }  // namespace
 
-StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states,
-                            const CancellationPoint &cancel_point) {
-  if (states == 0 || states == 1) return of_one_state(rows, solver, states, cancel_point);
+StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states) {
+  if (states == 0 || states == 1) return of_one_state(rows, solver, states);
   constexpr double first_guess = 1e-2, least_mu = 1e-12;
   constexpr int most_path_steps = 60;
   const size_t m = rows.rows();
   StressCone out;
   // Equal forces, balanced: where none of them pulls, every contact carries.
   std::vector<double> equal(m, 1.0);
-  project_on_balance(rows, solver, equal, cancel_point);
+  project_on_balance(rows, solver, equal);
   const double mean = mean_size(equal);
   if (mean > least_projection && *std::min_element(equal.begin(), equal.end()) > sure_force * mean) {
     out.decided = true, out.carrying.assign(m, 1), out.force = equal;
     for (double &v : out.force) v /= mean;
-    const std::vector<double> f =
-        centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations, cancel_point);
+    const std::vector<double> f = centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations);
     if (!f.empty()) out.force = f;
     return out;
   }
-  CentralPath path(rows, cancel_point);
+  CentralPath path(rows);
   double next = first_guess;
   bool going = true;
   while (going && !out.decided && path.steps() < most_path_steps && path.mu() > least_mu) {
@@ -249,7 +247,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     next = 0.1 * path.mu();
     for (const std::vector<char> &guess : guess_support(path)) {
       if (out.decided) break;
-      const Support found = certify_support(rows, solver, path, guess, out, cancel_point);
+      const Support found = certify_support(rows, solver, path, guess, out);
       out.decided = found == Support::whole;
       const auto size = [](const std::vector<char> &on) { return std::count(on.begin(), on.end(), 1); };
       if (found == Support::positive && size(guess) > size(out.positive)) keep_positive(path, guess, out);
@@ -265,7 +263,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   std::vector<double> w;
   for (size_t k = 0; k < m; ++k)
     if (out.carrying[k]) w.push_back(path.w()[k] / path.mu());
-  const std::vector<double> f = centre(kept, unit, std::move(w), false, out.factorisations, cancel_point);
+  const std::vector<double> f = centre(kept, unit, std::move(w), false, out.factorisations);
   for (size_t k = 0, at = 0; k < m && !f.empty(); ++k)
     if (out.carrying[k]) out.force[k] = f[at++];
   return out;

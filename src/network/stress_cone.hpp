@@ -18,7 +18,6 @@ struct StressCone {
   int factorisations = 0;
 };
 // states: dimension of the null space of A^T, -1 when not known. solver: of `rows`, factored with unit weights.
-StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states,
-                            const CancellationPoint &cancel_point);
+StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solver, int64_t states);
 
 }  // namespace jam

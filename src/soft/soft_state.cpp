@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/cancellation.hpp"
+#include "core/call_scope.hpp"
 #include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
 #include "core/rng.hpp"

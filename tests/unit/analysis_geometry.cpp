@@ -2,6 +2,7 @@
 #include <functional>
 #include "analysis/modes.hpp"
 #include "analysis_networks.hpp"
+#include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/rng.hpp"
 #include "network/contacts_from_geometry.hpp"
@@ -183,7 +184,7 @@ void cancelling_anywhere_leaves_no_network(void **) {
   const NullSpace space(g);
   Monitor monitor;
   monitor.cancel();
-  const NullSpace watched(g, CancellationPoint(monitor));
+  const LeavingScope scope(default_memory_limit(), &monitor);
   std::vector<double> f(g.contacts(), 1.0);
   f[0] = 2.0;
   int stopped = 0;
@@ -194,10 +195,10 @@ void cancelling_anywhere_leaves_no_network(void **) {
       ++stopped;
     }
   };
-  stops([&] { watched.project(f); });
-  stops([&] { watched.zero_modes(); });
-  stops([&] { test_rigidity(g, Jamming::collective, CancellationPoint(monitor)); });
-  stops([&] { find_stress(g, space, true, CancellationPoint(monitor)); });
+  stops([&] { space.project(f); });
+  stops([&] { space.zero_modes(); });
+  stops([&] { test_rigidity(g, Jamming::collective); });
+  stops([&] { find_stress(g, space, true); });
   assert_int_equal(stopped, 4);
 }
 

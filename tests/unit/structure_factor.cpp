@@ -68,7 +68,7 @@ void plain_sum(void **) {
     assert_true(std::fabs(f.q[k] - expect[2 * k].first) < 1e-12);
     assert_true(std::fabs(f.s[k] - expect[2 * k].second) < 1e-10);
   }
-  assert_int_equal(structure_factor(p, q_max, CancellationPoint(), true).q.size(), f.q.size());
+  assert_int_equal(structure_factor(p, q_max, true).q.size(), f.q.size());
 }
 
 void the_basis_does_not_matter(void **) {

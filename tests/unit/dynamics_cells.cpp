@@ -1,5 +1,6 @@
 // Molecular dynamics in cells of any shape: against exact times and the naive engine, against the cube, no overlaps.
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "core/pairs.hpp"
@@ -188,13 +189,38 @@ void instruction_sets_give_the_same_bits(void **) {
   }
 }
 
+void archives_hold_nothing_else(void **) {
+  // The body of a disk is a line of the cache, whose last bytes have no meaning.
+  const size_t n = 50;
+  {
+    std::vector<Body<2>> used_before(n);
+    volatile char *bytes = reinterpret_cast<char *>(used_before.data());
+    for (size_t k = 0; k < n * sizeof(Body<2>); ++k) bytes[k] = 0x55;
+  }
+  const auto engine = make_engine(random_packing(2, static_cast<int>(n), 0.3, 1.0, 5), EngineOptions{});
+  Archive a;
+  engine->archive(a);
+  const size_t bodies =
+      sizeof(MdSums) + sizeof(double) + sizeof(EngineOptions) + 2 * sizeof(uint64_t) + n * sizeof(int32_t);
+  Body<2> first;
+  std::memcpy(static_cast<void *>(&first), &a.bytes()[bodies], sizeof first);
+  assert_true(first.radius > 0 && first.time == 0.0);  // here they are
+  const size_t used = offsetof(Body<2>, radius) + sizeof first.radius;
+  for (size_t i = 0; i < n; ++i)
+    for (size_t at = used; at < sizeof first; ++at) assert_int_equal(a.bytes()[bodies + i * sizeof first + at], 0);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(lattice_vectors),          cmocka_unit_test(two_disks_meet_through_the_face),
-      cmocka_unit_test(agrees_with_naive_engine), cmocka_unit_test(a_cube_in_disguise),
-      cmocka_unit_test(never_overlaps),           cmocka_unit_test(instruction_sets_give_the_same_bits),
+      cmocka_unit_test(lattice_vectors),
+      cmocka_unit_test(two_disks_meet_through_the_face),
+      cmocka_unit_test(agrees_with_naive_engine),
+      cmocka_unit_test(a_cube_in_disguise),
+      cmocka_unit_test(never_overlaps),
+      cmocka_unit_test(instruction_sets_give_the_same_bits),
+      cmocka_unit_test(archives_hold_nothing_else),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

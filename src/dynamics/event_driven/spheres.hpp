@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "core/pair_rule.hpp"
@@ -29,6 +30,7 @@ struct Spheres {
         reach_factor(1.0 + std::max(0.0, p.non_additivity)),
         body(p.n()),
         user(curve_order(p)) {
+    std::memset(static_cast<void *>(body.data()), 0, body.size() * sizeof(Body<D>));  // with the ends that mean nothing
     const std::vector<double> of_user = sphere_masses(p);
     for (size_t i = 0; i < of_user.size(); ++i) mass.push_back(of_user[user[i]]);
   }

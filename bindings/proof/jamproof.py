@@ -22,7 +22,7 @@ import zlib
 from array import array
 from fractions import Fraction
 
-BITS, CHUNK, BIAS = 24, 16, 1 << 62  # of J; columns summed at once; makes 64-bit digits positive
+BITS, CHUNK, BIAS, MOST_IMAGES = 24, 16, 1 << 62, 10**6  # of J; columns summed at once; makes 64-bit digits positive; of a pair
 
 
 class Refused(Exception):
@@ -303,29 +303,35 @@ def force_row(s, f, kept, values):
 
 
 def images(s, i, j, reach):
-    """All n with components of x_i - x_j + n A within reach, by floats: reach has room for their rounding."""
-    unit = 2.0**s.k
-    cell = [[v * unit for v in row] for row in s.cell]
+    """All n with components of x_i - x_j + n A within reach, a whole number of 2^k: in integers, so that none is missed."""
 
     def descend(c, x, n):
         if c < 0:
             yield n
             return
-        for m in range(int(-(reach + x[c]) // cell[c][c]), int((reach - x[c]) // cell[c][c]) + 2):
-            if abs(x[c] + m * cell[c][c]) <= reach:
-                yield from descend(c - 1, [a + m * b for a, b in zip(x, cell[c])], (m,) + n)
+        for m in range(-((reach + x[c]) // s.cell[c][c]), (reach - x[c]) // s.cell[c][c] + 1):
+            yield from descend(c - 1, [a + m * b for a, b in zip(x, s.cell[c])], (m,) + n)
 
-    return descend(s.dim - 1, [(a - b) * unit for a, b in zip(s.x[i], s.x[j])], ())
+    return descend(s.dim - 1, [a - b for a, b in zip(s.x[i], s.x[j])], ())
+
+
+def reach_of(s, radius, gamma):
+    """Beyond this, in 2^k, spheres are open: the largest contact distance and 4 radii, rounded up."""
+    widest = fraction(max(s.ratio), s.se) * (1 + abs(fraction(*s.delta)))
+    reach = math.isqrt(math.ceil(gamma * widest**2 / fraction(1, 2 * s.k))) + 1 + math.ceil(4 * radius / fraction(1, s.k))
+    if math.prod(2 * reach // s.cell[c][c] + 1 for c in range(s.dim)) > MOST_IMAGES:
+        raise Refused(f"gap: the cell is so thin that a sphere meets more than {MOST_IMAGES} images")
+    return reach
 
 
 def least_opening(s, radius, gamma):
     """Every pair and image that is no contact stays open; the least |r|^2 / sigma^2 of them, or None."""
     closed, least = {c[:3] for c in s.contacts}, None
     closed |= {(j, i, tuple(-v for v in n)) for i, j, n in closed}
-    widest = float(gamma) ** 0.5 * max(s.ratio) * 2.0**s.se * (1.0 + abs(float(fraction(*s.delta))))
+    reach = reach_of(s, radius, gamma)
     for i in range(len(s.x)):
         for j in range(i + 1):
-            for n in images(s, i, j, widest * 1.001 + 4.0 * float(radius)):
+            for n in images(s, i, j, reach):
                 if (i == j and not any(n)) or (i, j, n) in closed:
                     continue
                 r, moving = s.vector(i, j, n), (s.stable[i] + s.stable[j]) * (i != j)

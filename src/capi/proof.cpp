@@ -21,12 +21,16 @@ ProofScene take_scene(const jam_system *sys, const double *ratio, size_t ratio_l
   check_array_in(ratio, ratio_len, "ratio");
   if (ratio_len != 0 && ratio_len != p.n())
     fail(JAM_E_ARGUMENT, "ratio_len is %zu, it must be 0 or n = %zu", ratio_len, p.n());
+  // Only ratios count: by a power of two, which is exact, the unit is that of a number near 1.
+  std::vector<double> exact(ratio, ratio + ratio_len);
+  for (double &x : exact)
+    if (ratio[0] > 0.0) x = std::ldexp(x, -std::ilogb(ratio[0]));
   for (size_t i = 0; i < ratio_len; ++i) {
-    const double now = p.diameter[i] * ratio[0] / (p.diameter[0] * ratio[i]);
-    if (!(ratio[i] > 0.0) || !(std::fabs(now - 1.0) < 1e-9))
+    const double now = p.diameter[i] * exact[0] / (p.diameter[0] * exact[i]);
+    if (!(exact[i] > 0.0) || !(std::fabs(now - 1.0) < 1e-9))
       fail(JAM_E_ARGUMENT, "ratio[%zu] is %g: to that of sphere 0 it is not as the diameters are", i, ratio[i]);
   }
-  return make_proof_scene(p, sys->contacts, std::vector<double>(ratio, ratio + ratio_len));
+  return make_proof_scene(p, sys->contacts, exact);
 }
 
 // Lengths in the unit of the packing, forces over their mean.

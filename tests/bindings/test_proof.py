@@ -115,7 +115,7 @@ def nearest_open_pair(f, r):
         for j in range(i):
             if not (scene.stable[i] and scene.stable[j]) or frozenset((i, j)) in closed:
                 continue
-            for n in jamproof.images(scene, i, j, 0.9):
+            for n in jamproof.images(scene, i, j, round(0.9 * 2.0**-scene.k)):
                 v = scene.vector(i, j, n)
                 ratio = jamproof.fraction(sum(c * c for c in v), 2 * scene.k) / jamproof.fraction(*scene.sigma2(i, j))
                 if best is None or ratio < best[0]:
@@ -309,6 +309,32 @@ class Proofs(unittest.TestCase):
                         self.assertNotIsInstance(found, dict, f"{name}: {found}")
                     elif isinstance(found, dict):  # a proof whose radius covers the change is right
                         self.assertGreaterEqual(found["radius"], 0.5 * away)
+
+    def test_a_sphere_on_another_is_seen_however_far_it_is_written(self):
+        """The cell is periodic: a sphere whole cells away lies in the same place."""
+        for text, _ in self.files[:2]:
+            lines = text.splitlines()
+            last = max(k for k, line in enumerate(lines) if line.startswith("sphere"))
+            word = lines[last].split()
+            cell = next(line for line in lines if line.startswith("cell")).split()[1:]
+            for power in (0, 40, 80, 2000):
+                edge = cell[0]  # first vector: along the first axis alone
+                pieces = [p.split("p") for p in edge.split(",")]  # 2^power + 1000 cells
+                parts = ",".join(f"{m}p{int(e) + power},{125 * int(m)}p{int(e) + 3}" for m, e in pieces)
+                far = " ".join([f"{word[3]},{parts}", *word[4:]])
+                added = lines[: last + 1] + [f"sphere 0 {word[2]} {far}"] + lines[last + 1 :]
+                self.assertNotIsInstance(verdict("\n".join(added) + "\n"), dict, power)
+
+    def test_the_unit_of_ratio_is_free(self):
+        s = jam.System.random(n=24, dim=2, seed=3, diameters=[1.0] * 12 + [1.4] * 12)
+        s.compress()
+        s.crunch()
+        ratio = np.array([5.0] * 12 + [7.0] * 12)
+        right = s.prove(ratio)
+        self.assertEqual(right.theorem, jam.Theorem.EXACT)
+        for power in (3, -3, 40, -40, 700, -700, 1000, -1000):
+            found = s.prove(ratio * 2.0**power)
+            self.assertEqual((found.theorem, found.radius), (right.theorem, right.radius), power)
 
     def test_damage_is_refused_or_harmless(self):
         text, generator = self.files[0][0], random.Random(2)

@@ -48,7 +48,9 @@ static jam_status read_as_it_is(const options *o, jam_system **sys) {
   create.frame = o->frame;
   create.non_additivity = o->non_additivity;
   create.overlap = JAM_OVERLAP_ALLOW;
-  return status < 0 ? status : jam_read(o->input, &create, NULL, NULL, sys);
+  if (status < 0 || !is_host_format(o, o->input))
+    return status < 0 ? status : jam_read(o->input, &create, NULL, NULL, sys);
+  return o->given.host->read(o->input, &create, o->given.host->user, sys) ? JAM_CANCELLED : JAM_OK;
 }
 
 /* The proof speaks of the contacts of the file's packing. */
@@ -63,6 +65,7 @@ static int judge(const options *o) {
   jam_system *sys = NULL;
   jam_status status = read_as_it_is(o, &sys), written = JAM_OK;
   report.struct_size = sizeof report;
+  if (status == JAM_CANCELLED) return CHECK_REFUSED; /* the host has told why */
   if (status >= 0) print_warnings(jam_notes(sys));
   if (status >= 0) status = jam_check_options_init(&check, sizeof check);
   if (status >= 0) {
@@ -83,12 +86,12 @@ static int judge(const options *o) {
   return status == JAM_OK ? CHECK_YES : status == JAM_NOT_JAMMED ? CHECK_NO : CHECK_UNDECIDED;
 }
 
-int check_file(int argc, char **argv) {
+int check_file(int argc, char **argv, const jam_pack_host *host) {
   options o;
   int parsed;
   char **words = as_input(argc, argv);
   if (!words) return CHECK_REFUSED;
-  parsed = parse_options(argc, words, &o);
+  parsed = parse_options(argc, words, host, &o);
   free(words);
   return parsed ? parsed - 1 : judge(&o);
 }

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include "jam/jam.h"
+#include "pack.h"
 
 /* Exit codes, documented in --help. */
 enum { EXIT_DONE = 0, EXIT_EARLY = 1, EXIT_USAGE = 2, EXIT_FAILED = 3, EXIT_OUTPUT = 4 };
@@ -27,6 +28,7 @@ typedef struct given {
   uint64_t named;                         /* a bit a row of the table: options on the command line */
   char **words;                           /* the command line, for the report */
   int word_count;
+  const jam_pack_host *host; /* NULL: jam-pack alone */
 } given;
 
 #include "options_table.h"
@@ -60,15 +62,16 @@ void write_checkpoint(const jam_system *sys, const options *o);
 int end_progress(terminal *t, const options *o);
 
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
-int parse_options(int argc, char **argv, options *o);
-/* Calls f for every file that will be written, until it returns something else than 0. */
+int parse_options(int argc, char **argv, const jam_pack_host *host, options *o);
 /* What stands behind the last dot of a name, without .gz; at most 7 letters of it. */
 void ending_of(const char *path, char ending[8]);
+/* Calls f for every file that will be written, until it returns something else than 0. */
 int each_output(const options *o, int (*f)(const char *path));
 
 /* settle.c: 0, or -1 after a message on stderr. What contradicts itself, and what follows from the rest. */
 int settle(options *o);
-int is_named(const options *o, const char *name); /* whether the command line has this option, without dashes */
+int is_host_format(const options *o, const char *path); /* whether the host reads and writes such a file */
+int is_named(const options *o, const char *name);       /* whether the command line has this option, without dashes */
 /* Whether the formats asked for can hold this packing: said before the work. */
 int check_formats(const options *o, const jam_system *sys);
 
@@ -85,6 +88,7 @@ void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell
 int write_report(const options *o, const outcome *result, const char *path);
 void print_summary(const options *o, const outcome *result);
 void print_warnings(const char *notes); /* those of jam_notes, on stderr */
+extern const char *program;             /* its name, in help and messages */
 void complain(const char *format, ...);
 
 /* output.c: a text that is written at its end, as a file that appears whole or not at all. path "-" is standard output,
@@ -101,7 +105,7 @@ int open_output(output *out, const char *path);
 int close_output(output *out);
 
 /* check.c: `jam-pack check FILE`; the exit code. */
-int check_file(int argc, char **argv);
+int check_file(int argc, char **argv, const jam_pack_host *host);
 
 /* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or -1 after a message on stderr. */
 int write_network(jam_system *sys, const options *o, const jam_info *info);

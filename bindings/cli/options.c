@@ -121,6 +121,10 @@ static int take_argument(char **argv, int left, options *o) {
   const char *value = strchr(argv[0], '=');
   const size_t length = value ? (size_t)(value - argv[0]) : strlen(argv[0]);
   const option_row *row = find_option(argv[0], length);
+  if (row && row->flags & NEEDS_HOST && !o->given.host) {
+    complain("option '%s' is one of python3 -m jam", row->name);
+    return 0;
+  }
   if (strncmp(argv[0], "--", 2))
     complain("unexpected argument '%s'", argv[0]);
   else if (!row)
@@ -141,26 +145,40 @@ static int take_argument(char **argv, int left, options *o) {
   return 0;
 }
 
-int parse_options(int argc, char **argv, options *o) {
+/* Lines of options that need a host begin with a tab. */
+static void print_help(const jam_pack_host *host) {
   const char *const *line;
+  for (line = help; *line; ++line) {
+    const char *const name = strstr(*line, "jam-pack ");
+    if (name && line - help < HELP_HEAD)
+      printf("%.*s%s%s\n", (int)(name - *line), *line, program, name + strlen("jam-pack"));
+    else if (**line != '\t')
+      puts(*line);
+    else if (host)
+      puts(*line + 1);
+  }
+}
+
+int parse_options(int argc, char **argv, const jam_pack_host *host, options *o) {
   int k, taken;
   *o = defaults;
+  o->given.host = host;
   o->given.words = argv + 1;
   o->given.word_count = argc - 1;
   for (k = 1; k < argc; ++k) {
     if (!strcmp(argv[k], "--help") || !strcmp(argv[k], "-h")) {
-      for (line = help; *line; ++line) puts(*line);
+      print_help(host);
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
     if (!strcmp(argv[k], "--version")) {
-      printf("jam-pack %s\n", jam_version());
+      printf("%s %s\n", program, jam_version());
       return 1 + (fflush(stdout) ? EXIT_OUTPUT : EXIT_DONE);
     }
   }
   for (k = 1; k < argc; k += taken) {
     taken = take_argument(argv + k, argc - k, o);
     if (taken) continue;
-    fputs("Try 'jam-pack --help'.\n", stderr);
+    fprintf(stderr, "Try '%s --help'.\n", program);
     return 1 + EXIT_USAGE;
   }
   if (settle(o)) return 1 + EXIT_USAGE;

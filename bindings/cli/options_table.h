@@ -45,6 +45,8 @@ typedef struct options {
   const char *proof;
   const char *report;
   const char *log;
+  const char *vtk;
+  const char *plot;
   int quiet;
   double wall_time;
   given given; /* what has a form of its own */
@@ -64,9 +66,11 @@ enum {
   TAKE_STAGE,
   TAKE_PRESSURE,
   TAKE_FRACTION,
-  TAKE_OUTPUT
+  TAKE_OUTPUT,
+  TAKE_TEXT
 };
-enum { AFTER_CRUNCH = 1, TAKES_STDOUT = 2 };
+enum { AFTER_CRUNCH = 1, TAKES_STDOUT = 2, NEEDS_HOST = 4 };
+enum { HELP_HEAD = 7 }; /* lines of the help before the options */
 
 typedef struct option_row {
   const char *name;
@@ -164,6 +168,10 @@ static const option_row table[] = {
     {"--report", TAKE_OUTPUT, offsetof(options, report), 0, 0, NULL, TAKES_STDOUT,
      "", ""},
     {"--log", TAKE_OUTPUT, offsetof(options, log), 0, 0, NULL, TAKES_STDOUT,
+     "", ""},
+    {"--vtk", TAKE_TEXT, offsetof(options, vtk), 0, 0, NULL, 0,
+     "", ""},
+    {"--plot", TAKE_OUTPUT, offsetof(options, plot), 0, 0, NULL, NEEDS_HOST,
      "", ""},
     {"--quiet", TAKE_SWITCH, offsetof(options, quiet), 0, 0, NULL, 0,
      "", ""},
@@ -295,6 +303,8 @@ static const char *const help[] = {
     "  --report FILE|-        figures, protocol and certificate as JSON; - is standard output",
     "  --log FILE|-           what the library says of each stage and LP, a line each with its",
     "                         time",
+    "  --vtk PREFIX           PREFIX.vtp and PREFIX-forces.vtp for ParaView",
+    "\t  --plot PICTURE         spheres, forces and the way there, by matplotlib",
     "  --quiet                no progress, no summary",
     "Other",
     "  --wall-time SECONDS    limit for the whole run",

@@ -38,7 +38,9 @@ static void show_time_left(const jam_progress *p) {
 static int32_t show_progress(const jam_progress *p, void *user) {
   terminal *t = user;
   const double now = seconds_now();
+  const jam_pack_host *const host = t->o->given.host;
   keep_crunch(t, p, now);
+  if (host && host->progress && t->o->plot) host->progress(p, host->user);
   if (t->o->quiet) return 0;
   if (!t->is_terminal && now - t->told < seconds_between_lines) return 0;
   t->told = now;
@@ -67,7 +69,7 @@ int start_progress(terminal *t, const options *o, jam_system *sys) {
   t->told = t->begin;
   t->o = o;
   t->sys = sys;
-  if (!o->quiet || o->checkpoint) jam_set_progress(sys, show_progress, t);
+  if (!o->quiet || o->checkpoint || o->plot) jam_set_progress(sys, show_progress, t);
   if (!o->log) return 0;
   t->log = strcmp(o->log, "-") ? fopen(o->log, "w") : stdout;
   if (t->log) return jam_set_log(sys, write_log, JAM_LOG_INFO, t) < 0;

@@ -6,10 +6,12 @@
 #include <string.h>
 #include "jam-pack.h"
 
+const char *program = "jam-pack";
+
 void complain(const char *format, ...) {
   va_list args;
   va_start(args, format);
-  fputs("jam-pack: ", stderr);
+  fprintf(stderr, "%s: ", program);
   vfprintf(stderr, format, args);
   fputc('\n', stderr);
   va_end(args);
@@ -229,8 +231,8 @@ static void print_changes(const options *o, const outcome *result) {
   if (o->input)
     printf(
         "  the file  is not judged: '%s' is the end state, after the crunch moved spheres by up to %.2g diameters. "
-        "See: jam-pack check %s\n",
-        verdict(r), r->displacement_max, o->input);
+        "See: %s check %s\n",
+        verdict(r), r->displacement_max, program, o->input);
 }
 
 void print_summary(const options *o, const outcome *result) {

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #define JAM_PACK_OPTIONS_TABLE
 #include "jam-pack.h"
@@ -58,6 +59,11 @@ int each_output(const options *o, int (*f)(const char *path)) {
   size_t k;
   for (k = 0; k < sizeof table / sizeof *table; ++k)
     if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]))) return -1;
+  if (o->vtk) {
+    char first[4096];
+    snprintf(first, sizeof first, "%s.vtp", o->vtk);
+    return f(first) ? -1 : 0;
+  }
   return 0;
 }
 
@@ -172,6 +178,13 @@ static int settle_stages(options *o) {
   return -1;
 }
 
+int is_host_format(const options *o, const char *path) {
+  char ending[8];
+  if (!path || !o->given.host || !o->given.host->read) return 0;
+  ending_of(path, ending);
+  return !strcasecmp(ending, "gsd");
+}
+
 static int is_one_of(const char *word, const char *const *list) {
   while (*list && strcmp(word, *list)) ++list;
   return *list != NULL;
@@ -183,15 +196,16 @@ static int settle_formats(const options *o) {
   static const char *const networks[] = {"csv", "dump", "vtp", "", NULL};
   char ending[8];
   if (o->output) {
+    const int host = is_host_format(o, o->output);
     ending_of(o->output, ending);
-    if (!is_one_of(ending, packings) && strspn(ending, "0123456789") != strlen(ending)) {
+    if (!host && !is_one_of(ending, packings) && strspn(ending, "0123456789") != strlen(ending)) {
       complain(
           "--output %s: no format is known by this ending; use .xyz, .extxyz, .data, .lmp, .vtp, .dat, .txt or none,"
           " with .gz behind it or without",
           o->output);
       return -1;
     }
-    if (o->strain != JAM_STRAIN_NONE &&
+    if (o->strain != JAM_STRAIN_NONE && !host &&
         (!is_one_of(ending, packings) || !strcmp(ending, "dat") || !strcmp(ending, "txt") || !*ending)) {
       complain("--strain needs an --output in another format: plain text holds cubes alone");
       return -1;
@@ -259,7 +273,16 @@ int check_formats(const options *o, const jam_system *sys) {
   char ending[8];
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
-  if (o->output) {
+  if (o->vtk && info.dim > 3) {
+    complain("--vtk: such files hold d = 2 and d = 3, this packing has d = %d", (int)info.dim);
+    return -1;
+  }
+  if (is_host_format(o, o->output)) {
+    if (info.dim > 3) {
+      complain("--output %s: such files hold d = 2 and d = 3, this packing has d = %d", o->output, (int)info.dim);
+      return -1;
+    }
+  } else if (o->output) {
     ending_of(o->output, ending);
     if (jam_write(sys, "/dev/null", format_of(ending)) < 0) {
       complain("--output %s: %s", o->output, jam_last_error());

@@ -53,7 +53,9 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
   create.non_additivity = o->non_additivity;
   if (o->resume)
     status = jam_read_checkpoint(o->resume, stop, NULL, sys);
-  else if (o->input)
+  else if (is_host_format(o, o->input)) {
+    if (o->given.host->read(o->input, &create, o->given.host->user, sys)) return EXIT_FAILED;
+  } else if (o->input)
     status = jam_read(o->input, &create, stop, NULL, sys);
   else {
     create.n = o->n;

@@ -1,9 +1,8 @@
-"""What is made from the table of options: jam-pack's parser and help, python3 -m jam's, completion of bash and zsh, and the
-page of the guide."""
+"""What is made from the table of options: the parser and help of jam-pack, completion of bash and zsh, the page of the guide."""
 import re
 import textwrap
 
-from options import ABOUT, EXAMPLE, NOTES, PACK, PYTHON, STAGES, options, usage
+from options import ABOUT, EXAMPLE, NOTES, STAGES, options, usage
 
 MADE = "made by bindings/gen/generate.py from bindings/gen/options.py; do not edit"
 OWN_FORM = ("stage", "sizes", "cell")  # kinds whose values have a form of their own
@@ -11,20 +10,22 @@ COLUMN = 25  # where the help begins what it says of an option
 
 
 def help_text():
+    """Lines, those of options that need a host behind a tab, and how many come before the options."""
     lines = ["Usage: jam-pack [options]", *textwrap.wrap(ABOUT, 80), "", "Example: jam-pack " + EXAMPLE, ""]
-    for section, rows in options(PACK):
+    head_lines = len(lines)
+    for section, rows in options(host=True):
         lines.append(section)
         for o in rows:
             said = textwrap.wrap(o.help, 92 - COLUMN)
             head = "  " + usage(o)
             if len(head) < COLUMN - 1:
-                lines.append(head.ljust(COLUMN) + said.pop(0))
+                text = [head.ljust(COLUMN) + said.pop(0)]
             else:
-                lines.append(head)
-            lines += [" " * COLUMN + line for line in said]
+                text = [head]
+            lines += ["\t" * o.host + line for line in text + [" " * COLUMN + line for line in said]]
     for note in NOTES:
         lines += ["", *textwrap.wrap(note, 92)]
-    return lines
+    return head_lines, lines
 
 
 C_TYPES = {
@@ -48,7 +49,7 @@ def _c_default(o):
 
 
 def emit_c(_api):
-    rows = [o for _, section in options(PACK) for o in section if o.kind != "help"]
+    rows = [o for _, section in options(host=True) for o in section if o.kind != "help"]
     fields = "\n".join(
         f"  {C_TYPES.get(o.kind, 'double')}{'' if 'char' in C_TYPES.get(o.kind, '') else ' '}{o.field};"
         for o in rows
@@ -59,7 +60,7 @@ def emit_c(_api):
         place = "0" if o.kind in OWN_FORM else f"offsetof(options, {o.field})"
         low, high = (o.low, o.high) if o.kind == "integer" else (0, 0)
         words = '"' + " ".join(o.words) + '"' if o.words else "NULL"
-        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout)) if on]) or "0"
+        flags = " | ".join([f for f, on in (("AFTER_CRUNCH", o.after_crunch), ("TAKES_STDOUT", o.stdout), ("NEEDS_HOST", o.host)) if on]) or "0"
         without, needs = ('"' + " ".join("--" + name for name in names) + '"' for names in (o.without, o.needs))
         table.append(
             f'    {{"--{o.name}", TAKE_{o.kind.upper()}, {place}, {low}, {high}, {words}, {flags},\n'
@@ -67,7 +68,8 @@ def emit_c(_api):
         )
         if _c_default(o):
             defaults.append(f"    .{o.field} = {_c_default(o)},")
-    said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"') + '",' for line in help_text())
+    head_lines, lines = help_text()
+    said = "\n".join('    "' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\t", "\\t") + '",' for line in lines)
     stages = ", ".join(f"{{{growth!r}, {pressure!r}}}" for growth, pressure in STAGES)
     kinds = ",\n  ".join(f"TAKE_{k.upper()}" for k in dict.fromkeys(o.kind for o in rows))
     return f"""/* The options of jam-pack: {MADE}. */
@@ -85,7 +87,8 @@ typedef struct options {{
 enum {{
   {kinds}
 }};
-enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2 }};
+enum {{ AFTER_CRUNCH = 1, TAKES_STDOUT = 2, NEEDS_HOST = 4 }};
+enum {{ HELP_HEAD = {head_lines} }}; /* lines of the help before the options */
 
 typedef struct option_row {{
   const char *name;
@@ -116,46 +119,12 @@ static const char *const help[] = {{
 """
 
 
-def emit_python(_api):
-    out = []
-    for section, list_ in options(PYTHON):
-        out.append(f"    # {section}")
-        for o in list_:
-            if o.kind == "help":
-                continue
-            parts = [
-                repr(o.name),
-                repr(o.kind),
-                repr(o.metavar),
-                repr(o.default),
-                repr((o.low, o.high)),
-                repr(o.words),
-                repr(o.after_crunch),
-                repr(o.without),
-                repr(o.needs),
-            ]
-            said = textwrap.wrap(o.help, 96)
-            said = ["        " + repr(line + (" " if k + 1 < len(said) else "")) for k, line in enumerate(said)]
-            out.append("    (" + ", ".join(parts) + ",\n" + "\n".join(said) + "),")
-    return (
-        f'"""The options of python3 -m jam: {MADE}."""\n# fmt: off\n\nABOUT = (\n'
-        + "\n".join("    " + repr(line + " ") for line in textwrap.wrap(ABOUT, 96))
-        + "\n)\n"
-        + f"STAGES = {STAGES!r}  # rate and pressure of the stages of growth by default\nEXAMPLE = {EXAMPLE!r}\nNOTES = (\n"
-        + "\n".join("    " + repr(line + " ") for note in NOTES for line in textwrap.wrap(note, 96))
-        + "\n)\n"
-        + "# name, kind, metavar, default, (low, high), words, needs the crunch, no effect beside, no effect without, help\nOPTIONS = (\n"
-        + "\n".join(out)
-        + "\n)\n"
-    )
-
-
-def _completed(where):
-    return [o for _, rows in options(where) for o in rows]
+def _completed(host=False):
+    return [o for _, rows in options(host) for o in rows]
 
 
 def emit_bash(_api):
-    rows = _completed(PACK)
+    rows = _completed()
     words = " ".join("--" + o.name for o in rows)
     choices = "".join(
         f"    --{o.name}) COMPREPLY=($(compgen -W '{' '.join(o.words)}' -- \"$word\")); return ;;\n"
@@ -182,7 +151,7 @@ complete -o filenames -F _jam_pack jam-pack
 
 def emit_zsh(_api):
     lines = []
-    for o in _completed(PACK):
+    for o in _completed():
         said = o.help.split(";")[0].replace("[", "(").replace("]", ")").replace(":", ",").replace("'", "")
         value = ""
         if o.words:
@@ -213,14 +182,13 @@ def emit_page(_api):
         "python3 -m jam " + EXAMPLE,
         "```",
         "",
-        "Both programs take the same options and write the same bytes. Options of Python alone are marked.",
+        "Both commands run the same code. Options of Python alone are marked; it also reads and writes `.gsd` files.",
         "",
     ]
-    python_only = {o.name for o in _completed(PYTHON)} - {o.name for o in _completed(PACK)}
-    for section, rows in options(PYTHON):
+    for section, rows in options(host=True):
         out += [f"## {section}", "", "| option | meaning |", "|---|---|"]
         for o in rows:
-            mark = " (Python)" if o.name in python_only else ""
+            mark = " (Python)" if o.host else ""
             out.append(f"| `{usage(o).replace('|', chr(92) + '|')}`{mark} | {_marked(o.help)} |")
         out.append("")
     out += ["## How it ends", ""]

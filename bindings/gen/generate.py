@@ -28,7 +28,6 @@ FILES = {
     "bindings/python/jam/_system/methods.py": emit_methods.emit,
     "tests/bindings/layout.c": emit_c.emit,
     "bindings/cli/options_table.h": emit_options.emit_c,
-    "bindings/python/jam/_options.py": emit_options.emit_python,
     "bindings/cli/completion/jam-pack.bash": emit_options.emit_bash,
     "bindings/cli/completion/_jam-pack": emit_options.emit_zsh,
     "bindings/docs/command_line.md": emit_options.emit_page,

@@ -1,4 +1,4 @@
-"""The options of jam-pack and of python3 -m jam: the one table that both parsers, both helps, the manual page, the completion
+"""The options of jam-pack, which python3 -m jam runs: the one table that the parser, the help, the manual page, the completion
 of shells and the guide's page are made from. After a change: sh bindings/gen/regenerate.sh.
 
 Kinds: what a value may be and where it goes.
@@ -17,9 +17,9 @@ Kinds: what a value may be and where it goes.
     sizes         a law of jam_parse_diameters, or a file of diameters
     cell          d or d d numbers, parted by commas
 """
+import re
 from dataclasses import dataclass
-
-BOTH, PACK, PYTHON = "both", "jam-pack", "python3 -m jam"
+from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Option:
     low: int = 0
     high: int = 0
     words: tuple = ()
-    where: str = BOTH
+    host: bool = False  # of python3 -m jam alone
     after_crunch: bool = False
     stdout: bool = False  # "-" is standard output
     without: tuple = ()  # beside one of these it would have no effect: refused
@@ -45,8 +45,21 @@ class Option:
 
 INT32_MAX, INT64_MAX = 2**31 - 1, 2**63 - 1
 
-# Growth of the programs and of ensembles by default: rate and pressure of the stages; that of jam_compress(sys, NULL, ..).
-STAGES = ((1e-2, 500.0), (3e-3, 1e7))
+
+def growth_stages():
+    """Growth by default, from the source of the library: rate and pressure of each stage."""
+    folder = Path(__file__).resolve().parents[2] / "src/dynamics"
+    text = "\n".join(path.read_text() for path in sorted(folder.rglob("*.cpp")) + sorted(folder.rglob("*.hpp")))
+    number = r"([\d.e+-]+)"
+    found = re.findall(rf"first_rate = {number}, first_pressure = {number}, last_rate = {number};", text)
+    last = re.findall(rf"default_compress_options\(\) {{.*?o\.pressure = {number};", text, re.S)
+    if len(found) != 1 or len(last) != 1:
+        raise ValueError("src/dynamics names the stages of growth by default no more, or twice")
+    first_rate, first_pressure, last_rate = map(float, found[0])
+    return ((first_rate, first_pressure), (last_rate, float(last[0])))
+
+
+STAGES = growth_stages()
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 
@@ -309,8 +322,8 @@ TABLE = {
             "what the library says of each stage and LP, a line each with its time",
             stdout=True,
         ),
-        Option("vtk", "text", "PREFIX", "PREFIX.vtp and PREFIX-forces.vtp for ParaView", where=PYTHON),
-        Option("plot", "output", "PICTURE", "spheres, forces and the way there, by matplotlib", where=PYTHON),
+        Option("vtk", "text", "PREFIX", "PREFIX.vtp and PREFIX-forces.vtp for ParaView"),
+        Option("plot", "output", "PICTURE", "spheres, forces and the way there, by matplotlib", host=True),
         Option("quiet", "switch", "", "no progress, no summary"),
     ),
     "Other": (
@@ -336,10 +349,10 @@ NOTES = (
 )
 
 
-def options(where):
-    """Sections with the options that one of the programs has."""
+def options(host=False):
+    """Sections with their options; with host also those of python3 -m jam alone."""
     for section, rows in TABLE.items():
-        yield section, [o for o in rows if o.where in (BOTH, where)]
+        yield section, [o for o in rows if host or not o.host]
 
 
 def usage(o):

@@ -6,6 +6,7 @@
 %{
 #include <string.h>
 #include "jam/jam.h"
+#include "pack.h"
 
 static PyObject *jam_error_factory = NULL; /* callable (status, text) -> exception */
 
@@ -232,6 +233,87 @@ jam_status make_from_file(const char *path, const jam_create_options *o, PyObjec
 }
 jam_status make_from_checkpoint(const char *path, PyObject *callable, jam_system **out) {
   return jam_read_checkpoint(path, jam_on_progress, callable == Py_None ? NULL : (void *)callable, out);
+}
+%}
+
+// ---- the command line: jam-pack's code with what Python adds to it
+%typemap(in) (int argc, char **argv) {
+  Py_ssize_t k;
+  if (!PyList_Check($input)) {
+    PyErr_SetString(PyExc_TypeError, "words: a list of bytes");
+    SWIG_fail;
+  }
+  $1 = (int)PyList_Size($input);
+  $2 = (char **)calloc((size_t)$1 + 1, sizeof *$2);
+  for (k = 0; $2 && k < $1; ++k) {
+    $2[k] = PyBytes_AsString(PyList_GetItem($input, k));
+    if (!$2[k]) SWIG_fail;
+  }
+  if (!$2) {
+    PyErr_NoMemory();
+    SWIG_fail;
+  }
+}
+%typemap(freearg) (int argc, char **argv) { free($2); }
+%{
+/* The callables of the host; they print their own messages. */
+typedef struct jam_callables {
+  PyObject *read, *finish, *progress;
+} jam_callables;
+
+/* What a callable answers: 0, or -1 also after an exception, which is shown. */
+static int jam_answer(PyObject *answer) {
+  const int bad = answer == NULL || !PyObject_IsTrue(answer);
+  if (!answer) PyErr_Print();
+  Py_XDECREF(answer);
+  return bad ? -1 : 0;
+}
+
+static PyObject *jam_path(const char *path) {
+  if (path) return PyUnicode_DecodeFSDefault(path);
+  Py_RETURN_NONE;
+}
+
+/* read(path, options) returns the proxy of a handle, or None after a message. */
+static int jam_pack_read(const char *path, const jam_create_options *o, void *user, jam_system **sys) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  jam_create_options *copy = (jam_create_options *)malloc(sizeof *copy);
+  PyObject *proxy = NULL, *answer = NULL;
+  void *made = NULL;
+  int bad = -1;
+  if (copy) {
+    *copy = *o;
+    proxy = SWIG_NewPointerObj(copy, SWIG_TypeQuery("jam_create_options *"), SWIG_POINTER_OWN);
+  }
+  if (proxy) answer = PyObject_CallFunction(((jam_callables *)user)->read, "NN", jam_path(path), proxy);
+  if (answer && SWIG_IsOK(SWIG_ConvertPtr(answer, &made, SWIG_TypeQuery("jam_system *"), 0)) && made)
+    bad = jam_copy((const jam_system *)made, sys) == JAM_OK ? 0 : -1;
+  if (!answer) PyErr_Print();
+  Py_XDECREF(answer);
+  PyGILState_Release(gil);
+  return bad;
+}
+
+/* finish(handle, output or None, plot or None) returns whether all is written. */
+static int jam_pack_finish(jam_system *sys, const char *output, const char *plot, void *user) {
+  PyGILState_STATE gil = PyGILState_Ensure();
+  PyObject *proxy = SWIG_NewPointerObj(sys, SWIG_TypeQuery("jam_system *"), SWIG_POINTER_OWN);
+  const int bad = jam_answer(PyObject_CallFunction(((jam_callables *)user)->finish, "NNN", proxy, jam_path(output),
+                                                   jam_path(plot)));
+  PyGILState_Release(gil);
+  return bad;
+}
+
+static int32_t jam_pack_progress(const jam_progress *progress, void *user) {
+  return jam_on_progress(progress, ((jam_callables *)user)->progress);
+}
+%}
+%inline %{
+/* Runs a command line, whose first word is the name of the program, and returns the exit status. */
+int pack(int argc, char **argv, PyObject *read, PyObject *finish, PyObject *progress) {
+  jam_callables callables = {read, finish, progress};
+  jam_pack_host host = {argc > 0 ? argv[0] : "jam", jam_pack_read, jam_pack_finish, jam_pack_progress, &callables};
+  return jam_pack(argc, argv, &host);
 }
 %}
 %include "jam/jam.h"

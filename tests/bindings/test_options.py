@@ -32,7 +32,7 @@ class Options(unittest.TestCase):
         self.assertEqual(names((ROOT / "bindings/cli/completion/_jam-pack").read_text()), mine)
         self.assertEqual(names((ROOT / "bindings/cli/completion/jam-pack.bash").read_text()), mine)
         page = (ROOT / "bindings/docs/command_line.md").read_text()
-        self.assertEqual({"--" + n for n in re.findall(r"^\| `--([\w-]+)", page, re.M)}, mine | {"--vtk", "--plot"})
+        self.assertEqual({"--" + n for n in re.findall(r"^\| `--([\w-]+)", page, re.M)}, mine | {"--plot"})
 
     def complete(self, *words):
         script = (
@@ -85,7 +85,7 @@ class Options(unittest.TestCase):
         self.assertNotIn("\r", said.stderr)
 
     def test_options_without_effect(self):
-        """Both programs take the rules from the one table; jam_pack.py tries them all."""
+        """jam_pack.py tries all rules; here those of both programs."""
         for arguments, text in (
             (["--input", "a", "--n", "77"], "--n has no effect beside --input"),
             (["--non-additivity", "0.1"], "--non-additivity has no effect without --sizes"),

@@ -223,6 +223,17 @@ class Gsd(Folder):
         self.assertEqual(jam.System.read(out).box, 8.0)
         with open(report, encoding="utf-8") as file:
             self.assertIn("the corner of the cell is at -4", " ".join(json.load(file)["notes"]))
+        again = os.path.join(self.folder, "again.gsd")
+        for words, code in (
+            (["--input", out, "--no-crunch", "--output", again], 0),
+            (["--input", os.path.join(self.folder, "none.gsd")], 3),
+            (["--n", "20", "--dim", "4", "--no-md", "--no-crunch", "--output", again], 2),  # d = 2 and 3 alone
+        ):
+            done = subprocess.run([sys.executable, "-m", "jam", "--quiet", *words], capture_output=True, text=True)
+            self.assertEqual((done.returncode, bool(done.stderr)), (code, code > 0), done.stderr)
+        np.testing.assert_array_equal(jam.System.read(again).positions, jam.System.read(out).positions)
+        checked = subprocess.run([sys.executable, "-m", "jam", "check", again], capture_output=True, text=True)
+        self.assertEqual((checked.returncode, checked.stderr), (1, ""), checked.stdout)
 
     def test_no_gsd(self):
         with open(self.path, "w") as file:

@@ -8,6 +8,8 @@ from .shown import as_table as _as_table
 
 JAM_ABI = 0
 JAM_MAX_DIM = 8
+# growth by default, of the library's source: rate and pressure of each stage
+GROWTH_STAGES = ((0.01, 500.0), (0.003, 10000000.0))
 
 
 class StatusCode(IntEnum):

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import math
 import sys
-import time
 from typing import Any, Callable
 
 
@@ -73,20 +72,6 @@ class Line:
             self._bar.close()
         elif self._last:
             sys.stderr.write("\n")
-
-
-def every_ten_seconds() -> Callable[[Any], bool]:
-    """For pipes and files: a line on stderr now and then."""
-    told = time.monotonic()
-
-    def line(p: Any) -> bool:
-        nonlocal told
-        if time.monotonic() - told >= 10.0:
-            told = time.monotonic()
-            print(_text(p), file=sys.stderr, flush=True)
-        return False
-
-    return line
 
 
 def end(told: Any) -> None:

@@ -19,10 +19,10 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
-from .. import _options as _programs, errors, raw
+from .. import errors, raw
 from .._api import generated
 from .._api.arrays import Array
-from .._api.generated import OPTIONS, StatusCode
+from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
 from .._api.options import option_struct, spelled_out
 from .._api.size_laws import sizes as draw_sizes
 from ..system import System
@@ -31,8 +31,8 @@ PARTS = ("start", "stages", "crunch", "analysis")
 LATTICES = ("fcc",)
 #: Laws of diameters and what they take by default; besides these, every law of jam.sizes.
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
-#: Growth that avoids crystals: fast through the fluid, slower in the glass (the stages of `python3 -m jam`).
-STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in _programs.STAGES)
+#: Growth that avoids crystals: fast through the fluid, slower in the glass, as of System.compress().
+STAGES = tuple({"growth_rate": growth, "pressure": pressure} for growth, pressure in GROWTH_STAGES)
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 1.0, "stable_only": 1}, "crystal_score": {}}
 _NOT_IN_START = ("seed", "overlap")  # the seed is the packing's own; a start never overlaps
 

@@ -1,0 +1,320 @@
+/* From nothing, or from a file, to a certified jammed packing: the whole of jam-pack. */
+#define _XOPEN_SOURCE 700
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "jam-pack.h"
+
+/* The handler can reach nothing else: the handle to cancel, and that it was asked to. */
+static jam_system *volatile running = NULL;
+static volatile sig_atomic_t interrupted = 0;
+
+static void on_signal(int number) {
+  interrupted = 1;
+  if (running) jam_cancel(running);
+  signal(number, SIG_DFL); /* a second Ctrl-C ends the program at once */
+}
+
+static int32_t stop_if_asked(const jam_progress *progress, void *user) {
+  (void)progress, (void)user;
+  return interrupted;
+}
+
+/* ---- the parts of the job; each returns the library's status */
+
+static void add_md(outcome *result, const jam_md_report *md) {
+  result->has_md = 1;
+  result->md_stop = md->stop_reason;
+  result->collisions += md->collisions;
+  result->pressure = md->pressure;
+  result->seconds_md += md->seconds;
+}
+
+/* With --checkpoint a stage runs in slices: they cost nothing, and a killed job goes on from the last one. */
+static double slice(const options *o, double deadline) {
+  const double left = deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3;
+  return o->checkpoint && left > o->checkpoint_every ? o->checkpoint_every : left;
+}
+
+static int goes_on(const jam_system *sys, const options *o, double deadline, jam_status status,
+                   const jam_md_report *md) {
+  if (status >= 0) write_checkpoint(sys, o);
+  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && deadline - seconds_now() > 1e-3 &&
+         !interrupted;
+}
+
+static jam_status run_nve(jam_system *sys, const options *o, int32_t resume, double deadline, outcome *result) {
+  jam_run_options run;
+  jam_md_report md;
+  jam_status status = jam_run_options_init(&run, sizeof run);
+  md.struct_size = sizeof md;
+  run.collisions_per_particle = o->nve > 0 ? o->nve : run.collisions_per_particle;
+  run.resume = resume;
+  do {
+    run.wall_time = slice(o, deadline);
+    status = jam_run(sys, &run, &md);
+    if (status >= 0) add_md(result, &md);
+    run.resume = 1;
+  } while (goes_on(sys, o, deadline, status, &md));
+  return status;
+}
+
+/* s NULL: the stage of a checkpoint. */
+static jam_status run_stage(jam_system *sys, const options *o, const stage *s, double deadline, outcome *result) {
+  jam_compress_options compress;
+  jam_md_report md;
+  jam_status status = jam_compress_options_init(&compress, sizeof compress);
+  md.struct_size = sizeof md;
+  compress.resume = !s;
+  if (s) {
+    compress.growth_rate = s->growth;
+    compress.pressure = s->pressure;
+    if (o->given.density > 0) compress.packing_fraction = o->given.density;
+  }
+  do {
+    compress.wall_time = slice(o, deadline);
+    status = jam_compress(sys, &compress, &md);
+    if (status >= 0) add_md(result, &md);
+    compress.resume = 1;
+  } while (goes_on(sys, o, deadline, status, &md));
+  return status;
+}
+
+/* What a checkpoint was in the middle of; then the stages that lead beyond its pressure are left, or the crunch alone.
+ */
+static jam_status finish_paused(jam_system *sys, const options *o, terminal *t, double deadline, outcome *result,
+                                int *stages_left) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_get_info(sys, &info);
+  if (info.paused == JAM_PHASE_CRUNCH) *stages_left = 0;
+  t->stage = "resumed stage";
+  result->pressure = info.pressure;
+  if (info.paused == JAM_PHASE_RUN) return run_nve(sys, o, 1, deadline, result);
+  return info.paused && *stages_left ? run_stage(sys, o, NULL, deadline, result) : JAM_OK;
+}
+
+static jam_status run_crunch(jam_system *sys, const options *o, double wall_time, outcome *result) {
+  jam_crunch_options crunch;
+  jam_status status = jam_crunch_options_init(&crunch, sizeof crunch);
+  crunch.lp_solver = (int32_t)o->lp;
+
+  crunch.method = (int32_t)o->method;
+  crunch.strain = (int32_t)o->strain;
+  crunch.threads = (int32_t)o->threads;
+  crunch.duality_gap = o->duality_gap;
+  crunch.prove = o->prove;
+  crunch.keep_steps = o->page ? (int32_t)o->page_steps : 0;
+  crunch.wall_time = wall_time;
+  result->crunch.struct_size = sizeof result->crunch;
+  if (status >= 0) status = jam_crunch(sys, &crunch, &result->crunch);
+  result->has_crunch = status >= 0;
+  if (status == JAM_CANCELLED || status == JAM_LIMIT ||
+      (status == JAM_OK && result->crunch.stop_reason == JAM_STOP_DUALITY_GAP))
+    write_checkpoint(sys, o);
+  return status;
+}
+
+/* Dynamics kept on disk before the crunch: a killed crunch then costs the crunch only. */
+static void keep(const jam_system *sys, const char *path) {
+  struct stat there;
+  if (path && (stat(path, &there) || S_ISREG(there.st_mode))) jam_write(sys, path, JAM_FORMAT_AUTO);
+}
+
+/* Dynamics that end before their aim are no reason to stop, but never go unseen. */
+static void warn(const terminal *t, jam_status status, outcome *result) {
+  if (status != JAM_NOT_CONVERGED && status != JAM_PRECISION) return;
+  if (status == JAM_NOT_CONVERGED) result->fell_short = 1;
+  complain("warning: %s ended at p = %.4g: %s: %s", t->stage, result->pressure, jam_stop_string(result->md_stop),
+           jam_last_error());
+}
+
+/* Molecular dynamics may end by precision or by stalling, and the crunch goes on from there; limits and Ctrl-C end the
+ * job. */
+static int ends_job(jam_status status) {
+  return status < 0 || status == JAM_CANCELLED || status == JAM_LIMIT || interrupted;
+}
+
+/* Growth leads to no density below that of the start. */
+static int lies_above(const jam_system *sys, double density) {
+  jam_info info;
+  info.struct_size = sizeof info;
+  jam_get_info(sys, &info);
+  if (!(density > 0) || info.packing_fraction <= density * (1 + 1e-12)) return 0;
+  complain("warning: the packing fraction is %.6g, above the %.6g to grow to: nothing was done", info.packing_fraction,
+           density);
+  return 1;
+}
+
+static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *result) {
+  const double deadline = t->begin + o->wall_time;
+  char name[64] = "NVE";
+  jam_status status = JAM_OK;
+  int k, stages_left = o->given.stage_count;
+#define LEFT (deadline - seconds_now() > 1e-3 ? deadline - seconds_now() : 1e-3)
+  t->stage = name;
+  result->fell_short = lies_above(sys, o->given.density);
+  if (result->fell_short) return JAM_OK;
+  if (o->resume)
+    status = finish_paused(sys, o, t, deadline, result, &stages_left);
+  else if (o->nve > 0)
+    status = run_nve(sys, o, 0, deadline, result);
+  warn(t, status, result);
+  t->stage = name;
+  for (k = 0; k < stages_left && !ends_job(status); ++k) {
+    if (o->resume && o->given.stages[k].pressure <= result->pressure) continue;
+    if (o->given.density > 0 && result->has_md && result->md_stop == JAM_STOP_PACKING_FRACTION) break;
+    snprintf(name, sizeof name, o->given.stages[k].growth > 0 ? "growth %g" : "growth", o->given.stages[k].growth);
+    status = run_stage(sys, o, &o->given.stages[k], deadline, result);
+    if (status >= 0) result->stage_stop[k] = result->md_stop;
+    warn(t, status, result);
+  }
+  if (o->given.density > 0 && !ends_job(status) && !(result->has_md && result->md_stop == JAM_STOP_PACKING_FRACTION)) {
+    complain("warning: growth ended at p = %.4g, before the packing fraction %.6g", result->pressure, o->given.density);
+    result->fell_short = 1;
+  }
+  if (o->no_crunch || ends_job(status)) return status;
+  if (result->has_md && !is_host_format(o, o->output)) keep(sys, o->output);
+  strcpy(name, "crunch");
+  return run_crunch(sys, o, LEFT, result);
+#undef LEFT
+}
+
+/* 1 after a message when a call failed. */
+static int told(jam_status status) {
+  if (status < 0) complain("%s", jam_last_error());
+  return status < 0;
+}
+
+/* By the ending of the name; a table where there is none. */
+static int write_contacts(const jam_system *sys, const char *path) {
+  char ending[8];
+  ending_of(path, ending);
+  if (!strcmp(path, "-")) path = "/dev/stdout";
+  return told(jam_write_contacts(sys, path, *ending ? JAM_CONTACTS_AUTO : JAM_CONTACTS_CSV));
+}
+
+/* PREFIX.vtp, and PREFIX-forces.vtp where there is a network. */
+static int write_vtk(const jam_system *sys, const char *prefix, int network) {
+  char *const path = malloc(strlen(prefix) + sizeof "-forces.vtp");
+  int bad;
+  if (!path) {
+    complain("cannot write %s.vtp: out of memory", prefix);
+    return 1;
+  }
+  sprintf(path, "%s.vtp", prefix);
+  bad = told(jam_write(sys, path, JAM_FORMAT_VTP));
+  sprintf(path, "%s-forces.vtp", prefix);
+  if (network) bad |= told(jam_write_contacts(sys, path, JAM_CONTACTS_VTP));
+  free(path);
+  return bad;
+}
+
+/* What the host writes and draws, from a copy. */
+static int finish_by_host(const jam_system *sys, const options *o) {
+  const jam_pack_host *const host = o->given.host;
+  const char *const output = is_host_format(o, o->output) ? o->output : NULL;
+  jam_system *copy = NULL;
+  if (!host || !host->finish || (!output && !o->plot)) return 0;
+  if (jam_copy(sys, &copy) != JAM_OK) return told(JAM_E_MEMORY);
+  return host->finish(copy, output, o->plot, host->user) != 0;
+}
+
+static int write_all(jam_system *sys, const options *o, outcome *result) {
+  int bad = 0;
+  result->info.struct_size = sizeof result->info;
+  jam_get_info(sys, &result->info);
+  result->notes = jam_notes(sys);
+  if (o->output && !is_host_format(o, o->output)) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
+  if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts);
+  if (o->proof && result->has_crunch) bad |= told(jam_write_proof(sys, o->proof, NULL, 0));
+  if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
+  running = sys; /* a large spectrum takes long */
+  if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;
+  running = NULL;
+  if (o->vtk) bad |= write_vtk(sys, o->vtk, result->has_crunch);
+  bad |= finish_by_host(sys, o);
+  if (o->report) bad |= write_report(o, result, o->report) != 0;
+  if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
+  return bad || fflush(stdout);
+}
+
+/* Signals stop the work; afterwards those who had them get them back. */
+typedef struct signals {
+  struct sigaction interrupt, terminate;
+} signals;
+
+static void take_signals(signals *before) {
+  struct sigaction own;
+  memset(&own, 0, sizeof own);
+  own.sa_handler = on_signal;
+  sigemptyset(&own.sa_mask);
+  interrupted = 0;
+  sigaction(SIGINT, &own, &before->interrupt);
+  sigaction(SIGTERM, &own, &before->terminate);
+}
+
+static void give_signals_back(const signals *before) {
+  sigaction(SIGINT, &before->interrupt, NULL);
+  sigaction(SIGTERM, &before->terminate, NULL);
+}
+
+/* The job of one command line, from its start to its files. */
+static int run_job(options *o) {
+  outcome result;
+  terminal t = {"start", seconds_now(), 0, 0, 0, NULL, NULL, NULL};
+  jam_system *sys = NULL;
+  jam_status status = JAM_OK;
+  int bad, code;
+  memset(&result, 0, sizeof result);
+  code = start(o, stop_if_asked, &sys);
+  if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count) && check_formats(o, sys)) code = EXIT_USAGE;
+  if (!code) print_warnings(jam_notes(sys));
+  running = sys;
+  if (!code && start_progress(&t, o, sys)) code = EXIT_OUTPUT;
+  if (code) {
+    running = NULL;
+    jam_destroy(sys);
+    return code;
+  }
+  if (!interrupted) status = work(sys, o, &t, &result);
+  running = NULL;
+  bad = end_progress(&t, o);
+  if (status == JAM_E_UNPLACEABLE) { /* the density lies beyond reach: nothing was done that is worth a file */
+    complain("%s", jam_last_error());
+    jam_destroy(sys);
+    return EXIT_FAILED;
+  }
+  if (status < 0)
+    complain("%s", jam_last_error());
+  else if (interrupted)
+    complain("interrupted; writing the state reached");
+  else if (status > 0)
+    complain("stopped early: %s", jam_last_error());
+  else if (result.fell_short)
+    complain("dynamics fell short of their aim: see the warning above");
+  bad |= write_all(sys, o, &result);
+  jam_destroy(sys);
+  if (bad) return EXIT_OUTPUT;
+  if (status < 0) return EXIT_FAILED;
+  return status > 0 || interrupted || result.fell_short ? EXIT_EARLY : EXIT_DONE;
+}
+
+int jam_pack(int argc, char **argv, const jam_pack_host *host) {
+  options o;
+  signals before;
+  int code;
+  program = host ? host->name : "jam-pack";
+  if (argc > 1 && !strcmp(argv[1], "check")) return check_file(argc, argv, host);
+  code = parse_options(argc, argv, host, &o);
+  if (code) return code - 1;
+  if (each_output(&o, check_writable)) return EXIT_OUTPUT;
+  take_signals(&before);
+  code = run_job(&o);
+  give_signals_back(&before);
+  return code;
+}

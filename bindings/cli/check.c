@@ -61,7 +61,7 @@ static jam_status write_proof_file(jam_system *sys, const char *path) {
 
 static int judge(const options *o) {
   jam_check_options check;
-  jam_check_report report;
+  jam_check_report report = {0};
   jam_system *sys = NULL;
   jam_status status = read_as_it_is(o, &sys), written = JAM_OK;
   report.struct_size = sizeof report;

@@ -1231,7 +1231,7 @@ module jam
     integer(c_int32_t) :: reason = 0
     ! d
     integer(c_int32_t) :: dim = 0
-    ! decimal digits that the coordinates seem to have; 0: all of a double
+    ! decimal digits that coordinates, diameters or cell seem to have; 0: all
     integer(c_int32_t) :: digits = 0
     ! jam_verdict of the crunched copy; UNTESTED without one
     integer(c_int32_t) :: crunch_jammed = 0
@@ -1269,7 +1269,7 @@ module jam
     real(c_double) :: force_residual = 0
     ! smallest eigenvalue on contacts with force that is no translation
     real(c_double) :: rigidity_margin = 0
-    ! most coordinates are multiples of it, unit of the box; 0: all digits are there
+    ! the numbers given are multiples of it, unit of the box; 0: all digits are there
     real(c_double) :: coordinate_step = 0
     ! of gaps: from the digits of the coordinates, and from overlaps
     real(c_double) :: resolution = 0

@@ -1461,7 +1461,7 @@ typedef struct jam_check_report {
   int32_t stationary;             /* @enum jam_verdict: non-negative forces balance */
   int32_t reason;                 /* @enum jam_check_reason of jammed */
   int32_t dim;                    /* d */
-  int32_t digits;                 /* decimal digits that the coordinates seem to have; 0: all of a double */
+  int32_t digits;                 /* decimal digits that coordinates, diameters or cell seem to have; 0: all */
   int32_t crunch_jammed;          /* @enum jam_verdict of the crunched copy; UNTESTED without one */
   int64_t n;                      /* number of spheres */
   int64_t contacts;               /* closed pairs (gaps below 1e-10) that carry force */
@@ -1480,7 +1480,7 @@ typedef struct jam_check_report {
   double max_contact_gap;         /* largest |gap| of a contact with force */
   double force_residual;          /* largest |sum_j f_ij n_ij| over the mean force */
   double rigidity_margin;         /* smallest eigenvalue on contacts with force that is no translation */
-  double coordinate_step;         /* most coordinates are multiples of it, unit of the box; 0: all digits are there */
+  double coordinate_step;         /* the numbers given are multiples of it, unit of the box; 0: all digits are there */
   double resolution;              /* of gaps: from the digits of the coordinates, and from overlaps */
   double diameter_factor;         /* diameters were tested times this, so that no pair overlaps; 1: as they are */
   double crunch_packing_fraction; /* of the crunched copy */

@@ -25,6 +25,20 @@ jam_status guard_cancellable(jam_system *sys, F &&f) noexcept {
     }
   });
 }
+// The same with a report, which is `unknown` where the call was left.
+template <class Report, class F>
+jam_status guard_cancellable(jam_system *sys, Report unknown, Report *report, F &&f) noexcept {
+  return guard_cancellable(sys, [&]() -> Answer {
+    check_out_struct(report, "report");
+    try {
+      return f();
+    } catch (const Cancelled &) {
+      unknown.struct_size = sizeof unknown;
+      give_struct(unknown, report);
+      throw;
+    }
+  });
+}
 inline bool empty_network(const jam_system *sys) { return sys->contacts.size() == 0; }
 
 inline jam_hessian_options take_hessian_options(const jam_hessian_options *h) {

@@ -78,6 +78,8 @@ jam_status jam_moduli(jam_system *sys, const jam_hessian_options *h, jam_moduli_
     need(moduli, "moduli");
     check_out_struct(moduli, "moduli");
     need_network(sys);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    give_struct(jam_moduli_report{sizeof(jam_moduli_report), 0, nan, nan, nan, nan, nan, nan}, moduli);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     give_struct(elastic_moduli(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options)), moduli);

@@ -5,6 +5,7 @@
 #include "capi/guard.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/create.hpp"
+#include "core/digits.hpp"
 
 using namespace jam;
 
@@ -14,6 +15,7 @@ namespace {
 void take_cell(jam_system *sys, Packing &p) {
   settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
   sys->commit(p);
+  sys->packing.given = p.given;
 }
 
 }  // namespace
@@ -36,6 +38,7 @@ jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, in
     check_output(transform, transform_len, cell_len, "transform");
     check_output(rotation, rotation_len, cell_len, "rotation");
     const ReducedCell reduced = reduce_cell(p.dim, cell);
+    p.given.take(digits_of(p.dim, p.position, p.diameter, std::vector<double>(cell, cell + cell_len)));
     enter_cell(p, reduced);
     take_cell(sys, p);
     put_output(reduced.transform, transform, cell_len);

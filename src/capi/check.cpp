@@ -19,19 +19,22 @@ jam_check_options default_check_options() {
   return o;
 }
 
-// What a crunch does to an undecided packing. Where it fails the report says that no crunch ran.
+// What a crunch does to an undecided packing. Where it fails, or does not end in time, the report says that no crunch
+// ran.
 void crunch_copy(const Packing &tested, double wall_time, Monitor &monitor, jam_check_report &r) {
   jam_crunch_options o = default_crunch_options();
-  o.wall_time = wall_time;
+  o.wall_time = monitor.seconds() + wall_time;
   try {
     const CrunchResult c = crunch(tested, o, monitor);
     if (monitor.cancelled()) throw Cancelled();
-    if (c.status < 0) return;
+    if (c.status < 0 || c.report.stop_reason == JAM_STOP_WALL_TIME) return;
     r.crunch_jammed = c.report.jammed ? JAM_VERDICT_YES : JAM_VERDICT_UNDECIDED;
     r.crunch_contacts = c.report.contacts;
     r.crunch_packing_fraction = c.report.packing_fraction;
     r.crunch_displacement_max = c.report.displacement_max_stable;
     r.crunch_displacement_rms = c.report.displacement_rms_stable;
+  } catch (const Cancelled &) {  // by the limit of the crunch, which is over
+    if (monitor.cancelled()) throw;
   } catch (const Error &e) {
     monitor.log(JAM_LOG_WARNING, "check: no crunch of the copy: %s", e.what());
   }
@@ -59,8 +62,7 @@ jam_status jam_check_options_init(jam_check_options *o, size_t size) {
 }
 
 jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_check_report *report) {
-  return guard_cancellable(sys, [&]() -> Answer {
-    check_out_struct(report, "report");
+  return guard_cancellable(sys, untested_check(), report, [&]() -> Answer {
     jam_check_options full = default_check_options();
     take_options(o, full);
     check_flag(full.crunch, "crunch");

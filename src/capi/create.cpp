@@ -10,6 +10,7 @@
 #include "capi/make_system.hpp"
 #include "core/checks.hpp"
 #include "core/create.hpp"
+#include "core/digits.hpp"
 #include "core/limits.hpp"
 #include "core/pairs.hpp"
 
@@ -31,6 +32,7 @@ void jam_system::commit(const Packing &result, Results &&found) noexcept {
 }
 
 void jam_system::show(const Packing &result) noexcept {
+  if (result.position != packing.position) packing.given = {};
   std::copy(result.position.begin(), result.position.end(), packing.position.begin());
   std::copy(result.diameter.begin(), result.diameter.end(), packing.diameter.begin());
   std::copy(result.velocity.begin(), result.velocity.end(), packing.velocity.begin());
@@ -146,9 +148,11 @@ jam_status jam_set_positions(jam_system *sys, const double *positions, size_t po
       fail(JAM_E_ARGUMENT, "positions_len is %zu, n * dim is %zu", positions_len, p.position.size());
     check_array_in(positions, positions_len, "positions");
     p.position.assign(positions, positions + positions_len);
+    p.given.take(digits_of(p.dim, p.position, p.diameter, p.cell.rows()));
     wrap_positions(p);
     settle_overlaps(p, p.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
     sys->commit(p);
+    sys->packing.given = p.given;
     return JAM_OK;
   });
 }

@@ -64,6 +64,7 @@ jam_status jam_read(const char *path, const jam_create_options *o, jam_progress_
       try {
         sys.packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
                                    file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), &sys.notes);
+        sys.packing.given.take(file.given());
       } catch (const Error &e) {
         refuse(path, e, file.notes);
       }

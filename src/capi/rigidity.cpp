@@ -44,8 +44,11 @@ PackingVerdict test(const jam_system *sys, Jamming kind) {
 extern "C" {
 
 jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report) {
-  return guard_cancellable(sys, [&]() -> Answer {
-    check_out_struct(report, "report");
+  jam_rigidity_report untested{};
+  untested.kind = kind;
+  untested.jammed = untested.stationary = JAM_VERDICT_UNTESTED;
+  untested.rigidity_margin = untested.force_residual = std::numeric_limits<double>::quiet_NaN();
+  return guard_cancellable(sys, untested, report, [&]() -> Answer {
     const Jamming jamming = take_kind(kind);
     const PackingVerdict v = test(sys, jamming);
     if (sys->has_report && jamming == Jamming::strict) sys->report.strictly_jammed = verdict_code(v.result.jammed);

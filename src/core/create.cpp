@@ -7,6 +7,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
+#include "core/digits.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
@@ -381,6 +382,8 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   if (positions_len) {
     p.position.resize(n * o.dim);
     p.position.assign(positions, positions + positions_len);
+    const std::vector<double> rows = p.cell.rows();
+    p.given = digits_of(p.dim, p.position, p.diameter, cell ? std::vector<double>(cell, cell + rows.size()) : rows);
     if (cell) {
       const ReducedCell reduced = reduce_cell(p.dim, cell);
       say_cell(reduced, p.dim, notes);

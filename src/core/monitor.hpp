@@ -128,4 +128,19 @@ class Monitor {
   jam_progress last_report_ = progress_of(JAM_PHASE_ANALYSE);
 };
 
+// The limit of one part of a call: what comes after that part has the limit of before.
+class TimeLimit {
+ public:
+  TimeLimit(Monitor &monitor, double wall_time) : monitor_(monitor), before_(monitor.wall_time) {
+    monitor.wall_time = wall_time;
+  }
+  ~TimeLimit() { monitor_.wall_time = before_; }
+  TimeLimit(const TimeLimit &) = delete;
+  TimeLimit &operator=(const TimeLimit &) = delete;
+
+ private:
+  Monitor &monitor_;
+  double before_;
+};
+
 }  // namespace jam

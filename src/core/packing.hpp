@@ -15,6 +15,15 @@ struct MkRedrawn {
   int32_t i, j, attempt;
 };
 
+// Numbers are multiples of a step, as wide as a unit of the last digit that they have.
+struct GivenDigits {
+  double step = 0.0;  // a length; 0: all digits of a double
+  int base = 0;       // 10 or 2: decimal digits, or bits as of single precision
+  void take(const GivenDigits &other) {
+    if (other.step > step) *this = other;
+  }
+};
+
 struct Packing {
   int dim = 3;
   Cell cell;
@@ -28,6 +37,7 @@ struct Packing {
   std::vector<double> diameter;       // n
   std::vector<double> velocity;       // (n, dim), kT/m = 1; all zero until MD draws them
   double pressure = std::numeric_limits<double>::quiet_NaN();  // last measured by MD
+  GivenDigits given;  // of the numbers that positions, diameters and cell were given by; moves leave none
   bool has_velocity = false;
   bool overlap_allowed = false;  // soft spheres: JAM_OVERLAP_ALLOW at creation
 

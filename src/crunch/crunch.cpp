@@ -146,7 +146,7 @@ static void look_ahead(const Packing &start, const jam_crunch_options &o, Monito
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
                     const CrunchHooks *hooks) {
   check_options(start, o);
-  monitor.wall_time = o.wall_time;
+  const TimeLimit limit(monitor, o.wall_time);
   History own_history;
   const CrunchHooks no_hooks;
   CrunchState s(start, o, monitor, history ? *history : own_history, hooks ? *hooks : no_hooks);

@@ -34,6 +34,8 @@ struct Header {
   char magic[8];
   int64_t n, seed, redrawn, beside;
   int32_t dim, model, flags, masses;
+  double given_step;
+  int64_t given_base;
   double mk_zeta, pressure, non_additivity;
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];  // (dim, dim) cell vectors, the rest 0
 };
@@ -107,6 +109,7 @@ void write_checkpoint(const Packing &p, const std::string &beside, const char *p
   h.beside = static_cast<int64_t>(beside.size());
   h.masses = p.masses;
   h.dim = p.dim;
+  h.given_step = p.given.step, h.given_base = p.given.base;
   h.model = p.model;
   h.flags = (p.has_velocity ? flag_velocity : 0) | (p.overlap_allowed ? flag_overlap_allowed : 0);
   for (int k = 0; k < p.dim; ++k) std::copy(p.cell.row(k), p.cell.row(k) + p.dim, h.cell + k * p.dim);
@@ -160,6 +163,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   p.mk_zeta = h.mk_zeta;
   p.pressure = h.pressure;
   p.non_additivity = h.non_additivity;
+  p.given.step = h.given_step, p.given.base = static_cast<int>(h.given_base);
   p.has_velocity = (h.flags & flag_velocity) != 0;
   p.overlap_allowed = (h.flags & flag_overlap_allowed) != 0;
   const char *at = all.data() + sizeof h;
@@ -176,7 +180,8 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   check_packing(p, JAM_E_FORMAT);
   bool good = (h.model == JAM_MODEL_EUCLID || h.model == JAM_MODEL_MK) &&
               (h.masses == JAM_MASSES_EQUAL || h.masses == JAM_MASSES_VOLUME) &&
-              (h.model == JAM_MODEL_EUCLID || is_mk_zeta(h.mk_zeta));
+              (h.model == JAM_MODEL_EUCLID || is_mk_zeta(h.mk_zeta)) && h.given_step >= 0.0 &&
+              std::isfinite(h.given_step) && (h.given_base == 0 || h.given_base == 2 || h.given_base == 10);
   const MkRedrawn *last = nullptr;
   for (const MkRedrawn &r : p.mk_redrawn) {
     good = good && r.i >= 0 && r.i < r.j && r.j < h.n && r.attempt > 0 &&

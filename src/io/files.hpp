@@ -19,6 +19,8 @@ struct FileContent {
   bool has_non_additivity = false;
   std::vector<double> position;  // (n, dim) as written, not wrapped
   std::vector<double> diameter;  // n, or 1 for all
+  std::vector<double> origin;    // what the reader has subtracted from the positions of the file; empty: nothing
+  GivenDigits given() const;     // of the numbers as they stand in the file
   Notes notes;                   // what of the file was dropped, wrapped, sorted or assumed
   bool has_box() const { return box > 0.0 || !cell.empty(); }
 };

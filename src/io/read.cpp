@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/digits.hpp"
 #include "core/error.hpp"
 #include "io/files.hpp"
 #include "io/read_helpers.hpp"
@@ -31,6 +32,12 @@ void say_wrapped(FileContent &content, double box) {
 }
 
 }  // namespace
+
+GivenDigits FileContent::given() const {
+  std::vector<double> x(position);
+  for (size_t k = 0; k < x.size() && !origin.empty(); ++k) x[k] += origin[k % origin.size()];
+  return digits_of(dim, x, diameter, cell);
+}
 
 FileContent read_file(const char *path, const ReadOptions &options) {
   LineReader in(path);

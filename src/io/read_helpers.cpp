@@ -95,6 +95,7 @@ void measure_from_corner(const double *corner, FileContent &content) {
     append_number(at, corner[c]);
   }
   if (!moved) return;
+  content.origin.assign(corner, corner + d);
   for (size_t k = 0; k < content.position.size(); ++k) content.position[k] -= corner[k % d];
   content.notes.say("the corner of the cell is at%s in the file: positions are measured from there", at.c_str());
 }

@@ -87,14 +87,24 @@ bool may_touch_own_image(const Packing &p, const GapResolution &resolution) {
 
 }  // namespace
 
+jam_check_report untested_check() {
+  jam_check_report r{};
+  r.jammed = r.strictly_jammed = r.stationary = r.crunch_jammed = JAM_VERDICT_UNTESTED;
+  r.reason = JAM_CHECK_MARGIN;
+  r.crunch_contacts = -1;
+  r.packing_fraction = r.nearest_gap = r.min_gap = r.max_contact_gap = r.force_residual = r.rigidity_margin = nan;
+  r.resolution = r.diameter_factor = nan;
+  r.crunch_packing_fraction = r.crunch_displacement_max = r.crunch_displacement_rms = nan;
+  return r;
+}
+
 CheckResult check_as_it_is(const Packing &p) {
   CheckResult out;
   out.tested = p;
   jam_check_report &r = out.report;
+  r = untested_check();
   r.dim = p.dim, r.n = static_cast<int64_t>(p.n());
   r.packing_fraction = packing_fraction(p);
-  r.crunch_jammed = JAM_VERDICT_UNTESTED, r.crunch_contacts = -1;
-  r.crunch_packing_fraction = r.crunch_displacement_max = r.crunch_displacement_rms = nan;
   const GapResolution resolution = take_overlaps(out);
   const Packing &q = out.tested;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);

@@ -9,6 +9,9 @@
 
 namespace jam {
 
+// The report of a check that was left before it had a verdict.
+jam_check_report untested_check();
+
 struct CheckResult {
   jam_check_report report{};
   Packing tested;           // with the diameters that were tested: no pair overlaps

@@ -80,7 +80,9 @@ void add_no(const Report &r, std::string &out) {
 
 void add_resolution(const Report &r, std::string &out) {
   if (r.digits > 0)
-    add(out, "The coordinates seem to have %d digit%s (multiples of %.2g), which leaves gaps wrong by up to %.1e.",
+    add(out,
+        "The coordinates, diameters or cell seem to have %d digit%s (multiples of %.2g), which leaves gaps wrong by up "
+        "to %.1e.",
         r.digits, plural(r.digits), r.coordinate_step, r.resolution);
   if (r.diameter_factor < 1.0)
     add(out, "Spheres overlap by up to %.1e; all diameters were tested times %.12g, where no pair overlaps.",
@@ -116,6 +118,7 @@ void add_undecided(const Report &r, std::string &out) {
 }  // namespace
 
 std::string text_of(const Report &r) {
+  if (r.jammed == JAM_VERDICT_UNTESTED) return "Not tested: the call was stopped before it had a verdict.";
   std::string out = headline(r);
   add(out, "%lld sphere%s in d = %d at packing fraction %.9f.", wide(r.n), plural(r.n), r.dim, r.packing_fraction);
   add_network(r, out);

@@ -1,8 +1,9 @@
 // How well the gaps of a packing are known. The one place that derives it: contacts from geometry, the test of jamming
 // and the check of a packing ask here.
 //
-// Coordinates that came from a file may have few digits. Rounding to multiples of a step moves each of two spheres by
-// up to sqrt(d) step / 2, so the distance of a contact is wrong by up to sqrt(d) step.
+// Numbers that came from a file may have few digits. Rounding coordinates to multiples of a step moves each of two
+// spheres by up to sqrt(d) step / 2, so the distance of a contact is wrong by up to sqrt(d) step. The same bound serves
+// for rounded diameters (by step) and cell vectors (by sqrt(d) step / 2).
 #pragma once
 #include <cstdint>
 
@@ -14,7 +15,7 @@ namespace jam {
 constexpr double contact_gap_limit = 1e-10, undecided_gap_limit = 1e-7, listed_gap_limit = 1e-5;
 
 struct GapResolution {
-  double step = 0.0;      // coordinates are multiples of it; 0: they have all digits of a double
+  double step = 0.0;      // coordinates, diameters or cell are multiples of it; 0: all digits of a double
   int base = 0;           // 10 or 2: decimal digits, or bits as of single precision
   double rounding = 0.0;  // of gaps, relative to the smallest diameter, with all digits
   double error = 0.0;  // largest error of a distance from the digits or from overlaps, unit of box; 0: rounding alone
@@ -27,12 +28,13 @@ struct GapResolution {
   bool coarse(const Packing &p) const { return reach() > contact_gap_limit * diameter_mean(p); }
   // Whether a pair with this relative gap and contact distance may be a contact.
   bool may_touch(double gap, double sigma) const { return gap < undecided_gap_limit || gap * sigma < reach(); }
-  // Decimal digits of coordinates as large as the box; 0: all of a double.
+  // Decimal digits of lengths as large as the box; 0: all of a double.
   int32_t digits(const Packing &p) const;
 };
 
-// From the coordinates: most of them are multiples of one step, Cartesian or along the cell vectors. Where as many
-// pairs touch to 1e-10 as hold half of the spheres, a lattice say, no digits are missing.
+// From the coordinates, Cartesian or along the cell vectors: most of them are multiples of one step, or some of four
+// digits and more. From diameters and cell: most of these numbers have four digits or more and end there; fewer digits
+// may have been chosen. Where nearly all pairs that are near to contact touch to 1e-10, no digits are missing.
 GapResolution gap_resolution(const Packing &p);
 // The same where distances are known to be wrong by `error` at least.
 void widen(GapResolution &resolution, const Packing &p, double error);

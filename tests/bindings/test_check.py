@@ -197,6 +197,53 @@ class FewDigits(unittest.TestCase):
             t = jam.System.from_arrays(y, 1 / cell[0, 0], overlap="shrink")
             self.assertNotEqual(t.check(crunch=False).jammed, Verdict.NO)
 
+    def test_digits_of_radii_and_cell(self):
+        """Centres with all digits beside rounded radii, a rounded cell, or some rounded centres."""
+        s = packing(60, 3, 4, diameters=np.linspace(1.0, 1.3, 60))
+        x, diameters, cell = state(s)
+        some = x.copy()
+        some[:12] = np.round(some[:12], 5)
+        for digits in (5, 6):
+            down = np.floor(diameters * 10**digits) / 10**digits
+            near = np.round(cell, digits) + np.diag([10.0**-digits] * 3)
+            for what in ((x, down, cell), (x @ np.linalg.inv(cell) @ near, diameters * (1 - 1e-7), near), (some, diameters, cell)):
+                t = jam.System.from_arrays(what[0], what[1], cell=what[2], overlap="allow")
+                r = t.check(crunch=False)
+                self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.DIGITS), r)
+        whole = jam.System.from_arrays(x, diameters, cell=cell, overlap="shrink").check(crunch=False)
+        self.assertEqual(whole.jammed, Verdict.YES)
+
+    def test_digits_of_a_lattice(self):
+        """Pairs along an axis touch exactly whatever the digits are; the others do not."""
+        for digits in range(3, 9):
+            a = np.round(np.diag([1, 3**0.5]), digits)
+            basis = ([0, 0], [0.5, a[1, 1] / 2])
+            x = np.array([np.array([i, k]) @ a + p for i in range(4) for k in range(3) for p in basis])
+            r = jam.System.from_arrays(x, 1.0, cell=a * [[4], [3]], overlap="shrink").check(crunch=False)
+            self.assertNotEqual(r.jammed, Verdict.NO, (digits, r))
+
+    def test_digits_before_a_shift(self):
+        """Digits are those of the numbers given, not of wrapped, shifted or rotated ones; a move leaves none."""
+        s = packing(60, 3, 4)
+        x, diameters, cell = state(s)
+        scale = 12.3456789 / cell[0, 0]
+        y = np.round((x - cell[0, 0] / 2) * scale, 5)
+        t = jam.System.from_arrays(y, diameters * scale * (1 - 4e-6), cell=cell * scale)
+        for u in (t, t.copy()):
+            self.assertEqual(u.check(crunch=False).digits, 6)
+        with tempfile.TemporaryDirectory() as folder:
+            t.checkpoint_write(f"{folder}/c")
+            self.assertEqual(jam.System.from_checkpoint(f"{folder}/c").check(crunch=False).digits, 6)
+            low, high = -cell[0, 0] * scale / 2, cell[0, 0] * scale / 2
+            with open(f"{folder}/dump", "w") as f:
+                f.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n60\nITEM: BOX BOUNDS pp pp pp\n")
+                f.write(f"{low:.16e} {high:.16e}\n" * 3 + "ITEM: ATOMS id x y z diameter\n")
+                for k, (r, sigma) in enumerate(zip(y, diameters * scale * (1 - 4e-6))):
+                    f.write("%d %.6g %.6g %.6g %.17g\n" % (k + 1, *r, sigma))
+            self.assertEqual(jam.System.read(f"{folder}/dump").check(crunch=False).jammed, Verdict.UNDECIDED)
+        t.run(collisions_per_particle=5)
+        self.assertEqual(t.check(crunch=False).digits, 0)
+
     def test_liquid_stays_no(self):
         s = fluid(100, 3, 1, 0.6)
         for digits in (6, 7, 8, "single"):
@@ -207,10 +254,9 @@ class FewDigits(unittest.TestCase):
         """A frame that was rotated after rounding shows no digits, but it overlaps."""
         s = packing(64, 3, 1)
         x, diameters, cell = state(s)
-        turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
-        turn *= np.sign(np.linalg.det(turn))
-        y = np.round(x @ turn, 6)
-        t = jam.System.from_arrays(y, diameters, cell=cell @ turn, overlap="allow")
+        first, then = (np.linalg.qr(np.random.default_rng(k).normal(size=(3, 3)))[0] for k in (1, 2))
+        y = np.round(3**0.5 * x @ first, 6) @ then
+        t = jam.System.from_arrays(y, 3**0.5 * diameters, cell=3**0.5 * cell @ first @ then, overlap="allow")
         r = t.check()
         self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.OVERLAP), r)
         self.assertLess(r.diameter_factor, 1)

@@ -96,6 +96,37 @@ static void overlaps(void **state) {
   jam_destroy(sys);
 }
 
+/* A crunch of the copy that does not end in time leaves the verdict that was there. */
+static void crunch_out_of_time(void **state) {
+  jam_create_options start;
+  jam_check_options o;
+  jam_check_report r = {.struct_size = sizeof r}, whole = r;
+  jam_system *sys = NULL, *rounded = NULL;
+  const double *x, *sigma;
+  double few[3 * 64];
+  size_t len = 0;
+  (void)state;
+  assert_int_equal(jam_create_options_init(&start, sizeof start), JAM_OK);
+  start.n = 64, start.seed = 1;
+  assert_int_equal(jam_create(&start, NULL, 0, NULL, 0, &sys), JAM_OK);
+  assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
+  assert_int_equal(jam_diameters_view(sys, &sigma, &len), JAM_OK);
+  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
+  for (size_t k = 0; k < len; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
+  start.overlap = JAM_OVERLAP_ALLOW;
+  assert_int_equal(jam_create(&start, few, len, sigma, 1, &rounded), JAM_OK);
+  assert_int_equal(jam_check_options_init(&o, sizeof o), JAM_OK);
+  o.crunch = 0;
+  assert_int_equal(jam_check_packing(rounded, &o, &whole), JAM_AMBIGUOUS);
+  o.crunch = 1, o.wall_time = 1e-6;
+  assert_int_equal(jam_check_packing(rounded, &o, &r), JAM_AMBIGUOUS);
+  assert_memory_equal(&r, &whole, sizeof r);
+  assert_true(r.n == 64 && r.reason == JAM_CHECK_DIGITS && r.crunch_jammed == JAM_VERDICT_UNTESTED);
+  jam_destroy(rounded);
+  jam_destroy(sys);
+}
+
 static int32_t stop(const jam_progress *p, void *user) {
   (void)p, (void)user;
   return 1;
@@ -121,15 +152,18 @@ static void arguments(void **state) {
   assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
   r.struct_size = sizeof r, r.jammed = 77;
   assert_int_equal(jam_check_packing(sys, NULL, &r), JAM_CANCELLED);
-  assert_int_equal(r.jammed, 77);
+  assert_true(r.jammed == JAM_VERDICT_UNTESTED && r.strictly_jammed == JAM_VERDICT_UNTESTED && isnan(r.nearest_gap));
+  assert_non_null(strstr(jam_check_text(&r), "Not tested"));
+  jam_rigidity_report rigid = {.struct_size = sizeof rigid, .jammed = 77};
+  assert_int_equal(jam_rigidity(sys, JAM_RIGIDITY_STRICT, &rigid), JAM_CANCELLED);
+  assert_true(rigid.jammed == JAM_VERDICT_UNTESTED && rigid.stationary == JAM_VERDICT_UNTESTED);
   jam_destroy(sys);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cubic_lattices),
-      cmocka_unit_test(leaves_the_handle_alone),
-      cmocka_unit_test(overlaps),
+      cmocka_unit_test(cubic_lattices), cmocka_unit_test(leaves_the_handle_alone),
+      cmocka_unit_test(overlaps),       cmocka_unit_test(crunch_out_of_time),
       cmocka_unit_test(arguments),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -929,7 +929,7 @@ mutable struct jam_check_report
     stationary::Int32  # jam_verdict: non-negative forces balance
     reason::Int32  # jam_check_reason of jammed
     dim::Int32  # d
-    digits::Int32  # decimal digits that the coordinates seem to have; 0: all of a double
+    digits::Int32  # decimal digits that coordinates, diameters or cell seem to have; 0: all
     crunch_jammed::Int32  # jam_verdict of the crunched copy; UNTESTED without one
     n::Int64  # number of spheres
     contacts::Int64  # closed pairs (gaps below 1e-10) that carry force
@@ -948,7 +948,7 @@ mutable struct jam_check_report
     max_contact_gap::Cdouble  # largest |gap| of a contact with force
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force
     rigidity_margin::Cdouble  # smallest eigenvalue on contacts with force that is no translation
-    coordinate_step::Cdouble  # most coordinates are multiples of it, unit of the box; 0: all digits are there
+    coordinate_step::Cdouble  # the numbers given are multiples of it, unit of the box; 0: all digits are there
     resolution::Cdouble  # of gaps: from the digits of the coordinates, and from overlaps
     diameter_factor::Cdouble  # diameters were tested times this, so that no pair overlaps; 1: as they are
     crunch_packing_fraction::Cdouble  # of the crunched copy

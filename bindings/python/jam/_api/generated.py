@@ -930,7 +930,7 @@ class CheckReport(Report):
     stationary: jam_verdict: non-negative forces balance
     reason: jam_check_reason of jammed
     dim: d
-    digits: decimal digits that the coordinates seem to have; 0: all of a double
+    digits: decimal digits that coordinates, diameters or cell seem to have; 0: all
     crunch_jammed: jam_verdict of the crunched copy; UNTESTED without one
     n: number of spheres
     contacts: closed pairs (gaps below 1e-10) that carry force
@@ -949,7 +949,7 @@ class CheckReport(Report):
     max_contact_gap: largest |gap| of a contact with force
     force_residual: largest |sum_j f_ij n_ij| over the mean force
     rigidity_margin: smallest eigenvalue on contacts with force that is no translation
-    coordinate_step: most coordinates are multiples of it, unit of the box; 0: all digits are there
+    coordinate_step: the numbers given are multiples of it, unit of the box; 0: all digits are there
     resolution: of gaps: from the digits of the coordinates, and from overlaps
     diameter_factor: diameters were tested times this, so that no pair overlaps; 1: as they are
     crunch_packing_fraction: of the crunched copy

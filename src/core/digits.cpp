@@ -1,0 +1,108 @@
+// See digits.hpp.
+#include "core/digits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math.hpp"
+
+namespace jam {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+// Rounding of a coordinate may be this part of a step: then fewer than 1 of 100 other numbers pass as multiples.
+constexpr double most_noise = 0.005;
+constexpr size_t sample = 64, large_sample = 1024;
+// Which numbers show that they are multiples of a step: at least `count` of them and more than the part `part`, each
+// with an integer of at least `least` times a power of the base. A number of three significant digits, 0.25 or 1.4 say,
+// may have been chosen; one of four was rounded.
+struct Rule {
+  double least, part;
+  size_t count, sample;
+};
+constexpr Rule most_coordinates{0.0, 0.5, 1, sample}, some_coordinates{1000.0, 0.05, 8, large_sample},
+    most_lengths{1000.0, 0.5, 1, sample};
+// One of ten multiples of a step, or one of two, is a multiple of the next coarser one. The step is the coarsest that
+// has more than this part of the multiples of the next finer one.
+constexpr double kept = 0.75;
+
+// How many of every stride-th number are multiples as the rule asks, and of how many; zeros, and numbers that may have
+// been chosen, are left out.
+struct Share {
+  size_t fit = 0, all = 0;
+};
+Share multiples(const std::vector<double> &x, double scale, double noise, int base, const Rule &rule, size_t stride) {
+  Share s;
+  for (size_t k = 0; k < x.size(); k += stride) {
+    if (x[k] == 0.0) continue;
+    ++s.all;
+    const double y = std::fabs(x[k] * scale);
+    double whole = std::nearbyint(y);
+    if (std::fabs(y - whole) > noise) continue;
+    while (rule.least > 0.0 && whole >= rule.least && whole / base == std::nearbyint(whole / base)) whole /= base;
+    whole >= rule.least ? ++s.fit : --s.all;
+  }
+  return s;
+}
+
+// The coarsest power of the base, no wider than `widest`, of which x are multiples; 0 without one. A sample says no at
+// once where the rule asks for more than half.
+double step_of(const std::vector<double> &x, double largest, double widest, int base, const Rule &rule) {
+  if (!(largest > 0.0)) return 0.0;
+  const size_t stride = std::max<size_t>(1, x.size() / rule.sample) | 1;
+  const auto noise = [&](double scale) { return 8.0 * epsilon * largest * scale; };
+  const auto share = [&](double scale, size_t every) { return multiples(x, scale, noise(scale), base, rule, every); };
+  const auto shows = [&](const Share &s) {
+    return s.fit >= rule.count && static_cast<double>(s.fit) > rule.part * static_cast<double>(s.all);
+  };
+  for (double k = std::ceil(-math::log(widest) / math::log(static_cast<double>(base)));; ++k) {
+    const double scale = math::pow(static_cast<double>(base), k), finer = scale * base;
+    if (noise(scale) > most_noise) return 0.0;
+    const Share s = share(scale, stride);
+    if (!shows(s) || (rule.sample == sample && stride > 1 && !shows(share(scale, 1)))) continue;
+    if (noise(finer) > most_noise || static_cast<double>(s.fit) > kept * static_cast<double>(share(finer, stride).fit))
+      return 1.0 / scale;
+  }
+}
+
+void look_at(const std::vector<double> &x, double largest, double widest, double unit, const Rule &rule,
+             GivenDigits &out) {
+  for (const int base : {10, 2}) {
+    const double step = unit * step_of(x, largest, widest, base, rule);
+    out.take({step, base});
+  }
+}
+
+}  // namespace
+
+GivenDigits digits_of(int dim, const std::vector<double> &position, const std::vector<double> &diameter,
+                      const std::vector<double> &rows) {
+  const double smallest = *std::min_element(diameter.begin(), diameter.end());
+  GivenDigits out = coordinate_digits(dim, position, smallest);
+  double edge = 0.0;
+  for (const double x : rows) edge = std::max(edge, std::fabs(x));
+  look_at(diameter, smallest, smallest, 1.0, most_lengths, out);
+  look_at(rows, edge, smallest, 1.0, most_lengths, out);
+  return out;
+}
+
+GivenDigits coordinate_digits(int dim, const std::vector<double> &position, double smallest) {
+  GivenDigits out;
+  double largest = 0.0;
+  for (const double x : position) largest = std::max(largest, std::fabs(x));
+  for (const Rule &rule : {most_coordinates, some_coordinates})
+    if (position.size() > static_cast<size_t>(dim)) look_at(position, largest, smallest, 1.0, rule, out);
+  return out;
+}
+
+GivenDigits fraction_digits(const Packing &p) {
+  GivenDigits out;
+  const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end()), side = p.cell.side();
+  std::vector<double> s(p.position);
+  for (size_t i = 0; i < p.n(); ++i) p.cell.fraction(&s[i * p.dim], &s[i * p.dim]);
+  for (const Rule &rule : {most_coordinates, some_coordinates}) look_at(s, 1.0, smallest / side, side, rule, out);
+  return out;
+}
+
+}  // namespace jam

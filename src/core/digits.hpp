@@ -1,0 +1,19 @@
+// How many digits the numbers have that a packing was given by. Numbers that came from a file may have been rounded:
+// then they are multiples of one step. It must be looked for before positions are wrapped, shifted or rotated.
+#pragma once
+#include <vector>
+
+#include "core/packing.hpp"
+
+namespace jam {
+
+// From coordinates: most of them are multiples of one step, or some of four significant digits and more. From diameters
+// and cell vectors: most of these numbers have four digits or more and end there; fewer digits may have been chosen.
+GivenDigits digits_of(int dim, const std::vector<double> &position, const std::vector<double> &diameter,
+                      const std::vector<double> &rows);
+// From coordinates alone.
+GivenDigits coordinate_digits(int dim, const std::vector<double> &position, double smallest_diameter);
+// The same from the positions along the cell vectors.
+GivenDigits fraction_digits(const Packing &p);
+
+}  // namespace jam

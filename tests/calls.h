@@ -143,11 +143,21 @@ static inline size_t strain_of(CALL_INPUT *in, jam_system *sys) {
   return (size_t)(d * d);
 }
 
-/* Of a displacement of the stable spheres. */
-static inline size_t stable_numbers(const jam_system *sys) {
-  size_t spheres = 0;
-  if (!sys || jam_hessian_map(sys, NULL, 0, &spheres) < 0) return 1;
-  return spheres * (size_t)dimension_of(sys);
+/* Calls with a displacement of the stable spheres, whose number may fail to be found. */
+static inline jam_status stable_numbers(const jam_system *sys, size_t *numbers) {
+  const jam_status status = jam_hessian_map(sys, NULL, 0, numbers);
+  *numbers *= (size_t)dimension_of(sys);
+  return status;
+}
+static inline jam_status project(const jam_system *sys) {
+  size_t n = 0;
+  const jam_status status = stable_numbers(sys, &n);
+  return status < 0 ? status : jam_project(sys, real[0], n, real[1], n, REALS(2), &needed);
+}
+static inline jam_status curvature(CALL_INPUT *in, const jam_system *sys) {
+  size_t n = 0;
+  const jam_status status = stable_numbers(sys, &n);
+  return status < 0 ? status : jam_curvature(sys, hessian_options(in), real[0], n, real[1]);
 }
 
 static inline jam_status read_back(CALL_INPUT *in, jam_system *sys) {

@@ -232,7 +232,7 @@ class FewDigits(unittest.TestCase):
         for u in (t, t.copy()):
             self.assertEqual(u.check(crunch=False).digits, 6)
         with tempfile.TemporaryDirectory() as folder:
-            t.checkpoint_write(f"{folder}/c")
+            t.write_checkpoint(f"{folder}/c")
             self.assertEqual(jam.System.from_checkpoint(f"{folder}/c").check(crunch=False).digits, 6)
             low, high = -cell[0, 0] * scale / 2, cell[0, 0] * scale / 2
             with open(f"{folder}/dump", "w") as f:

@@ -111,8 +111,8 @@ static void crunch_out_of_time(void **state) {
   assert_int_equal(jam_create(&start, NULL, &sys), JAM_OK);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_diameters_view(sys, &sigma, &len), JAM_OK);
-  assert_int_equal(jam_positions_view(sys, &x, &len), JAM_OK);
+  assert_int_equal(jam_view_diameters(sys, &sigma, &len), JAM_OK);
+  assert_int_equal(jam_view_positions(sys, &x, &len), JAM_OK);
   for (size_t k = 0; k < len; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
   start.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(create_from(&start, few, len, sigma, 1, &rounded), JAM_OK);

@@ -3,6 +3,7 @@
 #include "core/checks.hpp"
 #include "network/certificate.hpp"
 #include "network/rigidity_test.hpp"
+#include "proof/verdict.hpp"
 
 using namespace jam;
 
@@ -36,7 +37,9 @@ Answer answer_of(const jam_rigidity_report &r) {
 }
 
 PackingVerdict test(const jam_system *sys, Jamming kind) {
-  return test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind);
+  PackingVerdict v = test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind);
+  if (kind == Jamming::collective) decide_by_proof(sys->packing, v);
+  return v;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "crunch/polish.hpp"
 #include "crunch/state.hpp"
 #include "network/rattlers.hpp"
+#include "proof/verdict.hpp"
 
 namespace jam {
 namespace {
@@ -111,6 +112,7 @@ void take_positive_forces(CrunchState &s, const PackingVerdict &verdict) {
 bool tested(CrunchState &s, Jamming kind, PackingVerdict &verdict) {
   try {
     verdict = test_packing(s.out.packing, &s.out.contacts, kind);
+    if (s.exact && kind == Jamming::collective) decide_by_proof(s.out.packing, verdict);
   } catch (const Cancelled &) {
     s.interrupted();
     return false;

@@ -8,12 +8,14 @@
 namespace jam {
 namespace {
 
-// The flex, or its opposite: where the forces leave a rest, the spheres go where it pushes them.
+// The flex or, where nothing is decided, what may be one; or its opposite: where the forces leave a rest, the spheres
+// go where it pushes them.
 std::vector<double> direction_of(const CrunchState &s, const PackingVerdict &verdict) {
   const size_t d = s.out.packing.dim;
   std::vector<double> v(s.out.packing.position.size(), 0.0);
+  const std::vector<double> &motion = verdict.result.flex.empty() ? verdict.result.attempt : verdict.result.flex;
   for (size_t q = 0; q < verdict.sphere.size(); ++q)
-    for (size_t c = 0; c < d; ++c) v[verdict.sphere[q] * d + c] = verdict.result.flex[q * d + c];
+    for (size_t c = 0; c < d; ++c) v[verdict.sphere[q] * d + c] = motion[q * d + c];
   const ContactNetwork &net = verdict.contacts;
   double push = 0.0;
   for (size_t k = 0; k < net.size(); ++k)
@@ -28,7 +30,9 @@ std::vector<double> direction_of(const CrunchState &s, const PackingVerdict &ver
 
 // A vertex of an LP along the flex, with all near pairs as rows: every flex ends at a pair or at the bound.
 Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
-  if (verdict.result.flex.empty() || s.kicks >= s.tuning.max_kicks) return Kick::none;
+  // An attempt is made once narrow LPs have left it open.
+  const RigidityResult &r = verdict.result;
+  if ((r.flex.empty() && (r.attempt.empty() || !s.exact)) || s.kicks >= s.tuning.max_kicks) return Kick::none;
   ++s.kicks;
   Packing &p = s.out.packing;
   const size_t d = p.dim;
@@ -54,7 +58,8 @@ Kick leave_saddle(CrunchState &s, const PackingVerdict &verdict) {
   s.monitor.log(JAM_LOG_INFO, "saddle at phi %.12f with %lld flexes: moves %.1e diameters along them",
                 packing_fraction(p), static_cast<long long>(verdict.result.flexes), longest);
   if (!(longest > s.tuning.closed_gap)) return Kick::none;
-  if (longest < s.tuning.narrow_bound) return Kick::blocked;
+  // Where no force balances at the end of narrow LPs, diameters can grow, and LPs go on.
+  if (longest < s.tuning.narrow_bound && !(s.exact && r.stressed == Verdict::no)) return Kick::blocked;
   s.bound = first_bound(s.out.packing, s.o, s.tuning);
   s.moved = 1.0;
   s.stalled = 0;

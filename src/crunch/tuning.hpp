@@ -77,7 +77,7 @@ struct Tuning {
   double balanced = 1e-10;      // largest net force on a sphere there, over the mean force
   // Diagonal that fixes translations beside rows of unit vectors; the second where squared forces weigh the rows.
   double ground = 1e-12, weighted_ground = 1e-14;
-  int max_kicks = 10;  // motions along a flex
+  int max_kicks = 30;  // motions along a flex
   double kick = 0.02;  // the longest
 
   // ---- progress: parts of the time, before the path and until the verdict

@@ -15,8 +15,9 @@ namespace {
 
 // Flexes are counted up to this many.
 constexpr size_t most_flexes = 512;
-// A flex may close a contact by no more than this, where the largest displacement is 1.
-constexpr double flex_rounding = 1e-9;
+// A flex may close a contact by no more than this, where the largest displacement is 1: a motion of length t closes it
+// by 1e-8 t and opens it by t^2 / 2, so the overlap on the way stays below the rounding of a gap.
+constexpr double flex_rounding = 1e-8;
 // Forces that balance worse than this, over the mean force, prove nothing.
 constexpr double most_residual = 1e-10;
 // And worse than this they do not even name the contacts.
@@ -94,6 +95,35 @@ void spread(const std::vector<char> &on, const std::vector<char> &carrying, cons
     if (on[k]) out.carrying[k] = carrying[at], out.force[k] = force[at++];
 }
 
+// Where the forces of the other contacts stay open: a positive state and a flex of its spheres that closes none of the
+// others make a no. False without such a flex.
+bool find_flex_of_part(const RigidityMatrix &g, const RigidityMatrix &sub, const ConstraintRows &rows,
+                       const StressCone &cone, const std::vector<char> &on, const std::vector<Release> &released,
+                       RigidityResult &out) {
+  if (cone.positive.empty() || rows.strains > 0) return false;
+  const RigidityMatrix part = subset(sub, cone.positive);
+  const ConstraintRows kept(part, false);
+  NormalSolver solver(kept);
+  solver.factorise(std::vector<double>(kept.rows(), 1.0), flex_eigenvalue);
+  const SoftestModes modes = softest_modes(kept, solver, flex_eigenvalue, most_flexes);
+  for (const std::vector<double> &flex : modes.flexes)
+    for (const double sign : {1.0, -1.0}) {
+      std::vector<double> x(rows.columns(), 0.0);
+      scatter(part, flex.data(), sign, x);
+      complete_flex(g, sub, rows, x, released, false, out);
+      if (out.flex.empty()) continue;
+      std::vector<double> force(cone.path_force);
+      for (size_t k = 0; k < force.size(); ++k) force[k] *= cone.positive[k];
+      spread(on, cone.positive, force, out);
+      out.jammed = Verdict::no, out.stressed = Verdict::yes;
+      out.flexes = static_cast<int64_t>(modes.flexes.size()), out.margin = modes.margin;
+      count_carrying(part, 0, out);
+      out.force_residual = balance_residual(g, out.force.data());
+      return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
@@ -121,7 +151,14 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
     RigidityResult part;
     out.jammed = out.stressed = Verdict::undecided;
     out.margin = modes.margin;
-    if (!test_from_rigid_part(sub, cone, kind, part)) return out;
+    if (!test_from_rigid_part(sub, cone, kind, part)) {
+      if (find_flex_of_part(g, sub, rows, cone, on, released, out)) return out;
+      if (!cone.path_motion.empty()) {
+        out.attempt.assign(g.unknowns(), 0.0);
+        scatter(sub, cone.path_motion.data(), 1.0, out.attempt);
+      }
+      return out;
+    }
     out.jammed = part.jammed, out.stressed = part.stressed, out.margin = part.margin, out.flexes = part.flexes;
     out.force_residual = part.force_residual;
     spread(on, part.carrying, part.force, out);
@@ -154,20 +191,23 @@ static RigidityResult find_verdict(const RigidityMatrix &g, Jamming kind) {
   out.force_residual = balance_residual(carrying, f.data());
   if (out.jammed == Verdict::yes && !(out.force_residual < most_residual)) out.jammed = Verdict::undecided;
   if (out.flexes == 0) return out;
-  // A flex of B, and as much of the motion that opens all other contacts as keeps them open.
-  std::vector<double> x(rows.columns(), 0.0), y0(rows.rows()), y1(rows.rows());
-  scatter(carrying, modes.flexes[0].data(), 1.0, x);
-  for (int q = 0; q < rows.strains; ++q)
-    x[sub.unknowns() + q] = modes.flexes[0][carrying.unknowns() + q] * rows.length / kept.length;
-  if (!cone.motion.empty()) {
-    rows.multiply(x.data(), y0.data());
-    rows.multiply(cone.motion.data(), y1.data());
-    double factor = 0.0;
-    for (size_t k = 0; k < rows.rows(); ++k)
-      if (!cone.carrying[k]) factor = std::max(factor, -y0[k] / y1[k]);
-    for (size_t k = 0; k < x.size(); ++k) x[k] += factor * cone.motion[k];
+  // A flex of B or its opposite, and as much of the motion that opens all other contacts as keeps them open.
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> x(rows.columns(), 0.0), y0(rows.rows()), y1(rows.rows());
+    scatter(carrying, modes.flexes[0].data(), sign, x);
+    for (int q = 0; q < rows.strains; ++q)
+      x[sub.unknowns() + q] = sign * modes.flexes[0][carrying.unknowns() + q] * rows.length / kept.length;
+    if (!cone.motion.empty()) {
+      rows.multiply(x.data(), y0.data());
+      rows.multiply(cone.motion.data(), y1.data());
+      double factor = 0.0;
+      for (size_t k = 0; k < rows.rows(); ++k)
+        if (!cone.carrying[k]) factor = std::max(factor, -y0[k] / y1[k]);
+      for (size_t k = 0; k < x.size(); ++k) x[k] += factor * cone.motion[k];
+    }
+    complete_flex(g, sub, rows, x, released, strain, out);
+    if (!out.flex.empty()) break;
   }
-  complete_flex(g, sub, rows, x, released, strain, out);
   return out;
 }
 
@@ -221,10 +261,11 @@ RigidityResult test_part(const RigidityMatrix &g, const std::vector<char> &on, J
   for (size_t k = 0, at = 0; k < g.contacts(); ++k)
     if (on[k]) carrying[k] = r.carrying[at], force[k] = r.force[at++];
   r.carrying = std::move(carrying), r.force = std::move(force);
-  if (!r.flex.empty()) {
+  for (std::vector<double> *motion : {&r.flex, &r.attempt}) {
+    if (motion->empty()) continue;
     std::vector<double> v(g.unknowns(), 0.0);
-    scatter(part, r.flex.data(), 1.0, v);
-    r.flex = std::move(v);
+    scatter(part, motion->data(), 1.0, v);
+    *motion = std::move(v);
   }
   return r;
 }
@@ -292,10 +333,11 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
     wanted[k] = in_list[k] > 0.0 ||
                 (counts(k) && resolution.may_touch(near.gap[k], contact_distance(p, near.pairs.i[k], near.pairs.j[k])));
   net = subset(near, wanted, p.dim);
-  std::vector<char> closed, near_enough;
+  std::vector<char> closed, near_enough, listed_here;
   for (size_t k = 0; k < near.size(); ++k) {
     if (!wanted[k]) continue;
     const bool named = in_list[k] > 0.0;
+    listed_here.push_back(named);
     closed.push_back(near.gap[k] < (named ? undecided_gap_limit : contact_gap_limit));
     near_enough.push_back(closed.back() || named ||
                           near.gap[k] * contact_distance(p, near.pairs.i[k], near.pairs.j[k]) < resolution.reach());
@@ -313,6 +355,14 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
     // kept.
     if (same ? shut.jammed != Verdict::yes : out.result.jammed == Verdict::yes) out.result = std::move(shut);
     if (!same) out.result.jammed = Verdict::undecided;
+  }
+  if (out.result.jammed == Verdict::undecided && !resolution.coarse(p)) {
+    // Unlisted pairs whose gaps are wider than rounding are open, and leave contacts that may decide alone.
+    std::vector<char> tight(closed);
+    for (size_t k = 0; k < net.size(); ++k)
+      tight[k] = closed[k] && (listed_here[k] || net.gap[k] < 4.0 * resolution.rounding);
+    RigidityResult r = tight == closed ? out.result : test_part(g, tight, kind);
+    if (r.jammed != Verdict::undecided) out.result = std::move(r);
   }
   if (std::count(closed.begin(), closed.end(), 1) == 0 && g.nodes > 0 && out.result.jammed == Verdict::no) {
     out.result.flex.assign(g.unknowns(), 0.0);  // nothing is closed: any motion will do

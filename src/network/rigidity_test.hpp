@@ -46,13 +46,16 @@ struct RigidityResult {
   double margin = 0.0;  // smallest eigenvalue of S^T S on K+ that is no translation; 0 where there is no other motion
   std::vector<double> flex;    // (nodes, dim), largest |v_i| is 1: opens contacts; empty when jammed or not found
   std::vector<double> strain;  // (dim, dim) that goes with it; strict only
+  std::vector<double>
+      attempt;  // (nodes, dim): where undecided, a motion that may open contacts; nothing is proved of it
 };
 RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
 
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
 // below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
 // listed_gap_limit, and pairs that digits of coordinates cannot distinguish from contacts. They are taken as closed,
-// then as open; where the two verdicts differ, the packing is undecided. Where both are jammed, contacts and
+// then as open; where the two verdicts differ, the packing is undecided. What stays undecided is tested
+// without unlisted pairs whose gaps are wider than their rounding. Where both are jammed, contacts and
 // forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
 // their sign: then only spheres with too few pairs near them make a no.
 struct PackingVerdict {

@@ -16,6 +16,8 @@ namespace {
 constexpr double zero_force = 1e-11, sure_force = 1e-9;
 // The same for the opening of a contact, where the largest displacement is 1.
 constexpr double zero_opening = 1e-11, sure_opening = 1e-9;
+// A motion that opens all contacts by more than this rules out every balance of forces, also near these positions.
+constexpr double clear_opening = 1e-8;
 // Forces of mean 1 that keep less than this in the projection on the balance were no state of self-stress.
 constexpr double least_projection = 1e-6;
 
@@ -167,6 +169,15 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
   return opens ? Support::whole : count > 0 ? Support::positive : Support::no;
 }
 
+// Least opening of a contact by x, over the largest displacement.
+double least_opening(const ConstraintRows &rows, const std::vector<double> &x) {
+  std::vector<double> y(rows.rows());
+  rows.multiply(x.data(), y.data());
+  double size = 0.0;
+  for (const double v : x) size = std::max(size, std::fabs(v));
+  return size > 0.0 ? *std::min_element(y.begin(), y.end()) / size : 0.0;
+}
+
 // A set with a positive state, and the forces of the path on all other contacts.
 void keep_positive(const CentralPath &path, const std::vector<char> &guess, StressCone &out) {
   out.positive = guess;
@@ -239,7 +250,8 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     return out;
   }
   CentralPath path(rows);
-  double next = first_guess;
+  double next = first_guess, widest = clear_opening;
+  std::vector<double> opens_all;
   bool going = true;
   while (going && !out.decided && path.steps() < most_path_steps && path.mu() > least_mu) {
     going = path.step();
@@ -252,8 +264,15 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
       const auto size = [](const std::vector<char> &on) { return std::count(on.begin(), on.end(), 1); };
       if (found == Support::positive && size(guess) > size(out.positive)) keep_positive(path, guess, out);
     }
+    const double opening = least_opening(rows, path.x());
+    if (opening > widest) widest = opening, opens_all = path.x();
+  }
+  if (!out.decided && !opens_all.empty()) {  // no force is balanced where a motion opens all contacts
+    out.decided = true, out.motion = std::move(opens_all);
+    out.carrying.assign(m, 0), out.force.assign(m, 0.0);
   }
   out.factorisations += path.steps();
+  if (!out.decided) out.path_motion = path.x();
   if (!out.decided || std::count(out.carrying.begin(), out.carrying.end(), 1) == 0) return out;
   const RigidityMatrix sub = subset(rows.g, out.carrying);
   const ConstraintRows kept(sub, rows.strains > 0);

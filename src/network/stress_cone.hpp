@@ -15,6 +15,7 @@ struct StressCone {
   // Where not decided: the largest set with a positive state that was found, and forces > 0 near it on all contacts.
   std::vector<char> positive;
   std::vector<double> path_force;
+  std::vector<double> path_motion;  // where the path ended: opens what it can
   int factorisations = 0;
 };
 // states: dimension of the null space of A^T, -1 when not known. solver: of `rows`, factored with unit weights.

@@ -17,7 +17,7 @@ LAYERS = {
     "linalg": ["core"],
     "lp": ["linalg", "core"],
     "network": ["linalg", "core"],
-    "crunch": ["lp", "network", "linalg", "core"],
+    "crunch": ["proof", "lp", "network", "linalg", "core"],
     "soft": ["lp", "network", "linalg", "core"],
     "dynamics": ["soft", "network", "linalg", "core"],
     "analysis": ["lp", "network", "linalg", "core"],

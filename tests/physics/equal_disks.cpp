@@ -141,13 +141,8 @@ void verdict_holds(int64_t seed) {
   for (const Closed &c : closed) assert_true(c.gap > -1e-13);
   print_message("seed %d: jammed %d, %s, residual %.1e, contacts %d\n", static_cast<int>(seed), r.jammed,
                 jam_stop_string(r.stop_reason), r.force_residual, static_cast<int>(r.contacts));
-  if (!r.jammed) {  // named, and the state is a valid one
-    assert_true(status == JAM_NOT_CONVERGED &&
-                (r.stop_reason == JAM_STOP_SADDLE || r.stop_reason == JAM_STOP_PRECISION));
-    assert_true(seed != 6 && (r.force_residual < 1e-6 || r.stop_reason == JAM_STOP_SADDLE));
-    return;
-  }
   assert_int_equal(status, JAM_OK);
+  assert_true(r.jammed);
   assert_true(r.force_residual < 1e-10 && r.flexes == 0);
   gains_nothing(sys.get(), x, s[0]);
   std::vector<int32_t> z(disks);
@@ -160,8 +155,9 @@ void verdict_holds(int64_t seed) {
   if (seed == 6) assert_true(std::fabs(r.packing_fraction - 0.877546382558) < 1e-11 && r.contacts == 774);
 }
 
-void ten_packings(void **) {
-  for (int64_t seed = 1; seed <= 10; ++seed) verdict_holds(seed);
+// The last one ended near a saddle without a verdict, as seed 7 did.
+void eleven_packings(void **) {
+  for (const int64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 123}) verdict_holds(seed);
 }
 
 // The check itself: without one disk and those that touch it, the rim of the hole can move.
@@ -187,6 +183,6 @@ void the_check_sees_motion(void **) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(ten_packings), cmocka_unit_test(the_check_sees_motion)};
+  const CMUnitTest tests[] = {cmocka_unit_test(eleven_packings), cmocka_unit_test(the_check_sees_motion)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 #include <cmocka.h>
+#undef fail /* libjam has a function of that name */
 #ifdef __cplusplus
 }
 #endif

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 #include <cmocka.h>
-#undef fail /* libjam has a function of that name */
 #ifdef __cplusplus
 }
+#undef fail /* libjam has a function of that name: fail_msg serves tests */
 #endif
 #endif

@@ -12,6 +12,9 @@ extern "C" {
 #include <cmocka.h>
 #ifdef __cplusplus
 }
-#undef fail /* libjam has a function of that name: fail_msg serves tests */
+/* libjam has a function of that name, so fail_msg must do without. */
+#undef fail
+#undef fail_msg
+#define fail_msg(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 #endif
 #endif

@@ -6,6 +6,7 @@
 #include "jam-pack.h"
 
 enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
+enum { CHECK_HOST = 1000 }; /* beside the statuses: the host could not read the file */
 
 static const char *const allowed[] = {"--box",       "--frame", "--non-additivity", "--prove", "--proof",
                                       "--wall-time", "--quiet", "--help",           "-h"};
@@ -18,17 +19,30 @@ static int is_allowed(const char *word) {
   return 0;
 }
 
-/* The words of an ordinary command line with --input FILE, which options.c takes. NULL after a message. */
+static int takes_next(const char *word) {
+  return !strchr(word, '=') && strcmp(word, "--quiet") && strcmp(word, "--prove") && strcmp(word, "--help") &&
+         strcmp(word, "-h");
+}
+
+/* The words of an ordinary command line with --input FILE, which options.c takes. The first word that is neither an
+ * option nor its value is the FILE. NULL after a message. */
 static char **as_input(int argc, char **argv) {
   char **words;
-  int k;
-  for (k = 2; k < argc; ++k)
-    if (argv[k][0] == '-' && argv[k][1] && !is_allowed(argv[k])) {
-      complain(
-          "check takes a FILE and --box, --frame, --non-additivity, --prove, --proof, --wall-time or --quiet, not '%s'",
-          argv[k]);
-      return NULL;
+  int k, at = 2, file = 0;
+  for (k = 2; k < argc; ++k) {
+    if (argv[k][0] == '-' && argv[k][1]) {
+      if (!is_allowed(argv[k])) {
+        complain(
+            "check takes a FILE and --box, --frame, --non-additivity, --prove, --proof, --wall-time or --quiet, not "
+            "'%s'",
+            argv[k]);
+        return NULL;
+      }
+      k += takes_next(argv[k]);
+    } else if (!file) {
+      file = k;
     }
+  }
   words = malloc(((size_t)argc + 2) * sizeof *words);
   if (!words) {
     complain("out of memory");
@@ -36,7 +50,9 @@ static char **as_input(int argc, char **argv) {
   }
   words[0] = argv[0];
   words[1] = "--input";
-  for (k = 2; k <= argc; ++k) words[k] = argv[k];
+  if (file) words[at++] = argv[file];
+  for (k = 2; k <= argc; ++k)
+    if (k != file) words[at++] = argv[k];
   return words;
 }
 
@@ -49,8 +65,8 @@ static jam_status read_as_it_is(const options *o, jam_system **sys) {
   create.non_additivity = o->non_additivity;
   create.overlap = JAM_OVERLAP_ALLOW;
   if (status < 0 || !is_host_format(o, o->input))
-    return status < 0 ? status : jam_read(o->input, &create, NULL, NULL, sys);
-  return o->given.host->read(o->input, &create, o->given.host->user, sys) ? JAM_CANCELLED : JAM_OK;
+    return status < 0 ? status : jam_read(o->input, &create, stop_if_asked, NULL, sys);
+  return o->given.host->read(o->input, &create, o->given.host->user, sys) ? CHECK_HOST : JAM_OK;
 }
 
 /* The proof speaks of the contacts of the file's packing. */
@@ -65,16 +81,22 @@ static int judge(const options *o) {
   jam_system *sys = NULL;
   jam_status status = read_as_it_is(o, &sys), written = JAM_OK;
   report.struct_size = sizeof report;
-  if (status == JAM_CANCELLED) return CHECK_REFUSED; /* the host has told why */
-  if (status >= 0) print_warnings(jam_notes(sys));
-  if (status >= 0) status = jam_check_options_init(&check, sizeof check);
-  if (status >= 0) {
+  if (status == CHECK_HOST) return CHECK_REFUSED; /* the host has told why */
+  cancel_on_signal(sys);
+  if (sys) print_warnings(jam_notes(sys));
+  if (sys) status = jam_check_options_init(&check, sizeof check);
+  if (sys && status >= 0) {
     check.wall_time = o->wall_time;
     check.prove = o->prove || o->proof;
     status = jam_check_packing(sys, &check, &report);
   }
   if (o->proof && status == JAM_OK) written = write_proof_file(sys, o->proof);
+  cancel_on_signal(NULL);
   jam_destroy(sys);
+  if (status == JAM_CANCELLED || (status >= 0 && !sys)) {
+    complain("interrupted before the verdict");
+    return CHECK_UNDECIDED;
+  }
   if (status < 0) {
     complain("%s", jam_last_error());
     return CHECK_REFUSED;

@@ -43,6 +43,7 @@ typedef struct outcome {
   double pressure;                /* that dynamics reached; the crunch ends at infinite pressure */
   int32_t stage_stop[MAX_STAGES]; /* jam_stop_reason of the stages that were begun, else NONE */
   int fell_short;                 /* dynamics stalled before their aim, and the job went on */
+  int cut_short;                  /* a table was not computed in time */
   double seconds_md;
   const char *notes; /* jam_notes: what reading changed */
 } outcome;
@@ -72,7 +73,7 @@ int each_output(const options *o, int (*f)(const char *path));
 int settle(options *o);
 int is_host_format(const options *o, const char *path); /* whether the host reads and writes such a file */
 int is_named(const options *o, const char *name);       /* whether the command line has this option, without dashes */
-/* Whether the formats asked for can hold this packing: said before the work. */
+/* Whether the formats asked for can hold this packing, and a crunch can take it: said before the work. */
 int check_formats(const options *o, const jam_system *sys);
 
 /* start.c: start returns 0 or an exit code after a message on stderr. */
@@ -104,10 +105,15 @@ int check_writable(const char *path); /* before hours of work */
 int open_output(output *out, const char *path);
 int close_output(output *out);
 
+/* pack.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
+void cancel_on_signal(jam_system *sys);
+int32_t stop_if_asked(const jam_progress *progress, void *user); /* a progress callback */
+
 /* check.c: `jam-pack check FILE`; the exit code. */
 int check_file(int argc, char **argv, const jam_pack_host *host);
 
-/* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or -1 after a message on stderr. */
+/* network.c: what --spectrum, --gaps and --structure ask for. Returns 0, or after a message on
+ * stderr -1, and 1 where a call was stopped before its numbers were there. */
 int write_network(jam_system *sys, const options *o, const jam_info *info);
 
 #endif

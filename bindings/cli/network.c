@@ -13,6 +13,14 @@ static int no_memory(const char *path) {
   return -1;
 }
 
+/* 0 when a call has filled its arrays; else -1, or 1 where it was stopped, after a message. */
+static int missing(jam_status status, const char *path) {
+  if (status < 0) return refused(path);
+  if (status != JAM_CANCELLED) return 0;
+  complain("%s is not written: Ctrl-C or --wall-time came before it was computed", path);
+  return 1;
+}
+
 static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
   jam_modes_options o;
   size_t m = 0, k;
@@ -22,17 +30,12 @@ static int write_spectrum(jam_system *sys, int64_t count, const char *path) {
   jam_modes_options_init(&o, sizeof o);
   if (count == 0) o.which = JAM_MODES_ALL;
   o.count = count < 0 ? 100 : count;
-  if (jam_modes(sys, NULL, &o, NULL, 0, NULL, 0, NULL, 0, &m) < 0) return refused(path);
+  bad = missing(jam_modes(sys, NULL, &o, NULL, 0, NULL, 0, NULL, 0, &m), path);
+  if (bad) return bad;
   lambda = malloc((2 * m + 1) * sizeof *lambda);
   if (!lambda) return no_memory(path);
-  bad = jam_modes(sys, NULL, &o, lambda, m, NULL, 0, lambda + m, m, NULL);
-  if (bad < 0 || bad == JAM_CANCELLED) {
-    if (bad < 0)
-      refused(path);
-    else
-      complain("cannot write %s: interrupted", path);
-    bad = -1;
-  } else if ((bad = open_output(&out, path)) == 0) {
+  bad = missing(jam_modes(sys, NULL, &o, lambda, m, NULL, 0, lambda + m, m, NULL), path);
+  if (!bad && (bad = open_output(&out, path)) == 0) {
     fputs("mode,lambda,omega,participation\n", out.file);
     for (k = 0; k < m && isfinite(lambda[k]); ++k)
       fprintf(out.file, "%zu,%.17g,%.17g,%.17g\n", k, lambda[k], sqrt(fmax(lambda[k], 0)), lambda[m + k]);
@@ -48,14 +51,14 @@ static int write_gaps(const jam_system *sys, const int32_t *z, const char *path)
   int32_t *pair;
   output out;
   int bad;
-  if (jam_gaps(sys, 1.0, 0, NULL, 0, NULL, 0, &m) < 0) return refused(path);
+  bad = missing(jam_gaps(sys, 1.0, 0, NULL, 0, NULL, 0, &m), path);
+  if (bad) return bad;
   gap = malloc((m + 1) * sizeof *gap);
   pair = malloc((2 * m + 1) * sizeof *pair);
   if (!gap || !pair)
     bad = no_memory(path);
-  else if (jam_gaps(sys, 1.0, 0, gap, m, pair, 2 * m, NULL) < 0)
-    bad = refused(path);
-  else if ((bad = open_output(&out, path)) == 0) {
+  else if ((bad = missing(jam_gaps(sys, 1.0, 0, gap, m, pair, 2 * m, NULL), path)) == 0 &&
+           (bad = open_output(&out, path)) == 0) {
     fputs("i,j,gap,stable\n", out.file);
     for (k = 0; k < m; ++k) {
       const int i = (int)pair[2 * k], j = (int)pair[2 * k + 1];
@@ -77,11 +80,13 @@ static int write_structure(const jam_system *sys, const jam_info *info, const in
   output out;
   int bad, has_phi;
   if (!c) return no_memory(path);
-  has_phi = jam_local_fraction(sys, phi, n, NULL) >= 0;
-  if (jam_sphere_structure(sys, 0, c, d * n, s, n, NULL) < 0 ||
-      jam_sphere_structure(sys, 1, NULL, 0, fs, n, NULL) < 0 || jam_bond_order(sys, 6, 1.2, q, n, NULL) < 0)
-    bad = refused(path);
-  else if ((bad = open_output(&out, path)) == 0) {
+  has_phi = jam_local_fraction(sys, phi, n, NULL);
+  bad = has_phi == JAM_CANCELLED ? missing(has_phi, path) : 0;
+  has_phi = has_phi >= 0;
+  if (!bad) bad = missing(jam_sphere_structure(sys, 0, c, d * n, s, n, NULL), path);
+  if (!bad) bad = missing(jam_sphere_structure(sys, 1, NULL, 0, fs, n, NULL), path);
+  if (!bad) bad = missing(jam_bond_order(sys, 6, 1.2, q, n, NULL), path);
+  if (!bad && (bad = open_output(&out, path)) == 0) {
     fputs("sphere,z,class", out.file);
     for (x = 0; x < d; ++x) fprintf(out.file, ",c%zu", x + 1);
     fputs(",s,fs,q6,phi\n", out.file);
@@ -103,18 +108,20 @@ static int write_structure(const jam_system *sys, const jam_info *info, const in
 
 int write_network(jam_system *sys, const options *o, const jam_info *info) {
   int32_t *z;
-  int bad = 0;
+  int worst = 0, bad[3] = {0, 0, 0}, k;
   if (!o->spectrum && !o->gaps && !o->structure) return 0;
   z = malloc((size_t)info->n * sizeof *z);
   if (!z) return no_memory(o->gaps ? o->gaps : o->spectrum ? o->spectrum : o->structure);
   if (jam_coordination(sys, z, (size_t)info->n, NULL) < 0) {
     complain("%s", jam_last_error());
-    bad = -1;
+    worst = -1;
   } else {
-    if (o->gaps) bad |= write_gaps(sys, z, o->gaps);
-    if (o->structure) bad |= write_structure(sys, info, z, o->structure);
-    if (o->spectrum) bad |= write_spectrum(sys, o->modes, o->spectrum);
+    if (o->gaps) bad[0] = write_gaps(sys, z, o->gaps);
+    if (o->structure) bad[1] = write_structure(sys, info, z, o->structure);
+    if (o->spectrum) bad[2] = write_spectrum(sys, o->modes, o->spectrum);
   }
   free(z);
-  return bad ? -1 : 0;
+  for (k = 0; k < 3; ++k)
+    if (bad[k] && worst >= 0) worst = bad[k];
+  return worst;
 }

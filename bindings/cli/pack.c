@@ -19,9 +19,20 @@ static void on_signal(int number) {
   signal(number, SIG_DFL); /* a second Ctrl-C ends the program at once */
 }
 
-static int32_t stop_if_asked(const jam_progress *progress, void *user) {
+void cancel_on_signal(jam_system *sys) {
+  running = sys;
+  if (sys && interrupted) jam_cancel(sys);
+}
+
+int32_t stop_if_asked(const jam_progress *progress, void *user) {
   (void)progress, (void)user;
   return interrupted;
+}
+
+/* The same where --wall-time is over too. */
+static int32_t stop_late(const jam_progress *progress, void *user) {
+  (void)progress;
+  return interrupted || seconds_now() > *(const double *)user;
 }
 
 /* ---- the parts of the job; each returns the library's status */
@@ -184,10 +195,20 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 #undef LEFT
 }
 
-/* 1 after a message when a call failed. */
+/* 1 after a message when a call failed or was stopped: then it has written nothing. */
 static int told(jam_status status) {
-  if (status < 0) complain("%s", jam_last_error());
-  return status < 0;
+  const int bad = status < 0 || status == JAM_CANCELLED;
+  if (bad) complain("%s", jam_last_error());
+  return bad;
+}
+
+/* Of a crunch that ended before its contacts were known there is no network to write. */
+static int knows_contacts(const options *o, const outcome *result) {
+  if (!result->has_crunch) return 0;
+  if (result->crunch.rattlers >= 0) return 1;
+  if (o->contacts || o->proof || o->gaps || o->structure || o->spectrum)
+    complain("the crunch stopped before its contacts were known: files of the contact network are not written");
+  return 0;
 }
 
 /* By the ending of the name; a table where there is none. */
@@ -224,19 +245,24 @@ static int finish_by_host(const jam_system *sys, const options *o) {
   return host->finish(copy, output, o->plot, host->user) != 0;
 }
 
-static int write_all(jam_system *sys, const options *o, outcome *result) {
-  int bad = 0;
+static int write_all(jam_system *sys, const options *o, double deadline, outcome *result) {
+  const int known = knows_contacts(o, result);
+  int bad = 0, network = 0;
   result->info.struct_size = sizeof result->info;
   jam_get_info(sys, &result->info);
   result->notes = jam_notes(sys);
   if (o->output && !is_host_format(o, o->output)) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
-  if (o->contacts && result->has_crunch) bad |= write_contacts(sys, o->contacts);
-  if (o->proof && result->has_crunch) bad |= told(jam_write_proof(sys, o->proof, NULL, 0));
+  if (o->contacts && known) bad |= write_contacts(sys, o->contacts);
+  if (o->proof && known) bad |= told(jam_write_proof(sys, o->proof, NULL, 0));
   if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
-  running = sys; /* a large spectrum takes long */
-  if (result->has_crunch) bad |= write_network(sys, o, &result->info) != 0;
-  running = NULL;
-  if (o->vtk) bad |= write_vtk(sys, o->vtk, result->has_crunch);
+  cancel_on_signal(sys); /* a large spectrum takes long */
+  jam_set_progress(sys, stop_late, &deadline);
+  if (known) network = write_network(sys, o, &result->info);
+  jam_set_progress(sys, NULL, NULL);
+  cancel_on_signal(NULL);
+  bad |= network < 0;
+  result->cut_short = network > 0;
+  if (o->vtk) bad |= write_vtk(sys, o->vtk, known);
   bad |= finish_by_host(sys, o);
   if (o->report) bad |= write_report(o, result, o->report) != 0;
   if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
@@ -272,7 +298,8 @@ static int run_job(options *o) {
   int bad, code;
   memset(&result, 0, sizeof result);
   code = start(o, stop_if_asked, &sys);
-  if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count) && check_formats(o, sys)) code = EXIT_USAGE;
+  if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count || o->n == 1) && check_formats(o, sys))
+    code = EXIT_USAGE;
   if (!code) print_warnings(jam_notes(sys));
   running = sys;
   if (!code && start_progress(&t, o, sys)) code = EXIT_OUTPUT;
@@ -297,11 +324,11 @@ static int run_job(options *o) {
     complain("stopped early: %s", jam_last_error());
   else if (result.fell_short)
     complain("dynamics fell short of their aim: see the warning above");
-  bad |= write_all(sys, o, &result);
+  bad |= write_all(sys, o, t.begin + o->wall_time, &result);
   jam_destroy(sys);
   if (bad) return EXIT_OUTPUT;
   if (status < 0) return EXIT_FAILED;
-  return status > 0 || interrupted || result.fell_short ? EXIT_EARLY : EXIT_DONE;
+  return status > 0 || interrupted || result.fell_short || result.cut_short ? EXIT_EARLY : EXIT_DONE;
 }
 
 int jam_pack(int argc, char **argv, const jam_pack_host *host) {
@@ -309,7 +336,12 @@ int jam_pack(int argc, char **argv, const jam_pack_host *host) {
   signals before;
   int code;
   program = host ? host->name : "jam-pack";
-  if (argc > 1 && !strcmp(argv[1], "check")) return check_file(argc, argv, host);
+  if (argc > 1 && !strcmp(argv[1], "check")) {
+    take_signals(&before);
+    code = check_file(argc, argv, host);
+    give_signals_back(&before);
+    return code;
+  }
   code = parse_options(argc, argv, host, &o);
   if (code) return code - 1;
   if (each_output(&o, check_writable)) return EXIT_OUTPUT;

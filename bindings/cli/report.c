@@ -150,6 +150,7 @@ int write_report(const options *o, const outcome *result, const char *path) {
   const jam_info *info = &result->info;
   const jam_crunch_report *r = &result->crunch;
   const int crunched = result->has_crunch;
+  const int known = crunched && r->rattlers >= 0;    /* else it was stopped before its contacts were known */
   const int certified = crunched && r->contacts > 0; /* without contacts zeros would look like perfect balance */
   const double rate = result->seconds_md > 0 ? (double)result->collisions / result->seconds_md : NAN;
   struct note_list notes = {NULL, 1};
@@ -173,12 +174,12 @@ int write_report(const options *o, const outcome *result, const char *path) {
   put_number(f, "collisions_per_second", rate);
   put_count(f, "lp_solves", r->lp_solves, crunched);
   put_count(f, "factorisations", r->factorisations, crunched);
-  put_count(f, "contacts", r->contacts, crunched);
-  put_count(f, "rattlers", r->rattlers, crunched);
-  put_count(f, "bucklers", r->bucklers, crunched);
-  put_count(f, "isostatic_contacts", r->isostatic_contacts, crunched);
-  put_count(f, "excess_contacts", r->excess_contacts, crunched);
-  put_count(f, "undecided_contacts", r->undecided_contacts, crunched);
+  put_count(f, "contacts", r->contacts, known);
+  put_count(f, "rattlers", r->rattlers, known);
+  put_count(f, "bucklers", r->bucklers, known);
+  put_count(f, "isostatic_contacts", r->isostatic_contacts, known);
+  put_count(f, "excess_contacts", r->excess_contacts, known);
+  put_count(f, "undecided_contacts", r->undecided_contacts, known);
   put_number(f, "max_overlap", crunched ? r->max_overlap : NAN);
   put_number(f, "force_residual", certified ? r->force_residual : NAN);
   put_number(f, "gamma_residual", certified ? r->gamma_residual : NAN);
@@ -247,7 +248,8 @@ void print_summary(const options *o, const outcome *result) {
   if (!result->has_crunch) return;
   printf("  crunch    %s (%s): %lld LPs, %lld factorisations, %.2f s\n", verdict(r), jam_stop_string(r->stop_reason),
          (long long)r->lp_solves, (long long)r->factorisations, r->seconds);
-  if (r->contacts == 0) {
+  if (r->contacts < 0) puts("  network   unknown: the crunch stopped before its contacts were known");
+  if (r->contacts <= 0) {
     print_changes(o, result);
     return;
   }

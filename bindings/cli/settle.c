@@ -165,6 +165,22 @@ static int settle_effects(const options *o) {
   return 0;
 }
 
+/* What the crunch would refuse after the dynamics. */
+static int settle_crunch(const options *o) {
+  const double gap = o->duality_gap;
+  if (gap == 0) return 0;
+  if (!(gap >= 1e-12 && gap <= 1e-2)) {
+    complain("--duality-gap is %g, it must be 0 or from 1e-12 to 1e-2", gap);
+    return -1;
+  }
+  if (o->method != JAM_CRUNCH_BARRIER_PATH || o->strain != JAM_STRAIN_NONE) {
+    complain("--duality-gap contradicts %s: it needs the barrier path and a fixed cell",
+             o->strain != JAM_STRAIN_NONE ? "--strain" : "--method");
+    return -1;
+  }
+  return 0;
+}
+
 /* Gives --pressure to the stages without their own; it must be the target of one. */
 static int settle_stages(options *o) {
   int k, taken = 0;
@@ -241,7 +257,7 @@ int settle(options *o) {
     complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
     return -1;
   }
-  if (settle_effects(o) || settle_cell(o)) return -1;
+  if (settle_effects(o) || settle_cell(o) || settle_crunch(o)) return -1;
   g->n = o->n != NOT_GIVEN;
   if (!g->n) o->n = 1024;
   if (isfinite(o->zeta) || isfinite(o->plant)) o->model = JAM_MODEL_MK;
@@ -273,6 +289,10 @@ int check_formats(const options *o, const jam_system *sys) {
   char ending[8];
   info.struct_size = sizeof info;
   jam_get_info(sys, &info);
+  if (info.n == 1 && !o->no_crunch && o->strain == JAM_STRAIN_NONE) {
+    complain("a crunch of one sphere needs --strain: in a fixed cell nothing can move");
+    return -1;
+  }
   if (o->vtk && info.dim > 3) {
     complain("--vtk: such files hold d = 2 and d = 3, this packing has d = %d", (int)info.dim);
     return -1;

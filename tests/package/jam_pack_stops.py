@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""jam_pack_stops.py PROGRAM: what jam-pack says and leaves out when it is stopped, and what it refuses before the work."""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+program = sys.argv.pop(1)
+
+
+def run(*args, seconds=120):
+    return subprocess.run([program, *map(str, args)], capture_output=True, text=True, timeout=seconds, check=False)
+
+
+class Stops(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.dir = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def report(self, *args):
+        done = run(*args, "--report", "-")
+        self.assertEqual(done.returncode, 0, f"{args}: {done.stderr}")
+        return json.loads(done.stdout)
+
+    def refuse(self, status, text, *args):
+        done = run(*args, seconds=20)
+        self.assertEqual(done.returncode, status, f"{args}: {done.stderr}")
+        self.assertIn(text, done.stderr, str(args))
+
+    def test_wall_time_bounds_the_spectrum(self):
+        packing = self.dir / "p.xyz"
+        self.report("--n", 1000, "--growth", "1e-1:1e4", "--output", packing)
+        table, times = self.dir / "s.csv", []
+        for words in ((), ("--spectrum", table, "--modes", 0)):
+            began = time.monotonic()
+            self.report("--input", packing, "--no-md", *words)
+            times.append(time.monotonic() - began)
+        table.unlink()
+        limit = times[0] + 0.2 * (times[1] - times[0])
+        began = time.monotonic()
+        done = run("--input", packing, "--spectrum", table, "--modes", 0, "--wall-time", limit, "--quiet")
+        if done.returncode == 0:  # the machine was slower before: then it must have ended in time
+            self.assertLess(time.monotonic() - began, 0.6 * times[1])
+        else:
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertRegex(done.stderr, "--wall-time came before|wall_time came before")
+            self.assertFalse(table.exists())
+
+    def test_contacts_that_are_not_known_are_not_written(self):
+        files = [self.dir / name for name in ("c.csv", "s.csv", "g.csv", "m.csv")]
+        tables = [x for pair in zip(("--contacts", "--structure", "--gaps", "--spectrum"), files) for x in pair]
+        out = self.dir / "p.xyz"
+        done = run("--n", 3000, "--no-md", "--wall-time", 0.3, "--output", out, "--report", "-", *tables)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        report = json.loads(done.stdout)
+        for name in ("contacts", "rattlers", "bucklers", "excess_contacts"):
+            self.assertIsNone(report[name], name)
+        self.assertIn("before its contacts were known", done.stderr)
+        self.assertEqual([f.name for f in files if f.exists()], [])
+        self.assertNotIn("contacts", out.read_text().splitlines()[1])
+
+    def test_ctrl_c_ends_a_check_with_a_word(self):
+        packing = self.dir / "p.xyz"
+        self.report("--n", 600, "--growth", "1e-1:1e4", "--output", packing)
+        lines = packing.read_text().splitlines()
+        few = [" ".join([row.split()[0], *(f"{float(x):.6f}" for x in row.split()[1:4]), *row.split()[4:]]) for row in lines[2:]]
+        packing.write_text("\n".join(lines[:2] + few) + "\n")  # undecided, so that a copy is crunched
+        command = [program, "check", str(packing)]
+        with subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            time.sleep(0.15)
+            process.send_signal(signal.SIGINT)
+            stdout, stderr = process.communicate(timeout=60)
+        if process.returncode == -signal.SIGINT:
+            self.fail("the signal ended the program without a word")
+        if not stdout:  # else it was done before
+            self.assertEqual((process.returncode, "interrupted" in stderr), (3, True), stderr)
+
+    def test_the_file_of_a_check_stands_anywhere(self):
+        packing = self.dir / "p.xyz"
+        self.report("--n", 64, "--growth", "1e-1:1e4", "--output", packing)
+        right = run("check", packing)
+        self.assertIn(right.returncode, (0, 1, 3))
+        for words in (("--frame", -1, packing), (packing, "--frame", -1), ("--frame=-1", packing), ("--quiet", packing)):
+            done = run("check", *words)
+            self.assertEqual(done.returncode, right.returncode, f"{words}: {done.stderr}")
+            self.assertEqual(done.stdout, "" if "--quiet" in words else right.stdout)
+
+    def test_what_a_crunch_would_refuse_is_refused_at_once(self):
+        out = self.dir / "p.xyz"
+        for words in (
+            ("--duality-gap", "1e-6", "--strain", "free"),
+            ("--duality-gap", "1e-6", "--method", "sequential-lp"),
+            ("--duality-gap", "1e-20"),
+            ("--duality-gap", "1"),
+        ):
+            self.refuse(2, "--duality-gap", "--n", 300, *words, "--output", out)
+            self.assertFalse(out.exists())
+        self.refuse(2, "one sphere needs --strain", "--n", 1, "--output", out)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -824,13 +824,13 @@ module jam
     real(c_double) :: packing_fraction = 0
     ! unit of box
     real(c_double) :: diameter_mean = 0
-    ! pairs with a force, rattlers left out
+    ! pairs with a force, rattlers left out; -1: stopped before contacts were known
     integer(c_int64_t) :: contacts = 0
-    ! spheres that no force-carrying contact touches; -1: stopped before contacts were known
+    ! spheres that no force-carrying contact touches; -1 likewise. Calls that need the network then return JAM_E_STATE
     integer(c_int64_t) :: rattlers = 0
     ! n - rattlers = N'; 0 where contacts are unknown
     integer(c_int64_t) :: stable = 0
-    ! stable spheres with exactly d+1 contacts
+    ! stable spheres with exactly d+1 contacts; -1 likewise
     integer(c_int64_t) :: bucklers = 0
     ! d (N' - 1) + 1: contacts of a single state of self-stress
     integer(c_int64_t) :: isostatic_contacts = 0
@@ -840,7 +840,7 @@ module jam
     integer(c_int64_t) :: flexes = 0
     ! closed pairs without force in every state of self-stress, those of rattlers too
     integer(c_int64_t) :: zero_force_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
+    ! pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on the path over the mean is within a factor of 1e4 of twice their gap
     integer(c_int64_t) :: undecided_contacts = 0
     ! stable spheres with d force-carrying contacts or fewer
     integer(c_int64_t) :: undercoordinated = 0
@@ -1194,7 +1194,7 @@ module jam
     integer(c_int64_t) :: undercoordinated = 0
     ! closed pairs that are not in K+
     integer(c_int64_t) :: zero_force_contacts = 0
-    ! pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
+    ! pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot distinguish from contacts
     integer(c_int64_t) :: undecided_contacts = 0
     ! smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     real(c_double) :: rigidity_margin = 0
@@ -1377,9 +1377,9 @@ module jam
     ! 0
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: contacts_a = 0
-    ! of sys and of other; 0 without a network
+    ! of sys and of other; -1 without a network
     integer(c_int64_t) :: contacts_b = 0
-    ! pairs in both
+    ! pairs in both; -1 unless both have a network
     integer(c_int64_t) :: common_contacts = 0
     ! spheres that are rattlers in neither
     integer(c_int64_t) :: stable_in_both = 0
@@ -1891,7 +1891,7 @@ module jam
     end function jam_contacts_from_geometry
 
     ! Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
-    ! pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+    ! pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
     ! Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
     ! spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
     ! where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
@@ -2797,6 +2797,7 @@ module jam
 
   ! A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
   ! The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+  ! Where no pair is near contact, one sphere moves.
   ! Shapes: out (n, d), strain (d, d).
   ! Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion).
   interface jam_flex
@@ -4530,8 +4531,8 @@ contains
   end function jam_contact_gaps
 
   ! Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
-  ! (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
-  ! none is negative, else the LP's.
+  ! (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
+  ! middle of all non-negative states, as jam_stress_states gives.
   ! Shapes: out (contacts).
   ! Errors: JAM_E_STATE.
   function jam_forces(sys, out, out_len, needed) result(status)

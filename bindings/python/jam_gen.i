@@ -611,8 +611,8 @@ weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is 
 Shapes: out (contacts).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_forces "Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
-(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
-none is negative, else the LP's.
+(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
+middle of all non-negative states, as jam_stress_states gives.
 Shapes: out (contacts).
 Errors: JAM_E_STATE."
 %feature("docstring") jam_coordination "Number of contacts of each sphere; 0 for rattlers.
@@ -650,7 +650,7 @@ of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
 Shapes: force (n_c), basis (m, n_c).
 Errors: JAM_E_STATE, JAM_E_SOLVER."
 %feature("docstring") jam_rigidity "Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
-pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
@@ -662,6 +662,7 @@ JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
 Errors: JAM_E_SOLVER."
 %feature("docstring") jam_flex "A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+Where no pair is near contact, one sphere moves.
 Shapes: out (n, d), strain (d, d).
 Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion)."
 %feature("docstring") jam_check_options_init ""

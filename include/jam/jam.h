@@ -952,19 +952,19 @@ typedef struct jam_crunch_report {
   int32_t reserved;        /* 0 */
   double packing_fraction; /* phi_J when jammed */
   double diameter_mean;    /* unit of box */
-  int64_t contacts;        /* pairs with a force, rattlers left out */
-  int64_t rattlers;        /* spheres that no force-carrying contact touches; -1: stopped before contacts were known */
+  int64_t contacts;        /* pairs with a force, rattlers left out; -1: stopped before contacts were known */
+  int64_t rattlers;        /* spheres that no force-carrying contact touches; -1 likewise. Calls that need the network
+                            * then return JAM_E_STATE */
   int64_t stable;          /* n - rattlers = N'; 0 where contacts are unknown */
-  int64_t bucklers;        /* stable spheres with exactly d+1 contacts */
+  int64_t bucklers;        /* stable spheres with exactly d+1 contacts; -1 likewise */
   int64_t isostatic_contacts; /* d (N' - 1) + 1: contacts of a single state of self-stress */
   int64_t excess_contacts;    /* contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic.
                                * Amorphous packings have 0, but disks of two sizes one for each disk whose six
                                * neighbours are its equals: the seven close twelve contacts, and eleven fix them */
   int64_t flexes; /* motions of stable spheres, beyond translations, that keep force-carrying contacts closed */
   int64_t zero_force_contacts;    /* closed pairs without force in every state of self-stress, those of rattlers too */
-  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7 that the network does not list. After
-                                   * JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean
-                                   * is within a factor of 1e4 of twice their gap */
+  int64_t undecided_contacts;     /* pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on
+                                   * the path over the mean is within a factor of 1e4 of twice their gap */
   int64_t undercoordinated;       /* stable spheres with d force-carrying contacts or fewer */
   int64_t strict_contacts_needed; /* d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing */
   double rigidity_margin;         /* smallest eigenvalue of S^T S on force-carrying contacts that is no translation */
@@ -1248,8 +1248,8 @@ JAM_API jam_status jam_contact_vectors(const jam_system *sys, double *out, size_
  * (contacts) @errors STATE */
 JAM_API jam_status jam_contact_gaps(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
- * (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
- * none is negative, else the LP's. @shape out (contacts) @errors STATE */
+ * (excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
+ * middle of all non-negative states, as jam_stress_states gives. @shape out (contacts) @errors STATE */
 JAM_API jam_status jam_forces(const jam_system *sys, double *out, size_t out_len, size_t *needed);
 /* Number of contacts of each sphere; 0 for rattlers. @shape out (n) @errors STATE */
 JAM_API jam_status jam_coordination(const jam_system *sys, int32_t *out, size_t out_len, size_t *needed);
@@ -1406,15 +1406,15 @@ typedef struct jam_rigidity_report {
   int64_t flexes;              /* motions beyond translations that keep K+ closed; 0 without K+, 512 at most */
   int64_t undercoordinated;    /* spheres of B with d contacts of K+ or fewer */
   int64_t zero_force_contacts; /* closed pairs that are not in K+ */
-  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those
-                                * that the digits of the coordinates cannot distinguish from contacts */
+  int64_t undecided_contacts;  /* pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot
+                                * distinguish from contacts */
   double rigidity_margin;      /* smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere
                                 * that touches its own images alone: with strains */
   double force_residual;       /* largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof */
 } jam_rigidity_report;
 
 /* Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
- * pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+ * pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
  * Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
  * spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
  * where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
@@ -1426,6 +1426,7 @@ typedef struct jam_rigidity_report {
 JAM_API jam_status jam_rigidity(jam_system *sys, int32_t kind, jam_rigidity_report *report);
 /* A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
  * The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+ * Where no pair is near contact, one sphere moves.
  * @shape out (n, d), strain (d, d) @enum kind jam_rigidity_kind @errors SOLVER, STATE (jammed, or undecided without a
  * motion) */
 JAM_API jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, double *strain,
@@ -1691,8 +1692,8 @@ typedef struct jam_moduli_report {
 typedef struct jam_comparison {
   uint32_t struct_size;           /* set by the caller: sizeof(jam_comparison) */
   int32_t reserved;               /* 0 */
-  int64_t contacts_a, contacts_b; /* of sys and of other; 0 without a network */
-  int64_t common_contacts;        /* pairs in both */
+  int64_t contacts_a, contacts_b; /* of sys and of other; -1 without a network */
+  int64_t common_contacts;        /* pairs in both; -1 unless both have a network */
   int64_t stable_in_both;         /* spheres that are rattlers in neither */
   double overlap;                 /* common over union; NaN unless both have a network */
   double overlap_a;               /* common over contacts_a: sys as the reference; NaN likewise */

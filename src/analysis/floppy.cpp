@@ -15,6 +15,13 @@ void FloppyModes::resize(size_t m) {
   for (auto *x : {&median, &weight, &s_plus, &s_star, &stability, &s_return}) x->resize(m);
 }
 
+// The mean of the two middle values of an even number. The order of x is lost.
+static double median_of(std::vector<double> &x) {
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  std::nth_element(x.begin(), middle, x.end());
+  return x.size() % 2 ? *middle : 0.5 * (*middle + *std::max_element(x.begin(), middle));
+}
+
 FloppySolver::FloppySolver(const Packing &p, const ContactNetwork &network, const RigidityMatrix &g)
     : g_(g), space_(g) {
   const StressStates s = find_stress(g, space_, false);
@@ -66,10 +73,9 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out) const {
     all += s;
     size[i] = std::sqrt(s);
   }
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  out.median[l] = *middle / std::sqrt(all);
-  out.weight[l] = force_[l] / *middle;
+  const double middle = median_of(size);
+  out.median[l] = middle / std::sqrt(all);
+  out.weight[l] = force_[l] / middle;
   const double gamma = inflation(l);
   double s_plus = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < i_.size(); ++k) {

@@ -10,6 +10,9 @@
 namespace jam {
 
 inline void need_network(const jam_system *sys) {
+  if (sys->has_report && !sys->known_contacts())
+    fail(JAM_E_STATE,
+         "the crunch stopped before its contacts were known: crunch to the end, or call jam_contacts_from_geometry");
   if (!sys->has_report)
     fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
 }

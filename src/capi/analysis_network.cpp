@@ -37,7 +37,7 @@ Answer answer_of(const GeometryResult &found, const jam_geometry_options &o) {
                  "product of the forces is largest",
                  n(r.self_stresses)));
   if (found.verdict.result.jammed != Verdict::yes)
-    add(sentence("contacts have gaps of up to %.1e, so jam_rigidity cannot decide: jam_crunch closes the gaps",
+    add(sentence("contacts have gaps of up to %.1e, and open ones prove nothing: jam_crunch closes the gaps",
                  r.gap_below));
   return {JAM_AMBIGUOUS, why};
 }

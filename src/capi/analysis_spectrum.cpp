@@ -114,8 +114,7 @@ jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_compa
     if (!comparison && !out && !needed) fail(JAM_E_NULL, "comparison, out and needed are all NULL");
     check_out_struct(comparison, "comparison");
     check_output(out, out_len, sys->packing.position.size(), "out");
-    const Comparison c = compare_packings(sys->packing, sys->has_report ? &sys->contacts : nullptr, other->packing,
-                                          other->has_report ? &other->contacts : nullptr);
+    const Comparison c = compare_packings(sys->packing, sys->known_contacts(), other->packing, other->known_contacts());
     if (needed) *needed = c.displacement.size();
     put_output(c.displacement, out, c.displacement.size());
     give_struct(c.numbers, comparison);

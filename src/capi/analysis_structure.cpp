@@ -10,7 +10,7 @@ jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, do
                     int32_t *pair, size_t pair_len, size_t *needed) {
   return guard_const(sys, [&]() -> jam_status {
     if (stable_only) need_network(sys);
-    const Gaps g = find_gaps(sys->packing, sys->has_report ? &sys->contacts : nullptr, h_max, stable_only != 0);
+    const Gaps g = find_gaps(sys->packing, sys->known_contacts(), h_max, stable_only != 0);
     if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     if (needed) *needed = g.gap.size();
     check_output(gap, gap_len, g.gap.size(), "gap");

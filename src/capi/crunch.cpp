@@ -1,6 +1,6 @@
 // Header section "crunch to the jamming point" and the arrays of the contact network.
 #include "crunch/crunch.hpp"
-#include "capi/guard.hpp"
+#include "capi/analysis.hpp"
 #include "capi/proof.hpp"
 #include "core/checks.hpp"
 
@@ -10,8 +10,7 @@ namespace {
 template <class F>
 jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
   return guard_read(sys, [&]() -> jam_status {
-    if (!sys->has_report)
-      fail(JAM_E_STATE, "there is no contact network: call jam_crunch or jam_contacts_from_geometry first");
+    need_network(sys);
     return f(sys->contacts);
   });
 }
@@ -92,7 +91,8 @@ jam_status jam_estimate_crunch(const jam_system *sys, const jam_crunch_options *
 }
 
 jam_status jam_get_crunch_report(const jam_system *sys, jam_crunch_report *report) {
-  return with_contacts(sys, [&](const ContactNetwork &) -> jam_status {
+  return guard_read(sys, [&]() -> jam_status {
+    if (!sys->has_report) need_network(sys);
     need(report, "report");
     check_out_struct(report, "report");
     give_struct(sys->report, report);

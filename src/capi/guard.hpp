@@ -6,6 +6,7 @@
 #include <new>
 #include "capi/answer.hpp"
 #include "capi/system.hpp"
+#include "capi/unmade.hpp"
 #include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
@@ -225,7 +226,8 @@ void give_struct(const T &full, T *out) {
   std::memcpy(static_cast<void *>(out), &full, size);
   out->struct_size = size;
 }
-// A verb that may be left by Cancelled before it has changed anything; the report then gives the reason alone.
+// A verb that may be left by Cancelled before it has changed anything; the report then gives the reason and leaves all
+// else unknown.
 template <class Report, class F>
 jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
   return guard_verb(sys, [&]() -> Answer {
@@ -235,6 +237,7 @@ jam_status guard_reporting(jam_system *sys, Report *report, F &&f) noexcept {
     } catch (const Cancelled &) {
       const bool cancelled = sys->monitor.cancelled();
       Report r{};
+      set_unmade(*sys, r);
       r.stop_reason = cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
       give_struct(r, report);
       return stopped(cancelled ? JAM_CANCELLED : JAM_LIMIT, r.stop_reason);

@@ -86,7 +86,7 @@ jam_status jam_add_note(jam_system *sys, const char *text) {
 jam_status jam_write(const jam_system *sys, const char *path, int32_t format) {
   return guard_const(sys, [&]() -> jam_status {
     need(path, "path");
-    write_file(sys->packing, sys->has_report ? &sys->contacts.coordination : nullptr, path, format);
+    write_file(sys->packing, sys->known_contacts() ? &sys->contacts.coordination : nullptr, path, format);
     return JAM_OK;
   });
 }

@@ -24,6 +24,13 @@ void give_scaled(const char *name, const std::vector<double> &data, double unit,
   for (size_t k = 0; k < data.size(); ++k) out[k] = data[k] * unit;
 }
 
+// Without any run its measured numbers are unknown.
+jam_isoconf_report report_of(const Isoconfigurational &runs) {
+  jam_isoconf_report r = runs.report();
+  if (r.runs == 0) r.energy_drift = r.max_overlap = r.acceptance = NAN;
+  return r;
+}
+
 void take_monte_carlo_options(const jam_monte_carlo_options *m, jam_monte_carlo_options &full) {
   take_options(m, full);
   check_monte_carlo_options(full);
@@ -66,8 +73,8 @@ jam_status jam_isoconfigurational(jam_system *sys, const jam_isoconf_options *o,
     listeners.monitor = &sys->monitor;
     const Running running(sys, sys->runs.get());
     const jam_status status = sys->runs->run(limits, listeners);
-    give_struct(sys->runs->report(), report);
-    return stopped(status, sys->runs->report().stop_reason);
+    give_struct(report_of(*sys->runs), report);
+    return stopped_run(status, sys->runs->report().stop_reason);
   });
 }
 
@@ -75,7 +82,7 @@ jam_status jam_get_isoconf_report(const jam_system *sys, jam_isoconf_report *rep
   return with_runs(sys, [&](const Isoconfigurational &runs) -> jam_status {
     need(report, "report");
     check_out_struct(report, "report");
-    give_struct(runs.report(), report);
+    give_struct(report_of(runs), report);
     return JAM_OK;
   });
 }

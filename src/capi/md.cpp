@@ -143,6 +143,11 @@ Answer verb(jam_system *sys, const Options *o, Options full, Check &&check, jam_
   const GrowthStage stage = stage_of(full);
   jam_md_report made{};
   const Answer answer = run_stages(sys, take_stage(sys, full.resume == 1, stage), stage.limits(), made);
+  if (made.packing_fraction == 0.0) {  // no stage has begun
+    const jam_md_report bare = made;
+    set_unmade(*sys, made);
+    made.stop_reason = bare.stop_reason, made.seconds = bare.seconds;
+  }
   give_struct(made, report);
   return answer;
 }

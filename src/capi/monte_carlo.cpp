@@ -47,7 +47,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);
     give_struct(made, report);
-    return stopped(status, made.stop_reason);
+    return stopped_run(status, made.stop_reason);
   });
 }
 

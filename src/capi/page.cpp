@@ -78,13 +78,13 @@ extern "C" jam_status jam_write_page(const jam_system *sys, const char *path, co
     content.small = small;
     take_columns(sys, names, values, values_len, content);
     if (sys->has_report) {
-      content.network = &sys->contacts;
+      content.network = sys->known_contacts();
       content.report = &sys->report;
       content.stop_reason = jam_stop_string(sys->report.stop_reason);
       const jam_crunch_report &r = sys->report;
       if (r.theorem != JAM_THEOREM_NONE || r.proof_cause != JAM_CAUSE_NONE)
         content.proof = proof_text(r.theorem, r.proof_cause, r.proof_radius, r.proof_value, r.proof_bound);
-      if (!small) content.gaps = find_gaps(sys->packing, &sys->contacts, gap_reach, true).gap;
+      if (!small && content.network) content.gaps = find_gaps(sys->packing, &sys->contacts, gap_reach, true).gap;
     }
     if (sys->has_history) take_steps(sys, content);
     write_page(content, path);

@@ -12,13 +12,16 @@
 namespace jam {
 
 struct Results {
-  ContactNetwork contacts;  // valid when has_report
+  ContactNetwork contacts;  // of the report; ask known_contacts
   jam_crunch_report report{};
   bool has_report = false;
   std::vector<HistoryRow> history;  // of the crunch that led here; valid when has_history
   bool has_history = false;
   std::vector<KeptStep> kept_steps;   // of the same crunch; empty unless asked for
   std::vector<SoftRow> soft_history;  // of the decompression that led here; empty without one
+
+  // The contacts. NULL where no call looked for them, or a crunch was stopped before it knew them.
+  const ContactNetwork *known_contacts() const { return has_report && report.rattlers >= 0 ? &contacts : nullptr; }
 
   // results_archive.cpp. Reading throws JAM_E_FORMAT unless they fit the packing p.
   void archive(Archive &a, const Packing &p);

@@ -100,7 +100,7 @@ void Results::archive(Archive &a, const Packing &p) {
   a(kept);
   if (a.reading()) {
     check(report.struct_size == sizeof report || !has_report);
-    check(!has_report || report.contacts == static_cast<int64_t>(contacts.size()));
+    check(!has_report || std::max<int64_t>(0, report.contacts) == static_cast<int64_t>(contacts.size()));
     check_network(contacts, p);
     check_history(history);
     check(kept <= history.size() + 1);

@@ -37,8 +37,23 @@ Answer answer_of(const jam_rigidity_report &r) {
 }
 
 PackingVerdict test(const jam_system *sys, Jamming kind) {
-  PackingVerdict v = test_packing(sys->packing, sys->has_report ? &sys->contacts : nullptr, kind);
-  if (kind == Jamming::collective) decide_by_proof(sys->packing, v);
+  const Packing &p = sys->packing;
+  const GapResolution resolution = gap_resolution(p);
+  // Positions alone say which spheres touch: what a network lists beyond that does not count, but for own images, as a
+  // free cell makes them contacts.
+  ContactNetwork closed;
+  if (const ContactNetwork *known = sys->known_contacts()) {
+    std::vector<char> on(known->size());
+    for (size_t k = 0; k < on.size(); ++k) on[k] = known->pairs.own_image(k) || known->gap[k] < contact_gap_limit;
+    closed = subset(*known, on, p.dim);
+  }
+  const ContactNetwork *listed = closed.size() ? &closed : nullptr;
+  PackingVerdict v = test_packing(p, resolution, listed, kind);
+  if (kind == Jamming::collective) decide_by_proof(p, v);
+  if (kind == Jamming::strict || v.result.jammed == Verdict::yes || !may_touch_own_image(p, resolution)) return v;
+  PackingVerdict strict = test_packing(p, resolution, listed, Jamming::strict);
+  if (strict.result.jammed == Verdict::yes) return strict;
+  if (strict.result.jammed == Verdict::undecided) v.result.jammed = Verdict::undecided;
   return v;
 }
 
@@ -90,6 +105,11 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
                                                         : "no flex was found; the verdict is undecided");
     const double unit = sys->diameter_mean;
     std::vector<double> motion(size, 0.0), eps(d * d, 0.0);
+    if (v.contacts.size() == 0) {  // no pair is near: any motion will do
+      if (sys->packing.n() == 1 && jamming == Jamming::collective)
+        fail(JAM_E_STATE, "one sphere that touches nothing has no motion but a translation");
+      (sys->packing.n() > 1 ? motion : eps)[0] = sys->packing.n() > 1 ? unit : -unit;
+    }
     for (size_t k = 0; k < v.sphere.size(); ++k)
       for (size_t c = 0; c < d; ++c) motion[static_cast<size_t>(v.sphere[k]) * d + c] = unit * v.result.flex[k * d + c];
     for (size_t k = 0; k < v.result.strain.size(); ++k) eps[k] = unit * v.result.strain[k];

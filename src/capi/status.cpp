@@ -72,6 +72,13 @@ Answer stopped(jam_status status, int32_t stop_reason) {
   return text ? Answer(status, text) : Answer(status);
 }
 
+Answer stopped_run(jam_status status, int32_t stop_reason) {
+  const bool cancelled = stop_reason == JAM_STOP_CANCELLED;
+  if (status <= 0 || (!cancelled && stop_reason != JAM_STOP_WALL_TIME)) return stopped(status, stop_reason);
+  return {status, sentence("%s; what was made is kept, and resume = 1 goes on; without it a call begins anew",
+                           cancelled ? "jam_cancel or a callback stopped the call" : "wall_time came before the end")};
+}
+
 std::string sentence(const char *format, ...) {
   char text[400];
   va_list args;

@@ -9,17 +9,18 @@
 
 namespace jam {
 
-// As far as the digits of the coordinates say.
+// Closed pairs as in the test of jamming, and those that digits cannot distinguish from them.
 Touching find_touching(const Packing &start, bool own_images) {
   const GapResolution resolution = gap_resolution(start);
-  const PairList pairs = find_pairs(start, resolution.reach(), 1.0 + undecided_gap_limit);
+  const PairList pairs = find_pairs(start, resolution.reach(), 1.0 + contact_gap_limit);
   double r[JAM_MAX_DIM];
   Touching found;
   found.total = 0;
   for (size_t k = 0; k < pairs.size(); ++k) {
     const double sigma = contact_distance(start, pairs.i[k], pairs.j[k]);
     if (pairs.own_image(k) && !own_images) continue;
-    if (!resolution.may_touch(std::sqrt(pair_vector(start, pairs, k, r)) / sigma - 1.0, sigma)) continue;
+    const double gap = std::sqrt(pair_vector(start, pairs, k, r)) / sigma - 1.0;
+    if (!(gap < contact_gap_limit || gap * sigma < resolution.reach())) continue;
     ++found.images[{pairs.i[k], pairs.j[k]}], ++found.total;
   }
   return found;

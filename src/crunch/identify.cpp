@@ -157,11 +157,7 @@ Phase judge(CrunchState &s) {
     s.system.release();  // the test has a factor of its own
     PackingVerdict verdict;
     if (!tested(s, Jamming::collective, verdict)) return Phase::done;
-    double open = 0.0;
-    for (size_t k = 0; k < verdict.contacts.size(); ++k)
-      if (verdict.result.carrying[k]) open = std::max(open, std::fabs(verdict.contacts.gap[k]));
-    // A contact that stays open is none: only closed ones make a packing jammed.
-    if (verdict.result.jammed == Verdict::yes && open < contact_gap_limit) return end_jammed(s, verdict);
+    if (verdict.result.jammed == Verdict::yes) return end_jammed(s, verdict);
     const Kick kick = converged(s) ? leave_saddle(s, verdict) : Kick::none;
     if (kick == Kick::free) return Phase::approach;
     if (kick == Kick::blocked && s.o.polish) {
@@ -207,7 +203,9 @@ Phase identify(CrunchState &s) {
 static void mark_unknown_rattlers(const CrunchState &s, jam_crunch_report &r) {
   const bool unknown =
       r.stop_reason == JAM_STOP_CANCELLED || r.stop_reason == JAM_STOP_WALL_TIME || r.stop_reason == JAM_STOP_SOLVER;
-  if (unknown && s.out.contacts.size() == 0) r.rattlers = -1, r.stable = 0;
+  if (!unknown || s.out.contacts.size() > 0) return;
+  r.rattlers = r.contacts = r.bucklers = -1, r.stable = 0;
+  r.force_residual = r.min_force = r.max_contact_gap = std::numeric_limits<double>::quiet_NaN();
 }
 
 void finish(CrunchState &s) {

@@ -101,12 +101,13 @@ void put_named(std::string &out, const std::vector<std::pair<const char *, doubl
 void put_report(std::string &out, const jam_crunch_report &r, const std::string &stop_reason,
                 const std::string &proof) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto known = [&](int64_t count) { return r.rattlers < 0 ? nan : static_cast<double>(count); };
   const std::vector<std::pair<const char *, double>> rows = {
-      {"contacts", static_cast<double>(r.contacts)},
-      {"contacts above isostatic", static_cast<double>(r.excess_contacts)},
-      {"rattlers", static_cast<double>(r.rattlers)},
-      {"bucklers", static_cast<double>(r.bucklers)},
-      {"flexes", static_cast<double>(r.flexes)},
+      {"contacts", known(r.contacts)},
+      {"contacts above isostatic", known(r.excess_contacts)},
+      {"rattlers", known(r.rattlers)},
+      {"bucklers", known(r.bucklers)},
+      {"flexes", known(r.flexes)},
       {"largest overlap", r.max_overlap},
       {"force imbalance over mean force", r.force_residual},
       {"largest gap of a contact", r.max_contact_gap},

@@ -17,7 +17,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Diameters of the tested packing are reduced until the worst pair just touches. That such a pair overlaps says that
 // gaps are known no better.
-GapResolution take_overlaps(CheckResult &out) {
+GapResolution take_overlaps(CheckResult &out, bool &unexplained) {
   Packing &p = out.tested;
   const ClosestPair closest = closest_pair(p);
   out.report.nearest_gap = closest.gap;
@@ -29,7 +29,10 @@ GapResolution take_overlaps(CheckResult &out) {
     fail(JAM_E_OVERLAP,
          "spheres %d and %d overlap by %.3g of their contact distance: this is no packing of hard spheres", closest.i,
          closest.j, -closest.gap);
-  widen(resolution, p, -closest.gap * contact_distance(p, closest.i, closest.j));
+  // Beyond rounding and the digits of the coordinates the reduced spheres are another packing.
+  const double overlap = -closest.gap * contact_distance(p, closest.i, closest.j);
+  unexplained = -closest.gap > undecided_gap_limit && overlap > resolution.reach();
+  widen(resolution, p, overlap);
   out.report.diameter_factor = 1.0 + closest.gap;
   for (double &sigma : p.diameter) sigma *= out.report.diameter_factor;
   return resolution;
@@ -80,11 +83,6 @@ int32_t reason_of(const jam_check_report &r, bool coarse, bool changes_when_clos
   return r.stationary == JAM_VERDICT_YES ? JAM_CHECK_FLEX : JAM_CHECK_NO_FORCE;
 }
 
-bool may_touch_own_image(const Packing &p, const GapResolution &resolution) {
-  const double widest = diameter_max(p);
-  return resolution.may_touch(p.cell.shortest() / widest - 1.0, widest);
-}
-
 }  // namespace
 
 jam_check_report untested_check() {
@@ -105,7 +103,8 @@ CheckResult check_as_it_is(const Packing &p) {
   r = untested_check();
   r.dim = p.dim, r.n = static_cast<int64_t>(p.n());
   r.packing_fraction = packing_fraction(p);
-  const GapResolution resolution = take_overlaps(out);
+  bool unexplained = false;
+  const GapResolution resolution = take_overlaps(out, unexplained);
   const Packing &q = out.tested;
   r.digits = resolution.digits(p), r.coordinate_step = resolution.step, r.resolution = resolution.relative(p);
   PackingVerdict verdict = test_packing(q, resolution, nullptr, Jamming::collective);
@@ -121,6 +120,9 @@ CheckResult check_as_it_is(const Packing &p) {
       r.jammed = JAM_VERDICT_YES;
     } else if (r.jammed == JAM_VERDICT_NO && strict.result.jammed == Verdict::undecided) {
       r.jammed = JAM_VERDICT_UNDECIDED;
+    } else if (r.jammed == JAM_VERDICT_NO && verdict.result.stressed == Verdict::no &&
+               strict.result.stressed == Verdict::yes) {
+      verdict = strict;  // opposite images balance: the reason is a flex, not a lack of forces
     }
   }
   bool changes = verdict.when_closed != verdict.result.jammed;
@@ -137,7 +139,10 @@ CheckResult check_as_it_is(const Packing &p) {
   }
   out.carrying = verdict.carrying(q.dim);
   take_verdict(q, verdict, out.carrying, r);
-  r.reason = reason_of(r, resolution.coarse(p), changes);
+  if (unexplained && r.jammed == JAM_VERDICT_YES) r.jammed = JAM_VERDICT_UNDECIDED;
+  if (r.jammed != JAM_VERDICT_YES && r.strictly_jammed == JAM_VERDICT_YES) r.strictly_jammed = r.jammed;
+  r.reason = unexplained && r.jammed == JAM_VERDICT_UNDECIDED ? JAM_CHECK_OVERLAP
+                                                              : reason_of(r, resolution.coarse(p), changes);
   return out;
 }
 

@@ -100,6 +100,8 @@ void add_undecided(const Report &r, std::string &out) {
         "force "
         "residual %.1e).",
         r.rigidity_margin, r.force_residual);
+  else if (r.reason == JAM_CHECK_OVERLAP)
+    add(out, "Gaps are known no better than that, and the verdict on the reduced diameters is none on the packing.");
   else
     add(out, "%lld pair%s may touch or not, and the verdict depends on %s.", wide(r.undecided_contacts),
         plural(r.undecided_contacts), r.undecided_contacts == 1 ? "it" : "them");

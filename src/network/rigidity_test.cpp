@@ -311,6 +311,11 @@ void judge_alone(const RigidityMatrix &g, RigidityResult &r) {
 
 }  // namespace
 
+bool may_touch_own_image(const Packing &p, const GapResolution &resolution) {
+  const double widest = diameter_max(p);
+  return resolution.may_touch(p.cell.shortest() / widest - 1.0, widest);
+}
+
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind) {
   return test_packing(p, gap_resolution(p), listed, kind);
 }
@@ -342,7 +347,8 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
     near_enough.push_back(closed.back() || named ||
                           near.gap[k] * contact_distance(p, near.pairs.i[k], near.pairs.j[k]) < resolution.reach());
   }
-  out.undecided_contacts = std::count(closed.begin(), closed.end(), 0);
+  out.undecided_contacts =
+      std::count_if(net.gap.begin(), net.gap.end(), [](double h) { return h >= contact_gap_limit; });
   const RigidityMatrix g = make_rigidity_matrix(p, net);
   out.sphere = g.sphere;
   out.result = test_part(g, closed, kind);
@@ -370,6 +376,10 @@ PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, c
   }
   if (out.result.jammed == Verdict::no && resolution.coarse(p) && may_hold_spheres(g))
     out.result.jammed = Verdict::undecided;
+  // A contact that stays open is none: only closed ones prove a packing jammed, whoever lists them.
+  for (size_t k = 0; k < net.size(); ++k)
+    if (out.result.jammed == Verdict::yes && out.result.carrying[k] && !(net.gap[k] < contact_gap_limit))
+      out.result.jammed = Verdict::undecided;
   if (kind == Jamming::collective && out.result.spheres == 1 && out.result.contacts > 0) judge_alone(g, out.result);
   net.force = out.result.force;
   double sum = 0.0;

@@ -54,20 +54,24 @@ RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
 // Of a packing: contacts are all pairs with gaps below contact_gap_limit, and those of `listed` (which may be NULL)
 // below undecided_gap_limit. Others are open: gaps are known to rounding. In doubt are those of `listed` below
 // listed_gap_limit, and pairs that digits of coordinates cannot distinguish from contacts. They are taken as closed,
-// then as open; where the two verdicts differ, the packing is undecided. What stays undecided is tested
-// without unlisted pairs whose gaps are wider than their rounding. Where both are jammed, contacts and
+// then as open; where the two verdicts differ, or carrying contacts are open by contact_gap_limit or more, the packing
+// is undecided. What stays undecided is tested without unlisted pairs whose gaps are wider than their rounding. Where
+// both are jammed, contacts and
 // forces are those of the closed pairs alone. With few digits directions are wrong too, and weak forces may have lost
 // their sign: then only spheres with too few pairs near them make a no.
 struct PackingVerdict {
   RigidityResult result;
-  ContactNetwork contacts;         // all that the test looked at, force as in result
-  std::vector<int32_t> sphere;     // node of result.flex -> sphere
-  int64_t undecided_contacts = 0;  // pairs that are not closed and open by less than undecided_gap_limit, or in doubt
+  ContactNetwork contacts;                   // all that the test looked at, force as in result
+  std::vector<int32_t> sphere;               // node of result.flex -> sphere
+  int64_t undecided_contacts = 0;            // pairs of `contacts` that are open by contact_gap_limit or more
   Verdict when_closed = Verdict::undecided;  // with all pairs in doubt closed
   // The carrying contacts and their forces: the network that crunch and analysis go on with.
   ContactNetwork carrying(int dim) const;
 };
 PackingVerdict test_packing(const Packing &p, const ContactNetwork *listed, Jamming kind);
+// Whether a sphere may touch its own image. There the strict test can hold what the collective one, in which such pairs
+// are no contacts, leaves free: what is held in every strain is held in the fixed cell.
+bool may_touch_own_image(const Packing &p, const GapResolution &resolution);
 // The same where the resolution of gaps is known.
 PackingVerdict test_packing(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed,
                             Jamming kind);

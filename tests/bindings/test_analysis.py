@@ -12,6 +12,20 @@ class Network(unittest.TestCase):
         cls.s = jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30)
         cls.r = cls.s.crunch()
 
+    def test_the_median_of_a_floppy_mode_is_that_of_numpy(self):
+        stable = []
+        for sizes in ([1.0] * 60 + [3.0] * 20, [1.0] * 32 + [1.4] * 32):
+            s = jam.System.random(n=len(sizes), dim=3, seed=5, diameters=sizes)
+            s.compress()
+            s.crunch()
+            table = s.floppy_modes()
+            for k in range(3):
+                size = np.linalg.norm(s.floppy_mode(k), axis=1)
+                self.assertAlmostEqual(table.median[k] * np.linalg.norm(size) / np.median(size), 1.0, 10)
+                self.assertAlmostEqual(table.weight[k] * np.median(size) / s.forces[k], 1.0, 6)
+            stable.append(len(size))
+        self.assertIn(0, [n % 2 for n in stable])
+
     def test_hessian_is_the_contact_matrix_squared(self):
         s, h, c = self.s, self.s.hessian(), self.s.contacts
         where = np.full(s.n, -1)

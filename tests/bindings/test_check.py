@@ -250,6 +250,29 @@ class FewDigits(unittest.TestCase):
             r = self.rounded(s, digits).check()
             self.assertEqual((r.jammed, r.reason), (Verdict.NO, CheckReason.APART), r)
 
+    def test_reduced_spheres_are_another_packing(self):
+        """Equal spheres that overlap by more than their digits leave are not called jammed for smaller spheres."""
+        s = packing(64, 3, 1)
+        for factor, right in ((1 + 1e-9, Verdict.YES), (1.01, Verdict.UNDECIDED), (1.8, Verdict.UNDECIDED)):
+            t = jam.System.from_arrays(s.positions, s.diameters * factor, overlap="allow")
+            r = t.check(crunch=False)
+            self.assertEqual(r.jammed, right, r)
+            self.assertEqual(r.reason is CheckReason.OVERLAP, factor > 1.001, r)
+            self.assertNotEqual(r.strictly_jammed, Verdict.YES)
+
+    def test_own_images_that_balance_are_a_saddle(self):
+        h = 3**0.5 / 2
+        body = np.array([[1, 1, -1], [-1, 1, 1], [1, -1, 1]]) / 3**0.5
+        face = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]]) / 2**0.5
+        lattices = [(np.eye(2), False), (np.eye(3), False), (body, False), (face, True), ([[1, 0], [0.5, h]], True)]
+        for cell, jammed in lattices:
+            cell = np.array(cell, float)
+            s = jam.System.from_arrays(np.zeros((1, len(cell))), 1.0, cell=cell, overlap="shrink")
+            r = s.check()
+            self.assertEqual(r.jammed, Verdict.YES if jammed else Verdict.NO, r)
+            self.assertEqual(r.reason, CheckReason.PROOF if jammed else CheckReason.FLEX, r)
+            self.assertEqual(s.rigidity("collective").jammed, r.jammed)
+
     def test_overlaps_are_resolution(self):
         """A frame that was rotated after rounding shows no digits, but it overlaps."""
         s = packing(64, 3, 1)
@@ -333,6 +356,24 @@ class Changes(unittest.TestCase):
             self.assertAlmostEqual(r.displacement_rms, rms, delta=1e-9)
             self.assertEqual((r.contacts_start, r.contacts_kept), (0, 0))
             self.assertIn("displacement_max", repr(r))
+
+    def test_pairs_that_touch_before_a_crunch_are_closed(self):
+        for p in (1e5, 1e7, 1e9):
+            s = jam.System.random(n=100, dim=3, seed=2)
+            s.compress(growth_rate=0.1, pressure=p)
+            closed = s.check(crunch=False).closed_pairs
+            self.assertEqual(s.crunch().contacts_start, closed)
+
+    def test_gaps_count_the_same_whoever_lists_them(self):
+        a = packing(64, 3, 1)
+        yes, no = jam.Verdict.YES, jam.Verdict.NO
+        for shrunk, right in ((1e-12, yes), (5e-10, no), (9e-8, no), (2e-7, no)):
+            s = jam.System.from_arrays(a.positions, a.diameters * (1 - shrunk))
+            verdicts = [s.rigidity().jammed, s.check(crunch=False).jammed]
+            s.contacts_from_geometry()
+            verdicts += [s.rigidity().jammed, s.check(crunch=False).jammed]
+            self.assertEqual(verdicts, [right] * 4, shrunk)
+            self.assertEqual(s.report.jammed, right is yes)
 
     def test_of_a_jammed_packing(self):
         s = packing(64, 2, 3, diameters=[1.0] * 32 + [1.4] * 32)

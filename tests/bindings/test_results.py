@@ -175,6 +175,36 @@ class Statuses(unittest.TestCase):
         np.testing.assert_array_equal(runs.kept[0], whole.kept[0])
 
 
+    def test_sentences_of_runs_say_how_they_go_on(self):
+        s = jam.System.random(n=60, dim=3, seed=1)
+        first = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9)
+        self.assertIn("resume = 1 goes on", s.status_text)
+        self.assertIn("begins anew", s.status_text)
+        again = s.isoconfigurational([50], runs=100000, wall_time=0.3, density_ratio=0.9, resume=1)
+        self.assertGreater(again.runs, first.runs)
+        s.monte_carlo(sweeps=10**7, wall_time=0.2)
+        self.assertIn("resume = 1 goes on", s.status_text)
+
+    def test_packings_without_a_network_have_no_number_of_contacts(self):
+        a = jam.System.random(n=64, dim=3, seed=1)
+        a.compress()
+        a.crunch()
+        b = jam.System.from_arrays(a.positions, a.diameters)
+        for one, other in ((a, b), (b, a)):
+            c = one.compare(other).comparison
+            known = [len(x.contacts) if x is a else -1 for x in (one, other)]
+            self.assertEqual([c.contacts_a, c.contacts_b, c.common_contacts], known + [-1])
+            self.assertTrue(np.isnan([c.overlap, c.overlap_a]).all())
+
+    def test_a_flex_of_spheres_that_touch_nothing_moves(self):
+        for n, d in ((60, 3), (5, 2)):
+            for kind in ("collective", "strict"):
+                s = jam.System.random(n=n, dim=d, seed=1)
+                out, strain = s.flex(kind)
+                self.assertGreater(np.abs(out - out.mean(0)).max(), 0.1 * s.diameters.mean())
+                x = s.positions + 1e-3 * out
+                jam.System.from_arrays(x, s.diameters)  # refused if a pair overlaps
+
     def test_runs_have_the_shapes_of_the_header(self):
         s = jam.System.random(n=20, dim=3, seed=1)
         runs = s.isoconfigurational([1, 2], runs=3, density_ratio=0.9, keep=[1])
@@ -212,6 +242,60 @@ class Cancelled(unittest.TestCase):
             with self.assertRaisesRegex(jam.errors.StoppedError, "stopped the call"):
                 call()
         self.assertEqual(s.rigidity("collective").jammed, jam.Verdict.YES)
+
+    def test_contacts_of_a_crunch_that_stopped_before_them_are_unknown(self):
+        s = jam.System.random(n=300, dim=3, seed=2)
+        s.compress(growth_rate=0.1, pressure=1e4)
+        r = s.crunch(wall_time=1e-6)
+        self.assertEqual((r.status, r.rattlers, r.contacts, r.bucklers), (jam.StatusCode.LIMIT, -1, -1, -1))
+        self.assertTrue(np.isnan([r.force_residual, r.min_force, r.max_contact_gap]).all())
+        with tempfile.TemporaryDirectory() as folder:
+            s.save(folder + "/s.h5")
+            s.write_checkpoint(folder + "/state")
+            kept = [s, s.copy(), jam.load(folder + "/s.h5"), jam.System.from_checkpoint(folder + "/state")]
+            for t in kept:
+                self.assertEqual(t.report.rattlers, -1)
+                for ask in (
+                    lambda: t.contacts,
+                    lambda: t.forces,
+                    lambda: t.rattlers,
+                    lambda: t.coordination,
+                    lambda: t.modes(3),
+                    lambda: t.moduli(),
+                    lambda: t.prove(),
+                    lambda: t.gaps(1.0, True),
+                    lambda: t.write_contacts(folder + "/c.csv"),
+                ):
+                    with self.assertRaisesRegex(jam.errors.StateError, "before its contacts were known"):
+                        ask()
+                t.write(folder + "/p.xyz")
+                self.assertNotIn("contacts", Path(folder, "p.xyz").read_text())
+                t.page(folder + "/p.html")
+                self.assertIn('"rattlers": null', Path(folder, "p.html").read_text())
+        s.contacts_from_geometry()
+        self.assertEqual(s.coordination.sum(), 2 * len(s.contacts))
+
+    def test_a_call_that_ends_before_its_dynamics_measured_nothing(self):
+        for call in (
+            lambda s: s.compress(wall_time=1e-9),
+            lambda s: s.run(collisions_per_particle=5, wall_time=1e-9),
+            lambda s: s.compress(progress=lambda p: True),
+        ):
+            for n in (100, 3000):
+                s = jam.System.random(n=n, dim=3, seed=1)
+                r = call(s)
+                if r.collisions == 0:
+                    self.assertEqual(r.packing_fraction, s.packing_fraction)
+                    self.assertTrue(np.isnan(r.pressure), repr(r))
+        s = jam.System.random(n=3000, dim=3, seed=1)
+        self.assertEqual(s.compress(wall_time=1e-9).collisions, 0)
+        m = s.monte_carlo(sweeps=10**7, wall_time=1e-9)
+        self.assertEqual((m.status, m.sweeps), (jam.StatusCode.LIMIT, 0))
+        self.assertTrue(np.isnan([m.acceptance, m.pressure, m.energy, m.step]).all(), repr(m))
+        soft = jam.System.random(n=500, dim=3, seed=1, packing_fraction=0.8, overlap="allow")
+        x = soft.relax(progress=lambda p: True)
+        if x.evaluations == 0:
+            self.assertEqual((x.contacts, x.packing_fraction), (-1, soft.packing_fraction))
 
     def test_what_a_call_does_not_write_is_unknown(self):
         s = jam.System.random(n=20, dim=2, seed=1)

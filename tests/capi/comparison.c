@@ -130,7 +130,8 @@ static void a_network_that_is_missing_is_named(void **state) {
   assert_int_equal(jam_scale_diameters(b, 0.9), JAM_OK); /* clears the network */
   assert_int_equal(compare(a, b, &c), JAM_AMBIGUOUS);
   assert_string_equal(jam_last_error(), "other has no contact network: contacts were not compared");
-  assert_true(isnan(c.overlap) && isnan(c.overlap_a) && c.contacts_a > 0 && c.contacts_b == 0);
+  assert_true(isnan(c.overlap) && isnan(c.overlap_a) && c.contacts_a > 0 && c.contacts_b == -1);
+  assert_int_equal(c.common_contacts, -1);
   assert_int_equal(compare(b, a, &c), JAM_AMBIGUOUS);
   assert_string_equal(jam_last_error(), "sys has no contact network: contacts were not compared");
   assert_int_equal(compare(b, b, &c), JAM_OK);

@@ -117,7 +117,12 @@ jam_monte_carlo_report MonteCarloRun::report() const {
   r.stop_reason = stop_reason_;
   r.step = options_.step;
   r.next_sweep = options_.first_sweep;
-  if (!engine_) return r;
+  if (!engine_) {  // nothing was measured
+    if (r.step == 0.0) r.step = NAN;
+    r.acceptance = r.swap_acceptance = r.energy = r.energy_error = r.pressure = r.pressure_error = r.trials_per_second =
+        NAN;
+    return r;
+  }
   double msd = 0.0;
   for (const double x : engine_->displacement()) msd += x * x;
   r.msd = msd / static_cast<double>(p_.n()) * p_.cell.side() * p_.cell.side();

@@ -663,15 +663,15 @@ mutable struct jam_crunch_report
     reserved::Int32  # 0
     packing_fraction::Cdouble  # phi_J when jammed
     diameter_mean::Cdouble  # unit of box
-    contacts::Int64  # pairs with a force, rattlers left out
-    rattlers::Int64  # spheres that no force-carrying contact touches; -1: stopped before contacts were known
+    contacts::Int64  # pairs with a force, rattlers left out; -1: stopped before contacts were known
+    rattlers::Int64  # spheres that no force-carrying contact touches; -1 likewise. Calls that need the network then return JAM_E_STATE
     stable::Int64  # n - rattlers = N'; 0 where contacts are unknown
-    bucklers::Int64  # stable spheres with exactly d+1 contacts
+    bucklers::Int64  # stable spheres with exactly d+1 contacts; -1 likewise
     isostatic_contacts::Int64  # d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts::Int64  # contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     flexes::Int64  # motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     zero_force_contacts::Int64  # closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on the path over the mean is within a factor of 1e4 of twice their gap
     undercoordinated::Int64  # stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed::Int64  # d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin::Cdouble  # smallest eigenvalue of S^T S on force-carrying contacts that is no translation
@@ -900,7 +900,7 @@ mutable struct jam_rigidity_report
     flexes::Int64  # motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     undercoordinated::Int64  # spheres of B with d contacts of K+ or fewer
     zero_force_contacts::Int64  # closed pairs that are not in K+
-    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
+    undecided_contacts::Int64  # pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot distinguish from contacts
     rigidity_margin::Cdouble  # smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual::Cdouble  # largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof
     jam_rigidity_report() = new(96, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
@@ -1024,8 +1024,8 @@ mutable struct jam_comparison
     struct_size::UInt32  # set by the caller: sizeof(jam_comparison)
     reserved::Int32  # 0
     contacts_a::Int64
-    contacts_b::Int64  # of sys and of other; 0 without a network
-    common_contacts::Int64  # pairs in both
+    contacts_b::Int64  # of sys and of other; -1 without a network
+    common_contacts::Int64  # pairs in both; -1 unless both have a network
     stable_in_both::Int64  # spheres that are rattlers in neither
     overlap::Cdouble  # common over union; NaN unless both have a network
     overlap_a::Cdouble  # common over contacts_a: sys as the reference; NaN likewise
@@ -1728,8 +1728,8 @@ end
 
 """
 Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
-(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A polish then gives those of least norm if
-none is negative, else the LP's.
+(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
+middle of all non-negative states, as jam_stress_states gives.
 Shapes: out (contacts).
 Errors: JAM_E_STATE.
 """
@@ -1824,7 +1824,7 @@ end
 
 """
 Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
-pairs with gaps below 1e-10, and those of the contact network, when there is one, below 1e-7. No network is needed.
+pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
 where the network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
@@ -1842,6 +1842,7 @@ end
 """
 A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
+Where no pair is near contact, one sphere moves.
 Shapes: out (n, d), strain (d, d).
 Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion).
 """

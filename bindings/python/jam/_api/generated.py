@@ -636,15 +636,15 @@ class CrunchReport(Report):
     strictly_jammed: jam_verdict of the strict test; UNTESTED until jam_rigidity runs it
     packing_fraction: phi_J when jammed
     diameter_mean: unit of box
-    contacts: pairs with a force, rattlers left out
-    rattlers: spheres that no force-carrying contact touches; -1: stopped before contacts were known
+    contacts: pairs with a force, rattlers left out; -1: stopped before contacts were known
+    rattlers: spheres that no force-carrying contact touches; -1 likewise. Calls that need the network then return JAM_E_STATE
     stable: n - rattlers = N'; 0 where contacts are unknown
-    bucklers: stable spheres with exactly d+1 contacts
+    bucklers: stable spheres with exactly d+1 contacts; -1 likewise
     isostatic_contacts: d (N' - 1) + 1: contacts of a single state of self-stress
     excess_contacts: contacts - isostatic_contacts: 0 isostatic and for an empty network, > 0 hyperstatic. Amorphous packings have 0, but disks of two sizes one for each disk whose six neighbours are its equals: the seven close twelve contacts, and eleven fix them
     flexes: motions of stable spheres, beyond translations, that keep force-carrying contacts closed
     zero_force_contacts: closed pairs without force in every state of self-stress, those of rattlers too
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the network does not list. After JAM_STOP_DUALITY_GAP: pairs, listed or not, whose force on the path over the mean is within a factor of 1e4 of twice their gap
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7. After JAM_STOP_DUALITY_GAP: pairs whose force on the path over the mean is within a factor of 1e4 of twice their gap
     undercoordinated: stable spheres with d force-carrying contacts or fewer
     strict_contacts_needed: d (N' - 1) + d (d + 1) / 2: fewest contacts of a strictly jammed packing
     rigidity_margin: smallest eigenvalue of S^T S on force-carrying contacts that is no translation
@@ -902,7 +902,7 @@ class RigidityReport(Report):
     flexes: motions beyond translations that keep K+ closed; 0 without K+, 512 at most
     undercoordinated: spheres of B with d contacts of K+ or fewer
     zero_force_contacts: closed pairs that are not in K+
-    undecided_contacts: pairs with gaps of 1e-10 to 1e-7 that the contact network does not list. Also those that the digits of the coordinates cannot distinguish from contacts
+    undecided_contacts: pairs with gaps of 1e-10 to 1e-7. Also those that the digits of the coordinates cannot distinguish from contacts
     rigidity_margin: smallest eigenvalue on K+ that is no translation; below 1e-12: a flex. Of a sphere that touches its own images alone: with strains
     force_residual: largest |sum_j f_ij n_ij| over the mean force, of the forces in the proof"""
     kind: RigidityKind
@@ -1064,8 +1064,8 @@ class Comparison(Report):
     """What jam_compare found.
 
     contacts_a:
-    contacts_b: of sys and of other; 0 without a network
-    common_contacts: pairs in both
+    contacts_b: of sys and of other; -1 without a network
+    common_contacts: pairs in both; -1 unless both have a network
     stable_in_both: spheres that are rattlers in neither
     overlap: common over union; NaN unless both have a network
     overlap_a: common over contacts_a: sys as the reference; NaN likewise

@@ -632,16 +632,16 @@ class Methods:
     def rigidity(self, kind: int | str, *, progress: Progressing = None) -> RigidityReport:
         """Tests whether the packing is jammed.
 
-        Nothing changes but strictly_jammed in the stored crunch report. Contacts are pairs with gaps below 1e-10, and
-        those of the contact network, when there is one, below 1e-7. No network is needed. Where coordinates have few
-        digits, pairs within their rounding are undecided, and the answer is a no only where spheres have too few of
-        them. A sphere and its own image are a contact in the strict test, and in the collective one where the network
-        lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the opening of
-        contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for translations of
-        B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev, Torquato,
-        Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith, arXiv:1301.0664;
-        Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status: 'ok' jammed,
-        'not_jammed', 'ambiguous' undecided.
+        Nothing changes but strictly_jammed in the stored crunch report. Contacts are pairs with gaps below 1e-10,
+        whether a network lists them or not: none is needed, and the check answers the same. Where coordinates have
+        few digits, pairs within their rounding are undecided, and the answer is a no only where spheres have too few
+        of them. A sphere and its own image are a contact in the strict test, and in the collective one where the
+        network lists them. There a sphere that they alone hold needs forces on the cell to balance. Let S v be the
+        opening of contacts by a motion v, and E eps that by a strain eps. Collectively jammed: S v >= 0 only for
+        translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources:
+        Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
+        arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam.
+        Status: 'ok' jammed, 'not_jammed', 'ambiguous' undecided.
 
         Parameters
         ----------
@@ -665,7 +665,7 @@ class Methods:
         kind.
 
         The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or
-        opens them.
+        opens them. Where no pair is near contact, one sphere moves.
 
         Parameters
         ----------

@@ -242,8 +242,8 @@ static void every_long_call_can_be_cancelled(void **state) {
   assert_int_equal(jam_moduli(s, NULL, &moduli), JAM_CANCELLED);
   assert_int_equal(jam_structure_factor(s, 50.0, NULL, 0, NULL, 0, &m), JAM_CANCELLED);
   assert_int_equal(phase, JAM_PHASE_ANALYSE);
-  assert_true(x[0] == 7.0 && f[0] == 7.0 && table[0] == 7.0 && residual == 7.0 && moduli.bulk == 7.0 &&
-              g.contacts == 7);
+  assert_true(x[0] == 7.0 && f[0] == 7.0 && table[0] == 7.0 && residual == 7.0 && isnan(moduli.bulk) &&
+              g.contacts == 7); /* a report of moduli is unknown, all else is as it was */
   assert_int_equal(jam_set_progress(s, NULL, NULL), JAM_OK);
   assert_int_equal(jam_stress_states(s, f, 256, NULL, 0, &residual, &m),
                    JAM_AMBIGUOUS); /* the network is still there */

@@ -282,7 +282,10 @@ static void cancel_and_resume(void **state) {
     jam_set_progress(sys, stop_at, &left);
     r = crunch(sys, &o, JAM_CANCELLED);
     assert_true(!r.jammed && r.stop_reason == JAM_STOP_CANCELLED && r.max_overlap < 1e-12);
-    assert_true(r.contacts >= 0 && r.rattlers + r.stable == (r.contacts > 0 ? 100 : -1));
+    if (r.contacts > 0)
+      assert_int_equal(r.rattlers + r.stable, 100);
+    else /* before the end of an LP they are unknown */
+      assert_true(r.contacts == -1 && r.rattlers == -1 && r.stable == 0);
     jam_view_diameters(sys, &s, &len);
     assert_true(s[0] > 0.0);
     jam_set_progress(sys, NULL, NULL);

@@ -164,7 +164,7 @@ class JamPack(unittest.TestCase):
 
     def test_formats_that_cannot_hold_the_packing(self):
         four = self.dir / "four.dat"
-        four.write_text("4\n1\n0.2\n0.1 0.2 0.3 0.4\n")
+        four.write_text("4\n2\n0.2\n0.1 0.2 0.3 0.4\n0.6 0.7 0.8 0.9\n")
         for output in ("a.data", "a.vtp"):
             self.refuse(2, "this packing has d = 4", "--input", four, "--output", self.dir / output)
             self.refuse(2, "this packing has d = 4", "--n", 8, "--dim", 4, "--output", self.dir / output)

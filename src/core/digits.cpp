@@ -23,6 +23,8 @@ struct Rule {
 };
 constexpr Rule most_coordinates{0.0, 0.5, 1, sample}, some_coordinates{1000.0, 0.05, 8, large_sample},
     most_lengths{1000.0, 0.5, 1, sample};
+// Doubles above it are integers whatever they came from.
+constexpr double most_digits = 0x1p53;
 // One of ten multiples of a step, or one of two, is a multiple of the next coarser one. The step is the coarsest that
 // has more than this part of the multiples of the next finer one.
 constexpr double kept = 0.75;
@@ -38,6 +40,7 @@ Share multiples(const std::vector<double> &x, double scale, double noise, int ba
     if (x[k] == 0.0) continue;
     ++s.all;
     const double y = std::fabs(x[k] * scale);
+    if (!(y < most_digits)) continue;
     double whole = std::nearbyint(y);
     if (std::fabs(y - whole) > noise) continue;
     while (rule.least > 0.0 && whole >= rule.least && whole / base == std::nearbyint(whole / base)) whole /= base;
@@ -82,7 +85,7 @@ GivenDigits digits_of(int dim, const std::vector<double> &position, const std::v
   GivenDigits out = coordinate_digits(dim, position, smallest);
   double edge = 0.0;
   for (const double x : rows) edge = std::max(edge, std::fabs(x));
-  look_at(diameter, smallest, smallest, 1.0, most_lengths, out);
+  look_at(diameter, *std::max_element(diameter.begin(), diameter.end()), smallest, 1.0, most_lengths, out);
   look_at(rows, edge, smallest, 1.0, most_lengths, out);
   return out;
 }

@@ -52,7 +52,7 @@ Share multiples(const std::vector<double> &x, double scale, double noise, int ba
 // The coarsest power of the base, no wider than `widest`, of which x are multiples; 0 without one. A sample says no at
 // once where the rule asks for more than half.
 double step_of(const std::vector<double> &x, double largest, double widest, int base, const Rule &rule) {
-  if (!(largest > 0.0)) return 0.0;
+  if (!(largest > 0.0 && std::isfinite(widest))) return 0.0;
   const size_t stride = std::max<size_t>(1, x.size() / rule.sample) | 1;
   const auto noise = [&](double scale) { return 8.0 * epsilon * largest * scale; };
   const auto share = [&](double scale, size_t every) { return multiples(x, scale, noise(scale), base, rule, every); };
@@ -61,10 +61,11 @@ double step_of(const std::vector<double> &x, double largest, double widest, int 
   };
   for (double k = std::ceil(-math::log(widest) / math::log(static_cast<double>(base)));; ++k) {
     const double scale = math::pow(static_cast<double>(base), k), finer = scale * base;
-    if (noise(scale) > most_noise) return 0.0;
+    if (!(noise(scale) <= most_noise)) return 0.0;  // NaN where the scale overflows
     const Share s = share(scale, stride);
     if (!shows(s) || (rule.sample == sample && stride > 1 && !shows(share(scale, 1)))) continue;
-    if (noise(finer) > most_noise || static_cast<double>(s.fit) > kept * static_cast<double>(share(finer, stride).fit))
+    if (!(noise(finer) <= most_noise) ||
+        static_cast<double>(s.fit) > kept * static_cast<double>(share(finer, stride).fit))
       return 1.0 / scale;
   }
 }

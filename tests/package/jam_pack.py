@@ -170,7 +170,7 @@ class JamPack(unittest.TestCase):
             self.refuse(2, "this packing has d = 4", "--n", 8, "--dim", 4, "--output", self.dir / output)
         self.refuse(2, "this packing has d = 4", "--input", four, "--contacts", self.dir / "a.dump")
         tilted = self.dir / "t.xyz"
-        tilted.write_text('1\nLattice="1 0 0 .3 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n')
+        tilted.write_text('2\nLattice="1 0 0 .3 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n.6 .7 .8 .1\n')
         self.refuse(2, "plain", "--input", tilted, "--output", self.dir / "a.dat")
 
     def test_shrinking_is_told(self):

@@ -144,7 +144,7 @@ def fcc_with_one_force_doubled():
 # Bound, what stands in the checker, what it is exchanged for, a false file, and the radius that would be true.
 TABLE = (
     ("pairs stay apart", "if have <= need:", "if False:", overlap, None),
-    ("pairs in other images", "for m in range(int(-(reach + x[c]) // cell[c][c]), int((reach - x[c]) // cell[c][c]) + 2):",
+    ("pairs in other images", "for m in range(-((reach + x[c]) // s.cell[c][c]), (reach - x[c]) // s.cell[c][c] + 1):",
      "for m in (0,):", overlap_across_the_boundary, None),
     ("radius in a gap", "* radius * moving", "* 0 * moving", gap_below_the_radius, None),
     ("eta", "eta = [fraction(abs(v) + a, e + low) for v, a in zip(eta, alpha)]", "eta = [Fraction(0)] * rows", far_centre, FAR),

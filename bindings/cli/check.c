@@ -81,7 +81,7 @@ static int judge(const options *o) {
   jam_system *sys = NULL;
   jam_status status = read_as_it_is(o, &sys), written = JAM_OK;
   report.struct_size = sizeof report;
-  if (status == CHECK_HOST) return CHECK_REFUSED; /* the host has told why */
+  if (status == CHECK_HOST) return CHECK_REFUSED; /* the host has said why */
   cancel_on_signal(sys);
   if (sys) print_warnings(jam_notes(sys));
   if (sys) status = jam_check_options_init(&check, sizeof check);

@@ -91,6 +91,8 @@ void print_summary(const options *o, const outcome *result);
 void print_warnings(const char *notes); /* those of jam_notes, on stderr */
 extern const char *program;             /* its name, in help and messages */
 void complain(const char *format, ...);
+/* 1 after a message when a call failed or was stopped: then it has written nothing. */
+int has_failed(jam_status status);
 
 /* output.c: a text that is written at its end, as a file that appears whole or not at all. path "-" is standard output,
  * open descriptors (/dev/stdout, /dev/fd/N), pipes and devices are written in place. Each returns 0, or -1 after a

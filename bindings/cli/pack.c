@@ -195,13 +195,6 @@ static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *
 #undef LEFT
 }
 
-/* 1 after a message when a call failed or was stopped: then it has written nothing. */
-static int told(jam_status status) {
-  const int bad = status < 0 || status == JAM_CANCELLED;
-  if (bad) complain("%s", jam_last_error());
-  return bad;
-}
-
 /* Of a crunch that ended before its contacts were known there is no network to write. */
 static int knows_contacts(const options *o, const outcome *result) {
   if (!result->has_crunch) return 0;
@@ -216,7 +209,7 @@ static int write_contacts(const jam_system *sys, const char *path) {
   char ending[8];
   ending_of(path, ending);
   if (!strcmp(path, "-")) path = "/dev/stdout";
-  return told(jam_write_contacts(sys, path, *ending ? JAM_CONTACTS_AUTO : JAM_CONTACTS_CSV));
+  return has_failed(jam_write_contacts(sys, path, *ending ? JAM_CONTACTS_AUTO : JAM_CONTACTS_CSV));
 }
 
 /* PREFIX.vtp, and PREFIX-forces.vtp where there is a network. */
@@ -228,9 +221,9 @@ static int write_vtk(const jam_system *sys, const char *prefix, int network) {
     return 1;
   }
   sprintf(path, "%s.vtp", prefix);
-  bad = told(jam_write(sys, path, JAM_FORMAT_VTP));
+  bad = has_failed(jam_write(sys, path, JAM_FORMAT_VTP));
   sprintf(path, "%s-forces.vtp", prefix);
-  if (network) bad |= told(jam_write_contacts(sys, path, JAM_CONTACTS_VTP));
+  if (network) bad |= has_failed(jam_write_contacts(sys, path, JAM_CONTACTS_VTP));
   free(path);
   return bad;
 }
@@ -241,7 +234,7 @@ static int finish_by_host(const jam_system *sys, const options *o) {
   const char *const output = is_host_format(o, o->output) ? o->output : NULL;
   jam_system *copy = NULL;
   if (!host || !host->finish || (!output && !o->plot)) return 0;
-  if (jam_copy(sys, &copy) != JAM_OK) return told(JAM_E_MEMORY);
+  if (jam_copy(sys, &copy) != JAM_OK) return has_failed(JAM_E_MEMORY);
   return host->finish(copy, output, o->plot, host->user) != 0;
 }
 
@@ -251,10 +244,10 @@ static int write_all(jam_system *sys, const options *o, double deadline, outcome
   result->info.struct_size = sizeof result->info;
   jam_get_info(sys, &result->info);
   result->notes = jam_notes(sys);
-  if (o->output && !is_host_format(o, o->output)) bad |= told(jam_write(sys, o->output, JAM_FORMAT_AUTO));
+  if (o->output && !is_host_format(o, o->output)) bad |= has_failed(jam_write(sys, o->output, JAM_FORMAT_AUTO));
   if (o->contacts && known) bad |= write_contacts(sys, o->contacts);
-  if (o->proof && known) bad |= told(jam_write_proof(sys, o->proof, NULL, 0));
-  if (o->page) bad |= told(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
+  if (o->proof && known) bad |= has_failed(jam_write_proof(sys, o->proof, NULL, 0));
+  if (o->page) bad |= has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0));
   cancel_on_signal(sys); /* a large spectrum takes long */
   jam_set_progress(sys, stop_late, &deadline);
   if (known) network = write_network(sys, o, &result->info);

@@ -1,4 +1,4 @@
-/* What jam-pack tells while it works: progress on stderr, and the log. */
+/* What jam-pack reports while it works: progress on stderr, and the log. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <math.h>

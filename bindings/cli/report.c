@@ -17,6 +17,12 @@ void complain(const char *format, ...) {
   va_end(args);
 }
 
+int has_failed(jam_status status) {
+  const int bad = status < 0 || status == JAM_CANCELLED;
+  if (bad) complain("%s", jam_last_error());
+  return bad;
+}
+
 /* JSON has no NaN and no infinity. */
 static void put_number(FILE *f, const char *key, double x) {
   if (isfinite(x))

@@ -33,18 +33,12 @@ static int read_diameters(const char *path, double **out, int64_t *count) {
   return 0;
 }
 
-/* -1 after a message. */
-static int told(jam_status status) {
-  if (status < 0) complain("%s", jam_last_error());
-  return status < 0 ? -1 : 0;
-}
-
 static int read_law(const char *text, jam_diameters_options *law, double **curve, size_t *curve_len) {
   *curve = NULL;
-  if (told(jam_parse_diameters(text, law, NULL, 0, curve_len))) return -1;
+  if (has_failed(jam_parse_diameters(text, law, NULL, 0, curve_len))) return -1;
   if (!*curve_len) return 0;
   *curve = malloc(*curve_len * sizeof **curve);
-  if (*curve) return told(jam_parse_diameters(text, law, *curve, *curve_len, curve_len));
+  if (*curve) return has_failed(jam_parse_diameters(text, law, *curve, *curve_len, curve_len));
   complain("out of memory");
   return -1;
 }
@@ -52,7 +46,7 @@ static int read_law(const char *text, jam_diameters_options *law, double **curve
 static int find_volume(const options *o, double *volume) {
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
   fill_cell(o, cell);
-  return told(jam_cell_volume((int32_t)o->dim, cell, (size_t)(o->dim * o->dim), volume));
+  return has_failed(jam_cell_volume((int32_t)o->dim, cell, (size_t)(o->dim * o->dim), volume));
 }
 
 static int draw_law(const options *o, double **out, int64_t *n) {
@@ -69,12 +63,12 @@ static int draw_law(const options *o, double **out, int64_t *n) {
     bad = bad || find_volume(o, &law.cell_volume);
   } else
     law.n = *n;
-  bad = bad || told(jam_diameters(&law, curve, curve_len, NULL, 0, &count));
+  bad = bad || has_failed(jam_diameters(&law, curve, curve_len, NULL, 0, &count));
   if (!bad && !(*out = malloc(count * sizeof **out))) {
     complain("out of memory");
     bad = 1;
   }
-  bad = bad || told(jam_diameters(&law, curve, curve_len, *out, count, &count));
+  bad = bad || has_failed(jam_diameters(&law, curve, curve_len, *out, count, &count));
   free(curve);
   *n = (int64_t)count;
   return bad ? -1 : 0;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Memory and time that `jam_estimate_crunch` tells before a crunch, against what the crunch takes.
+"""Memory and time that `jam_estimate_crunch` gives before a crunch, against what the crunch takes.
 
 usage: estimate.py OUT.json [PICTURE.png]
 

@@ -30,7 +30,7 @@ def median(f, repeat=15):
 
 
 def import_seconds(repeat):
-    """Wall and processor time of a fresh import; the second tells more on a busy machine."""
+    """Wall and processor time of a fresh import; the second says more on a busy machine."""
     code = (
         "import time; t, c = time.perf_counter(), time.process_time(); import {}; "
         "print(time.perf_counter() - t, time.process_time() - c)"

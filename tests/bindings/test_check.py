@@ -241,6 +241,12 @@ class FewDigits(unittest.TestCase):
                 for k, (r, sigma) in enumerate(zip(y, diameters * scale * (1 - 4e-6))):
                     f.write("%d %.6g %.6g %.6g %.17g\n" % (k + 1, *r, sigma))
             self.assertEqual(jam.System.read(f"{folder}/dump").check(crunch=False).jammed, Verdict.UNDECIDED)
+            irrational = np.pi / cell[0, 0]
+            z = np.round((x - cell[0, 0] / 2) * irrational, 5)
+            u = jam.System.from_arrays(z, diameters * irrational * (1 - 2e-5), cell=cell * irrational)
+            for ending in ("xyz", "data", "dat"):
+                u.write(f"{folder}/u.{ending}")
+                self.assertEqual(jam.System.read(f"{folder}/u.{ending}").check(crunch=False).jammed, Verdict.UNDECIDED)
         t.run(collisions_per_particle=5)
         self.assertEqual(t.check(crunch=False).digits, 0)
 

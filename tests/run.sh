@@ -1,13 +1,14 @@
 #!/bin/sh
-# Sets up a bare Debian 12 and runs all tests, in five parts:
-#   release     everything, warnings as errors
-#   clang       the library and its C tests, warnings as errors
-#   sanitizers  address and undefined behaviour, over the unit tests and those of the C interface; with
-#               `sanitizers sanitized_physics` also over physics and bindings, which takes much longer
+# Sets up a bare Debian 12 and runs all tests, in four parts:
+#   release     everything, by GCC, warnings as errors
+#   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface
 #   threads     the thread sanitizer over the tests that use several threads
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
-# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-clang, ./build-asan, ./build-tsan, ./build-fuzz.
-# Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
+# Two more run when they are named, as they take long:
+#   clang       the library without sanitizers by Clang, and its C tests
+#   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs
+# `sh tests/run.sh`, from any folder; the builds are ./build, ./build-asan, ./build-tsan, ./build-fuzz, ./build-clang
+# and ./build-asan-gcc. Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -19,7 +20,7 @@ need_packages build-essential cmake ninja-build pkg-config clang clang-format \
   chromium python3-gsd python3-ase python3-mdanalysis python3-vtk9 lammps mypy \
   doxygen python3-sphinx python3-breathe python3-myst-parser furo locales
 
-parts=${*:-release clang sanitizers threads fuzz}
+parts=${*:-release sanitizers threads fuzz}
 wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
 jobs=$(nproc)
 if command -v ccache >/dev/null; then export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
@@ -48,24 +49,31 @@ cmake --build build-clang -j "$jobs"
 ctest --test-dir build-clang -j "$jobs" -L capi -LE long --output-on-failure --no-tests=error || status=1
 fi
 
+# sanitize FOLDER OPTION...: -O1, which halves the compile time and keeps assertions. Molecular dynamics looks at all
+# pairs for overlaps and at the order of events.
+sanitize() {
+  folder=$1; shift
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
+    -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF "$@" >/dev/null
+  cmake --build "$folder" -j "$jobs"
+  export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+  export ASAN_OPTIONS=detect_stack_use_after_return=1
+}
+
 if wants sanitizers; then
 echo "== address and undefined-behaviour sanitizers"
-# -O1: half the compile time, and assertions are on. Molecular dynamics looks at all pairs for overlaps and at the order
-# of events.
-# shellcheck disable=SC2086
-cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-  -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON \
-  -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF $bindings >/dev/null
-cmake --build build-asan -j "$jobs"
-export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-export ASAN_OPTIONS=detect_stack_use_after_return=1
-# Physics and bindings run the same code ten times as long here; they are a part of their own.
+# Clang brings other warnings and another code generator than the release build.
+sanitize build-asan -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DJAM_WERROR=ON
 ctest --test-dir build-asan -j "$jobs" -L 'unit|capi' -LE long --timeout 900 \
   --output-on-failure --no-tests=error || status=1
-if wants sanitized_physics; then
-  ctest --test-dir build-asan -j "$jobs" -L 'physics|bindings' -LE long --timeout 1800 \
-    --output-on-failure --no-tests=error || status=1
 fi
+
+if wants sanitized_physics; then
+echo "== address and undefined-behaviour sanitizers over physics and bindings"
+# shellcheck disable=SC2086
+sanitize build-asan-gcc $bindings
+ctest --test-dir build-asan-gcc -j "$jobs" -L 'unit|capi|physics|bindings' -LE long --timeout 1800 \
+  --output-on-failure --no-tests=error || status=1
 fi
 
 if wants threads; then

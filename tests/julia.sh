@@ -56,13 +56,22 @@ work=$home/work
 rm -rf "$work" && mkdir -p "$work"
 cd "$work"
 run "$root/bindings/julia/Jam/test/runtests.jl"
+# the programs of the guide's page
+block() { sed -n "/^## $1/,/^## /p" "$root/bindings/docs/julia.md" | sed -n '/^```julia$/,/^```$/p' | grep -v '^```'; }
+block "From nothing" >guide.jl
+run -e 'using Jam; write("start.dat", System(n = 64, dim = 3, seed = 1, packing_fraction = 0.3); format = :plain)'
+block "CALiPPSO" >>guide.jl
+run guide.jl
 for example in "$root"/examples/julia/*.jl; do
   echo "== $(basename "$example")"
   case $example in
   */crunch_file.jl)
     run -e 'using Jam; s = System(n = 100, dim = 2, diameters = repeat([1.4, 1.0], 50))
-            compress!(s; growth_rate = 0.1, pressure = 100.0); write("dense.xyz", s)'
-    run "$example" dense.xyz crunched.xyz ;;
+            compress!(s; growth_rate = 0.1, pressure = 100); write("dense.xyz", s)'
+    run "$example" dense.xyz crunched.xyz dense.svg ;;
+  */calippso.jl)
+    printf '1.17 0.05 false\n1.04 0.03 false\n' >theirs.txt
+    run "$example" start.dat theirs.txt 0.5 ;;
   *) run "$example" ;;
   esac
 done

@@ -9,6 +9,7 @@ from pathlib import Path
 import emit_c
 import emit_fortran
 import emit_julia
+import emit_julia_calls
 import emit_methods
 import emit_options
 import emit_python
@@ -19,6 +20,8 @@ from model import read_header
 ROOT = Path(__file__).resolve().parents[2]
 FILES = {
     "bindings/julia/Jam/src/raw.jl": emit_julia.emit,
+    "bindings/julia/Jam/src/tables.jl": emit_julia_calls.emit_tables,
+    "bindings/julia/Jam/src/methods.jl": emit_julia_calls.emit_methods,
     "bindings/fortran/jam.f90": emit_fortran.emit,
     "bindings/python/jam_gen.i": emit_swig.emit,
     "bindings/python/jam/_api/generated.py": emit_python.emit,

@@ -1,13 +1,13 @@
-# Watching a long call and stopping it: the state reached stays valid.
+# Watching and stopping a long call: a function, another task, a limit. The state stays valid each time.
 using Jam
 
 s = System(n = 500, dim = 3, seed = 1)
 steps = Ref(0)
-crunch!(s; progress = p -> begin
-    println("  phi ", p.packing_fraction, ", gain ", p.gain)
+r = crunch!(s; progress = p -> begin
+    println("  ", p.phase, ": phi ", p.packing_fraction, " after ", p.seconds, " s")
     (steps[] += 1) >= 3  # true stops
 end)
-println("stopped with status ", s.status, " (", Jam.JAM_CANCELLED, " is cancelled), phi = ", info(s).packing_fraction)
+println("stopped by the function: ", r.status, ", phi = ", packing_fraction(s))
 
 try
     crunch!(s; progress = p -> error("from the callback"))
@@ -16,5 +16,8 @@ catch e
 end
 
 cancel(s)  # from any thread; without a running call it stops the next one
-crunch!(s)
-println("cancelled: ", s.status == Jam.JAM_CANCELLED)
+println("stopped by cancel: ", crunch!(s).status)
+
+r = crunch!(s; method = :sequential_lp, max_lps = 1)  # limits are no errors either
+println("stopped by a limit: ", r.status, " (", r.status_text, "), and going on from there is another call")
+println("then: ", crunch!(s; progress = :log).status)  # a bar, with TerminalLoggers or in Pluto and VS Code

@@ -329,6 +329,8 @@ const JAM_DOS_CUMULATIVE = Int32(4)  # share of modes below the edge
 const JAM_DOS_CUMULATIVE_ERROR = Int32(5)  # its standard error
 
 """
+    jam_progress
+
 Given to the progress callback; valid during the call only.
 """
 mutable struct jam_progress
@@ -350,7 +352,9 @@ mutable struct jam_progress
 end
 
 """
-Options of jam_create and jam_read.
+    jam_create_options
+
+Options of `jam_create` and `jam_read`.
 """
 mutable struct jam_create_options
     struct_size::UInt32  # sizeof(jam_create_options)
@@ -373,6 +377,8 @@ mutable struct jam_create_options
 end
 
 """
+    jam_start
+
 Where a system starts. NULL in place of it: a random sequential start of equal spheres in a cube.
 """
 mutable struct jam_start
@@ -390,6 +396,8 @@ mutable struct jam_start
 end
 
 """
+    jam_info
+
 What the system is now.
 """
 mutable struct jam_info
@@ -410,7 +418,9 @@ mutable struct jam_info
 end
 
 """
-Options of jam_diameters. Lengths are in the user's unit.
+    jam_diameters_options
+
+Options of `jam_diameters`. Lengths are in the user's unit.
 """
 mutable struct jam_diameters_options
     struct_size::UInt32  # sizeof(jam_diameters_options)
@@ -434,6 +444,8 @@ mutable struct jam_diameters_options
 end
 
 """
+    jam_size_report
+
 What a set of diameters is.
 """
 mutable struct jam_size_report
@@ -456,7 +468,9 @@ mutable struct jam_size_report
 end
 
 """
-Limits of jam_run (NVE). Whichever comes first ends the run.
+    jam_run_options
+
+Limits of `jam_run` (NVE). Whichever comes first ends the run.
 """
 mutable struct jam_run_options
     struct_size::UInt32  # sizeof(jam_run_options)
@@ -468,8 +482,10 @@ mutable struct jam_run_options
 end
 
 """
-Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of jam_compress. Whichever target
-is reached first ends it. A growth_rate selects one stage. Without it, targets, limits and growth_law apply to the
+    jam_compress_options
+
+Lubachevsky-Stillinger growth: one stage at a given growth rate, or the two stages of `jam_compress`. Whichever target
+is reached first ends it. A `growth_rate` selects one stage. Without it, targets, limits and `growth_law` apply to the
 two stages.
 """
 mutable struct jam_compress_options
@@ -488,6 +504,8 @@ mutable struct jam_compress_options
 end
 
 """
+    jam_md_report
+
 What MD did.
 """
 mutable struct jam_md_report
@@ -508,7 +526,9 @@ mutable struct jam_md_report
 end
 
 """
-What jam_observe records.
+    jam_observe_options
+
+What `jam_observe` records.
 """
 mutable struct jam_observe_options
     struct_size::UInt32  # sizeof(jam_observe_options)
@@ -525,7 +545,9 @@ mutable struct jam_observe_options
 end
 
 """
-A fit of the glass branch p = d' / (1 - phi/phi_J).
+    jam_glass
+
+A fit of the glass branch p = d' / (1 - phi/`phi_J`).
 """
 mutable struct jam_glass
     struct_size::UInt32  # set by the caller: sizeof(jam_glass)
@@ -539,6 +561,8 @@ mutable struct jam_glass
 end
 
 """
+    jam_monte_carlo_options
+
 Metropolis Monte Carlo at constant volume. A sweep is one trial of each sphere.
 """
 mutable struct jam_monte_carlo_options
@@ -560,6 +584,8 @@ mutable struct jam_monte_carlo_options
 end
 
 """
+    jam_monte_carlo_report
+
 What Monte Carlo did.
 """
 mutable struct jam_monte_carlo_report
@@ -581,7 +607,9 @@ mutable struct jam_monte_carlo_report
 end
 
 """
-Options of jam_isoconfigurational.
+    jam_isoconf_options
+
+Options of `jam_isoconfigurational`.
 """
 mutable struct jam_isoconf_options
     struct_size::UInt32  # sizeof(jam_isoconf_options)
@@ -601,6 +629,8 @@ mutable struct jam_isoconf_options
 end
 
 """
+    jam_isoconf_report
+
 What the runs gave so far.
 """
 mutable struct jam_isoconf_report
@@ -619,12 +649,14 @@ mutable struct jam_isoconf_report
 end
 
 """
-Options of jam_crunch. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
+    jam_crunch_options
+
+Options of `jam_crunch`. Lengths are in mean diameters, so nothing depends on the box. Brackets name the parameter of
 CALiPPSO.jl (Artiaco et al. 2022) that does the same; lengths there are in units of the box or radii. Its parameters
-sqrGamma0, thresholds_bounds and ratio_sl_update have no counterpart: radius and bound follow phi and the last step.
-Neither has zero_force: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
-after every step (tol_overlap, interval_overlaps_check). The progress callback replaces verbose and monitor_step;
-jam_crunch_report.excess_contacts replaces non_iso_warn and non_iso_break.
+sqrGamma0, `thresholds_bounds` and `ratio_sl_update` have no counterpart: radius and bound follow phi and the last step.
+Neither has `zero_force`: a pair is a contact when its relative force exceeds its relative gap. Overlaps are searched
+after every step (`tol_overlap`, `interval_overlaps_check`). The progress callback replaces verbose and `monitor_step`;
+`jam_crunch_report.excess_contacts` replaces `non_iso_warn` and `non_iso_break`.
 """
 mutable struct jam_crunch_options
     struct_size::UInt32  # sizeof(jam_crunch_options)
@@ -650,7 +682,9 @@ mutable struct jam_crunch_options
 end
 
 """
-Result and certificate of jam_crunch. All gaps, overlaps and lengths relative to sigma_ij.
+    jam_crunch_report
+
+Result and certificate of `jam_crunch`. All gaps, overlaps and lengths relative to `sigma_ij`.
 """
 mutable struct jam_crunch_report
     struct_size::UInt32  # set by the caller: sizeof(jam_crunch_report)
@@ -709,6 +743,8 @@ mutable struct jam_crunch_report
 end
 
 """
+    jam_estimate
+
 Memory and time of a crunch, estimated from the graph of pairs and its elimination tree.
 """
 mutable struct jam_estimate
@@ -725,7 +761,9 @@ mutable struct jam_estimate
 end
 
 """
-Options of jam_relax.
+    jam_relax_options
+
+Options of `jam_relax`.
 """
 mutable struct jam_relax_options
     struct_size::UInt32  # sizeof(jam_relax_options)
@@ -744,7 +782,9 @@ mutable struct jam_relax_options
 end
 
 """
-What jam_relax found. F_i: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
+    jam_relax_report
+
+What `jam_relax` found. `F_i`: total force on sphere i. Rattlers are spheres with fewer than d + 1 contacts, removed
 again and again; stable spheres are the others.
 """
 mutable struct jam_relax_report
@@ -773,7 +813,9 @@ mutable struct jam_relax_report
 end
 
 """
-Options of jam_decompress. Targets: the first that is reached ends it.
+    jam_decompress_options
+
+Options of `jam_decompress`. Targets: the first that is reached ends it.
 """
 mutable struct jam_decompress_options
     struct_size::UInt32  # sizeof(jam_decompress_options)
@@ -795,7 +837,9 @@ mutable struct jam_decompress_options
 end
 
 """
-What jam_decompress found.
+    jam_decompress_report
+
+What `jam_decompress` found.
 """
 mutable struct jam_decompress_report
     struct_size::UInt32  # set by the caller: sizeof(jam_decompress_report)
@@ -825,6 +869,8 @@ mutable struct jam_decompress_report
 end
 
 """
+    jam_hessian_options
+
 Options of all calls that use a Hessian.
 """
 mutable struct jam_hessian_options
@@ -836,7 +882,9 @@ mutable struct jam_hessian_options
 end
 
 """
-Options of jam_modes.
+    jam_modes_options
+
+Options of `jam_modes`.
 """
 mutable struct jam_modes_options
     struct_size::UInt32  # sizeof(jam_modes_options)
@@ -849,7 +897,9 @@ mutable struct jam_modes_options
 end
 
 """
-Options of jam_contacts_from_geometry.
+    jam_geometry_options
+
+Options of `jam_contacts_from_geometry`.
 """
 mutable struct jam_geometry_options
     struct_size::UInt32  # sizeof(jam_geometry_options)
@@ -860,7 +910,9 @@ mutable struct jam_geometry_options
 end
 
 """
-What jam_contacts_from_geometry found; gaps relative to sigma_ij.
+    jam_geometry_report
+
+What `jam_contacts_from_geometry` found; gaps relative to `sigma_ij`.
 """
 mutable struct jam_geometry_report
     struct_size::UInt32  # set by the caller: sizeof(jam_geometry_report)
@@ -885,7 +937,9 @@ mutable struct jam_geometry_report
 end
 
 """
-What jam_rigidity found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
+    jam_rigidity_report
+
+What `jam_rigidity` found. K+ are the contacts that carry force in some balance of non-negative forces, B the spheres
 that they touch, N' their number.
 """
 mutable struct jam_rigidity_report
@@ -907,7 +961,9 @@ mutable struct jam_rigidity_report
 end
 
 """
-Options of jam_check_packing.
+    jam_check_options
+
+Options of `jam_check_packing`.
 """
 mutable struct jam_check_options
     struct_size::UInt32  # sizeof(jam_check_options)
@@ -919,7 +975,9 @@ mutable struct jam_check_options
 end
 
 """
-Verdict on a packing as it is. Gaps are relative to sigma_ij, displacements in mean diameters without their mean.
+    jam_check_report
+
+Verdict on a packing as it is. Gaps are relative to `sigma_ij`, displacements in mean diameters without their mean.
 NaN: not known.
 """
 mutable struct jam_check_report
@@ -963,7 +1021,9 @@ mutable struct jam_check_report
 end
 
 """
-What jam_prove found. Bounds are rounded outward; NaN where they do not apply.
+    jam_proof_report
+
+What `jam_prove` found. Bounds are rounded outward; NaN where they do not apply.
 """
 mutable struct jam_proof_report
     struct_size::UInt32  # set by the caller: sizeof(jam_proof_report)
@@ -991,7 +1051,9 @@ mutable struct jam_proof_report
 end
 
 """
-Options of jam_density_of_states.
+    jam_dos_options
+
+Options of `jam_density_of_states`.
 """
 mutable struct jam_dos_options
     struct_size::UInt32  # sizeof(jam_dos_options)
@@ -1003,6 +1065,8 @@ mutable struct jam_dos_options
 end
 
 """
+    jam_moduli_report
+
 Elastic moduli, unit: stiffness at the mean force times length^(2-d); non-affine part included.
 """
 mutable struct jam_moduli_report
@@ -1018,7 +1082,9 @@ mutable struct jam_moduli_report
 end
 
 """
-What jam_compare found.
+    jam_comparison
+
+What `jam_compare` found.
 """
 mutable struct jam_comparison
     struct_size::UInt32  # set by the caller: sizeof(jam_comparison)
@@ -1036,6 +1102,8 @@ mutable struct jam_comparison
 end
 
 """
+    jam_version()
+
 Version of the library, e.g. "0.1.0". Static storage.
 """
 function jam_version()
@@ -1043,6 +1111,8 @@ function jam_version()
 end
 
 """
+    jam_commit()
+
 Commit of the source that the library was built from, 12 hex digits, e.g. "d1afac7c0de5". "" when the build did not
 find a commit. It does not show uncommitted changes. Static storage.
 """
@@ -1051,13 +1121,17 @@ function jam_commit()
 end
 
 """
-JAM_ABI of the library that is loaded.
+    jam_abi_version()
+
+`JAM_ABI` of the library that is loaded.
 """
 function jam_abi_version()
     return ccall((:jam_abi_version, libjam), Int32, ())
 end
 
 """
+    jam_blas_kernel()
+
 Name of the kernel that OpenBLAS chose for this processor, e.g. "Haswell". If another BLAS library, loaded earlier,
 computes in place of OpenBLAS: the path of that library. Static storage.
 """
@@ -1066,6 +1140,8 @@ function jam_blas_kernel()
 end
 
 """
+    jam_status_string(code)
+
 One-line text of a status code ("unknown status" for others). Static storage.
 """
 function jam_status_string(code)
@@ -1073,22 +1149,28 @@ function jam_status_string(code)
 end
 
 """
-One-word name of a jam_stop_reason, e.g. "converged". Static storage.
+    jam_stop_string(reason)
+
+One-word name of a `jam_stop_reason`, e.g. "converged". Static storage.
 """
 function jam_stop_string(reason)
     return ccall((:jam_stop_string, libjam), Cstring, (Int32,), reason)
 end
 
 """
-Reason for the last status other than JAM_OK on this thread, with the name and value at fault; "" when there was
-none. The log callback receives the same sentence. Valid until the next status other than JAM_OK on this thread.
+    jam_last_error()
+
+Reason for the last status other than `JAM_OK` on this thread, with the name and value at fault; "" when there was
+none. The log callback receives the same sentence. Valid until the next status other than `JAM_OK` on this thread.
 """
 function jam_last_error()
     return ccall((:jam_last_error, libjam), Cstring, ())
 end
 
 """
-Sets the text that jam_last_error() returns on this thread; NULL sets "". For language bindings that check arguments
+    jam_set_error(text)
+
+Sets the text that `jam_last_error()` returns on this thread; NULL sets "". For language bindings that check arguments
 themselves. Long texts are truncated.
 """
 function jam_set_error(text)
@@ -1096,32 +1178,40 @@ function jam_set_error(text)
 end
 
 """
-Fills *o with the defaults. size = sizeof *o as the caller compiled it.
+    jam_create_options_init(o, size)
+
+Fills `*o` with the defaults. size = sizeof `*o` as the caller compiled it.
 """
 function jam_create_options_init(o, size)
     return ccall((:jam_create_options_init, libjam), Int32, (Ref{jam_create_options}, Csize_t), _ref(jam_create_options, o), size)
 end
 
 """
-Makes a system of d = o->dim. The caller frees *out by jam_destroy; after JAM_CANCELLED or JAM_LIMIT it is NULL. The
+    jam_create(o, start, out)
+
+Makes a system of d = o->dim. The caller frees `*out` by `jam_destroy`; after `JAM_CANCELLED` or `JAM_LIMIT` it is NULL. The
 call takes long when many pairs of spheres are close together, and in the Mari-Kurchan model, where all pairs are
 compared. Example: examples/c/first.c
-Errors: JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE (the text gives the fraction in reach).
+Errors: `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE` (the text gives the fraction in reach).
 """
 function jam_create(o, start, out)
     return ccall((:jam_create, libjam), Int32, (Ref{jam_create_options}, Ref{jam_start}, Ref{Ptr{Cvoid}}), _ref(jam_create_options, o), _ref(jam_start, start), out)
 end
 
 """
-Deep copy of src with its results and observations, without its callbacks. If jam_observe is on for src, it is on for
+    jam_copy(src, out)
+
+Deep copy of src with its results and observations, without its callbacks. If `jam_observe` is on for src, it is on for
 the copy. The copy has the seed of src: where both draw velocities, they draw the same ones. For independent runs
-give the copy its own velocities by jam_set_velocities.
+give the copy its own velocities by `jam_set_velocities`.
 """
 function jam_copy(src, out)
     return ccall((:jam_copy, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cvoid}}), src, out)
 end
 
 """
+    jam_destroy(sys)
+
 Frees a system; NULL is fine.
 """
 function jam_destroy(sys)
@@ -1129,13 +1219,17 @@ function jam_destroy(sys)
 end
 
 """
-Fills *info.
+    jam_get_info(sys, info)
+
+Fills `*info`.
 """
 function jam_get_info(sys, info)
     return ccall((:jam_get_info, libjam), Int32, (Ptr{Cvoid}, Ref{jam_info}), sys, _ref(jam_info, info))
 end
 
 """
+    jam_view_positions(sys, view, view_len)
+
 View of positions (n, d) in [0, box), in other cells in the brick. The pointer stays valid as long as the handle. Its
 content changes only at the end of calls that move spheres.
 """
@@ -1144,31 +1238,39 @@ function jam_view_positions(sys, view, view_len)
 end
 
 """
-View of the n diameters; lifetime as jam_view_positions.
+    jam_view_diameters(sys, view, view_len)
+
+View of the n diameters; lifetime as `jam_view_positions`.
 """
 function jam_view_diameters(sys, view, view_len)
     return ccall((:jam_view_diameters, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
-View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as jam_view_positions.
+    jam_view_velocities(sys, view, view_len)
+
+View of velocities (n, d), kT/m = 1; zero until the first MD call draws them. Lifetime as `jam_view_positions`.
 """
 function jam_view_velocities(sys, view, view_len)
     return ccall((:jam_view_velocities, libjam), Int32, (Ptr{Cvoid}, Ref{Ptr{Cdouble}}, Ref{Csize_t}), sys, view, view_len)
 end
 
 """
+    jam_set_positions(sys, positions, positions_len)
+
 Replaces the positions, wrapped into the box; results of crunch are dropped.
 Shapes: positions (n, d).
-Errors: JAM_E_OVERLAP.
+Errors: `JAM_E_OVERLAP`.
 """
 function jam_set_positions(sys, positions, positions_len)
     return ccall((:jam_set_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(positions), positions_len)
 end
 
 """
-Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. jam_run uses the velocities
-as they are. jam_compress rescales them to kT/m = 1.
+    jam_set_velocities(sys, velocities, velocities_len)
+
+Replaces the velocities. Results of a crunch are kept: they do not depend on velocities. `jam_run` uses the velocities
+as they are. `jam_compress` rescales them to kT/m = 1.
 Shapes: velocities (n, d).
 """
 function jam_set_velocities(sys, velocities, velocities_len)
@@ -1176,14 +1278,18 @@ function jam_set_velocities(sys, velocities, velocities_len)
 end
 
 """
+    jam_scale_diameters(sys, factor)
+
 Multiplies all diameters by factor > 0; results of crunch are dropped.
-Errors: JAM_E_OVERLAP (when growing).
+Errors: `JAM_E_OVERLAP` (when growing).
 """
 function jam_scale_diameters(sys, factor)
     return ccall((:jam_scale_diameters, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, factor)
 end
 
 """
+    jam_get_cell(sys, out, out_len, needed)
+
 Cell vectors in normal form.
 Shapes: out (d, d).
 """
@@ -1192,76 +1298,92 @@ function jam_get_cell(sys, out, out_len, needed)
 end
 
 """
+    jam_set_cell(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
+
 Replaces the cell; a left-handed, singular or flat one is refused. Positions keep their Cartesian values in the
 frame of `cell`, diameters stay, results of crunch are dropped. transform, integers T: the reduced vectors are T
-times `cell`. rotation Q: a point x has gone to Q x. *rows = d. Mari-Kurchan shifts are fractions of the cell
+times `cell`. rotation Q: a point x has gone to Q x. `*rows` = d. Mari-Kurchan shifts are fractions of the cell
 vectors, so with other vectors the system is another one.
 Shapes: cell (d, d), transform (d, d), rotation (d, d).
-Errors: JAM_E_OVERLAP.
+Errors: `JAM_E_OVERLAP`.
 """
 function jam_set_cell(sys, cell, cell_len, transform, transform_len, rotation, rotation_len, rows)
     return ccall((:jam_set_cell, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(cell), cell_len, _ptr(transform), transform_len, _ptr(rotation), rotation_len, _ref(Csize_t, rows))
 end
 
 """
+    jam_strain(sys, strain, strain_len)
+
 Deforms cell and positions by r -> (1 + strain) r; diameters stay, results of crunch are dropped. The new cell is
 reduced: a simple shear of any size is one call. Velocities stay, but for the rotation of a reduction.
 Shapes: strain (d, d).
-Errors: JAM_E_OVERLAP, JAM_E_UNSUPPORTED (Mari-Kurchan shifts, where the reduction changes the vectors).
+Errors: `JAM_E_OVERLAP`, `JAM_E_UNSUPPORTED` (Mari-Kurchan shifts, where the reduction changes the vectors).
 """
 function jam_strain(sys, strain, strain_len)
     return ccall((:jam_strain, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t), sys, _ptr(strain), strain_len)
 end
 
 """
-Fills *o with the defaults.
+    jam_diameters_options_init(o, size)
+
+Fills `*o` with the defaults.
 """
 function jam_diameters_options_init(o, size)
     return ccall((:jam_diameters_options_init, libjam), Int32, (Ref{jam_diameters_options}, Csize_t), _ref(jam_diameters_options, o), size)
 end
 
 """
-Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from packing_fraction, the
-last sphere is adjusted, so that the volumes add up to packing_fraction * cell_volume, to 1e-13 of it. The largest
+    jam_diameters(o, curve, curve_len, out, out_len, needed)
+
+Diameters of a law. Quantiles ascend. curve: of LIST and SIEVE, else NULL. Where n follows from `packing_fraction`, the
+last sphere is adjusted, so that the volumes add up to `packing_fraction` × `cell_volume`, to 1e-13 of it. The largest
 sphere that stays below the largest of all is taken for this. UNPLACEABLE gives the packing fraction in reach.
 Example: examples/c/sieve.c
 Shapes: curve (rows, 2), out (m).
-Errors: JAM_E_DIMENSION, JAM_E_UNPLACEABLE (packing_fraction).
+Errors: `JAM_E_DIMENSION`, `JAM_E_UNPLACEABLE` (`packing_fraction`).
 """
 function jam_diameters(o, curve, curve_len, out, out_len, needed)
     return ccall((:jam_diameters, libjam), Int32, (Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Reads a law from text into *o, whose other fields stay as they are, and gives its curve. The text is `LAW` or
+    jam_parse_diameters(text, o, curve, curve_len, needed)
+
+Reads a law from text into `*o`, whose other fields stay as they are, and gives its curve. The text is `LAW` or
 `LAW:item,item...`. An item is a field (`deviation=0.3`, `share=volume`, `draw=random`), a row of the curve
 (`0.5=0.12`), or a file of two columns, with comments behind #.
 Shapes: curve (rows, 2).
-Errors: JAM_E_IO, JAM_E_FORMAT (the text names the line).
+Errors: `JAM_E_IO`, `JAM_E_FORMAT` (the text names the line).
 """
 function jam_parse_diameters(text, o, curve, curve_len, needed)
     return ccall((:jam_parse_diameters, libjam), Int32, (Cstring, Ref{jam_diameters_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), text, _ref(jam_diameters_options, o), _ptr(curve), curve_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_cell_volume(dim, cell, cell_len, volume)
+
 volume of a cell of d = dim vectors, row after row, with a positive determinant.
 Shapes: cell (m).
-Errors: JAM_E_DIMENSION.
+Errors: `JAM_E_DIMENSION`.
 """
 function jam_cell_volume(dim, cell, cell_len, volume)
     return ccall((:jam_cell_volume, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), dim, _ptr(cell), cell_len, _ref(Cdouble, volume))
 end
 
 """
+    jam_get_size_report(dim, diameters, diameters_len, report)
+
 Describes diameters > 0 in dimension dim.
 Shapes: diameters (n).
-Errors: JAM_E_DIMENSION.
+Errors: `JAM_E_DIMENSION`.
 """
 function jam_get_size_report(dim, diameters, diameters_len, report)
     return ccall((:jam_get_size_report, libjam), Int32, (Int32, Ptr{Cdouble}, Csize_t, Ref{jam_size_report}), dim, _ptr(diameters), diameters_len, _ref(jam_size_report, report))
 end
 
 """
+    jam_set_progress(sys, callback, user)
+
 Sets (or with NULL removes) the progress callback. Called at most every 0.05 s. Long const calls and setters call it
 too. Const calls that run together on one handle each call it on their own thread. A call that a callback makes on
 its handle does not call it again.
@@ -1271,47 +1393,57 @@ function jam_set_progress(sys, callback, user)
 end
 
 """
-Sets (or with NULL removes) the log callback and its level. It first logs the lines of jam_notes.
+    jam_set_log(sys, callback, level, user)
+
+Sets (or with NULL removes) the log callback and its level. It first logs the lines of `jam_notes`.
 """
 function jam_set_log(sys, callback, level, user)
     return ccall((:jam_set_log, libjam), Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid}), sys, _ptr(callback), level, _ptr(user))
 end
 
 """
-Asks all calls that run on sys to stop soon with JAM_CANCELLED. When no call runs, the next call that must be alone
-on sys stops, unless it is a setter. jam_cancel only increments an atomic counter.
+    jam_cancel(sys)
+
+Asks all calls that run on sys to stop soon with `JAM_CANCELLED`. When no call runs, the next call that must be alone
+on sys stops, unless it is a setter. `jam_cancel` only increments an atomic counter.
 """
 function jam_cancel(sys)
     return ccall((:jam_cancel, libjam), Int32, (Ptr{Cvoid},), sys)
 end
 
 """
+    jam_set_memory_limit(sys, bytes)
+
 Limits the bytes that pair lists, factorised matrices and arrays made from them may take in one call on sys, > 0;
-infinity: no limit. A call that needs more fails with JAM_E_MEMORY before it allocates them. jam_crunch compares the
-memory of jam_estimate_crunch with the limit before it begins, and that of each matrix before it factorises it. The
-default is half the machine's memory. An option memory_limit can lower the limit for its own call.
+infinity: no limit. A call that needs more fails with `JAM_E_MEMORY` before it allocates them. `jam_crunch` compares the
+memory of `jam_estimate_crunch` with the limit before it begins, and that of each matrix before it factorises it. The
+default is half the machine's memory. An option `memory_limit` can lower the limit for its own call.
 """
 function jam_set_memory_limit(sys, bytes)
     return ccall((:jam_set_memory_limit, libjam), Int32, (Ptr{Cvoid}, Cdouble), sys, bytes)
 end
 
 """
+    jam_read(path, o, callback, user, out)
+
 Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. It recognises the format
 by the content. For a file of another format the error names that format and what to do. o: overlap policy, seed,
-model, frame; box and dim where the file gives none. A line that does not fit the format is an error; jam_notes lists
+model, frame; box and dim where the file gives none. A line that does not fit the format is an error; `jam_notes` lists
 what was not kept. An option whose value the file gives must be the default or agree with the file. Spheres keep the
 order of the file; LAMMPS data are sorted by id. A last line without newline is refused if its last number may have
-lost digits. callback, user: as in jam_start.
-Errors: JAM_E_IO, JAM_E_FORMAT (line named), JAM_E_UNSUPPORTED (a box that is not periodic), JAM_E_DIMENSION, JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
+lost digits. callback, user: as in `jam_start`.
+Errors: `JAM_E_IO`, `JAM_E_FORMAT` (line named), `JAM_E_UNSUPPORTED` (a box that is not periodic), `JAM_E_DIMENSION`, `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_read(path, o, callback, user, out)
     return ccall((:jam_read, libjam), Int32, (Cstring, Ref{jam_create_options}, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ref(jam_create_options, o), _ptr(callback), _ptr(user), out)
 end
 
 """
+    jam_notes(sys)
+
 What was changed or assumed when sys was made, one sentence per line; "" when nothing was. Examples: shrunk
 diameters, wrapped or sorted spheres, columns and frames that were not read. A warning begins with `warning: `.
-jam_set_log sends these lines to its callback. Valid until jam_add_note or jam_destroy; "" for NULL. Checkpoints
+`jam_set_log` sends these lines to its callback. Valid until `jam_add_note` or `jam_destroy`; "" for NULL. Checkpoints
 hold it.
 """
 function jam_notes(sys)
@@ -1319,7 +1451,9 @@ function jam_notes(sys)
 end
 
 """
-Adds one sentence to jam_notes, for programs that read other formats: what they changed or assumed. text is one line,
+    jam_add_note(sys, text)
+
+Adds one sentence to `jam_notes`, for programs that read other formats: what they changed or assumed. text is one line,
 not empty.
 """
 function jam_add_note(sys, text)
@@ -1327,110 +1461,137 @@ function jam_add_note(sys, text)
 end
 
 """
+    jam_write(sys, path, format)
+
 Writes the packing with 17 digits, so that reading gives the same bits. The file is written under another name and
 then renamed. Links are followed. Pipes, devices and open descriptors (/dev/stdout, /dev/fd/N) are written in place;
-a file opened with >> gets the packing at its end. The shifts of JAM_MODEL_MK are not saved: read the file with the
-same seed and mk_zeta. Planted shifts are not saved either: use jam_write_checkpoint. Only XYZ can hold
-non_additivity, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give JAM_E_UNSUPPORTED.
-Errors: JAM_E_UNSUPPORTED, JAM_E_IO.
+a file opened with >> gets the packing at its end. The shifts of `JAM_MODEL_MK` are not saved: read the file with the
+same seed and `mk_zeta`. Planted shifts are not saved either: use `jam_write_checkpoint`. Only XYZ can hold
+`non_additivity`, and only XYZ, LAMMPS and VTP can hold a cell that is not a cube; others give `JAM_E_UNSUPPORTED`.
+Errors: `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write(sys, path, format)
     return ccall((:jam_write, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
 end
 
 """
-Writes the contact network of the last crunch. The file appears as of jam_write.
-Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
+    jam_write_contacts(sys, path, format)
+
+Writes the contact network of the last crunch. The file appears as of `jam_write`.
+Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_contacts(sys, path, format)
     return ccall((:jam_write_contacts, libjam), Int32, (Ptr{Cvoid}, Cstring, Int32), sys, path, format)
 end
 
 """
+    jam_write_page(sys, path, title, small, names, values, values_len)
+
 Writes one HTML file that shows the packing in a browser without a network: spheres and forces to turn and to slice,
-numbers of each sphere, certificate and distributions. After a crunch with keep_steps it has a slider over its steps.
+numbers of each sphere, certificate and distributions. After a crunch with `keep_steps` it has a slider over its steps.
 title: its heading, or "". small: 1 for the picture alone, 0 for all. values: numbers to colour spheres by, or NULL;
 names: k names, one a line, or "".
 Shapes: values (k, n).
-Errors: JAM_E_IO.
+Errors: `JAM_E_IO`.
 """
 function jam_write_page(sys, path, title, small, names, values, values_len)
     return ccall((:jam_write_page, libjam), Int32, (Ptr{Cvoid}, Cstring, Cstring, Int32, Cstring, Ptr{Cdouble}, Csize_t), sys, path, title, small, names, _ptr(values), values_len)
 end
 
+"""
+    jam_run_options_init(o, size)
+"""
 function jam_run_options_init(o, size)
     return ccall((:jam_run_options_init, libjam), Int32, (Ref{jam_run_options}, Csize_t), _ref(jam_run_options, o), size)
 end
 
+"""
+    jam_compress_options_init(o, size)
+"""
 function jam_compress_options_init(o, size)
     return ccall((:jam_compress_options_init, libjam), Int32, (Ref{jam_compress_options}, Csize_t), _ref(jam_compress_options, o), size)
 end
 
 """
+    jam_run(sys, o, report)
+
 Event-driven NVE dynamics (Alder and Wainwright, J. Chem. Phys. 31, 459 (1959)). Velocities are drawn at first use:
 Maxwell-Boltzmann, zero total momentum, sum m v^2 = d N. The draw depends on the seed alone. A run or stage that ends
-with JAM_CANCELLED or JAM_LIMIT stays with the handle, and in its checkpoints, until the next call that changes
+with `JAM_CANCELLED` or `JAM_LIMIT` stays with the handle, and in its checkpoints, until the next call that changes
 spheres. So does one that was stopped while its lists were made, when nothing has moved. With resume = 1 it goes on
-to the same bits as if it had not stopped; JAM_E_STATE when there is none. Splitting a run by wall_time therefore
-does not change its result. A failure while it goes on loses the stage, not the packing. Status: JAM_OK when the
-collisions were made, JAM_PRECISION, JAM_NOT_CONVERGED (no collision can happen: one sphere, zero velocities, or
+to the same bits as if it had not stopped; `JAM_E_STATE` when there is none. Splitting a run by `wall_time` therefore
+does not change its result. A failure while it goes on loses the stage, not the packing. Status: `JAM_OK` when the
+collisions were made, `JAM_PRECISION`, `JAM_NOT_CONVERGED` (no collision can happen: one sphere, zero velocities, or
 paths that never meet). The log gives the reason of the last two.
-Errors: JAM_E_OVERLAP.
+Errors: `JAM_E_OVERLAP`.
 """
 function jam_run(sys, o, report)
     return ccall((:jam_run, libjam), Int32, (Ptr{Cvoid}, Ref{jam_run_options}, Ref{jam_md_report}), sys, _ref(jam_run_options, o), _ref(jam_md_report, report))
 end
 
 """
-Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a growth_rate, and with o NULL, it runs
+    jam_compress(sys, o, report)
+
+Lubachevsky-Stillinger compression (J. Stat. Phys. 60, 561 (1990)). Without a `growth_rate`, and with o NULL, it runs
 the two-stage protocol that avoids crystals in d = 3: G = 1e-2 to p = 500, then G = 3e-3 to the pressure of o, 1e7 by
 default (a stage costs about 1.63 (N/G) ln(p2/p1) collisions). For another protocol make one call per stage. A
-thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: JAM_OK
-(a pressure or packing-fraction target reached, see report->stop_reason), JAM_PRECISION, JAM_NOT_CONVERGED (stalled:
+thermostat holds sum m v^2 within 5 % of d N, and at the end the velocities are scaled to it exactly. Status: `JAM_OK`
+(a pressure or packing-fraction target reached, see report->`stop_reason`), `JAM_PRECISION`, `JAM_NOT_CONVERGED` (stalled:
 a sphere touches its own image, or no time passes between collisions). A resumed call finishes the stage and goes on
 with the next. Small systems (below about 200 equal spheres in d = 3) order under this protocol. From a fluid to a
 packing fraction alone, one that these sizes do not reach in disorder is refused.
-Errors: JAM_E_OVERLAP, JAM_E_UNPLACEABLE.
+Errors: `JAM_E_OVERLAP`, `JAM_E_UNPLACEABLE`.
 """
 function jam_compress(sys, o, report)
     return ccall((:jam_compress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_compress_options}, Ref{jam_md_report}), sys, _ref(jam_compress_options, o), _ref(jam_md_report, report))
 end
 
 """
+    jam_write_checkpoint(sys, path)
+
 Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
 and a stage that was stopped early or runs now. The results are in it too: contact network, report, histories, kept
 steps and isoconfigurational runs. Observations, the memory limit and callbacks are not. A callback that writes a
 checkpoint while a call moves the spheres saves the packing of the last step, without results. The file is written
 under another name and then renamed. Dynamics that go on from it make the same bits as those that never stopped. A
 crunch begins anew from the packing that it had reached: it ends jammed, not always with the same bits.
-Errors: JAM_E_IO.
+Errors: `JAM_E_IO`.
 """
 function jam_write_checkpoint(sys, path)
     return ccall((:jam_write_checkpoint, libjam), Int32, (Ptr{Cvoid}, Cstring), sys, path)
 end
 
 """
-Makes a system from such a file. callback, user: as in jam_start.
-Errors: JAM_E_IO, JAM_E_FORMAT (no checkpoint, or damaged, or from a machine with another byte order), JAM_E_OVERLAP.
+    jam_read_checkpoint(path, callback, user, out)
+
+Makes a system from such a file. callback, user: as in `jam_start`.
+Errors: `JAM_E_IO`, `JAM_E_FORMAT` (no checkpoint, or damaged, or from a machine with another byte order), `JAM_E_OVERLAP`.
 """
 function jam_read_checkpoint(path, callback, user, out)
     return ccall((:jam_read_checkpoint, libjam), Int32, (Cstring, Ptr{Cvoid}, Ptr{Cvoid}, Ref{Ptr{Cvoid}}), path, _ptr(callback), _ptr(user), out)
 end
 
+"""
+    jam_observe_options_init(o, size)
+"""
 function jam_observe_options_init(o, size)
     return ccall((:jam_observe_options_init, libjam), Int32, (Ref{jam_observe_options}, Csize_t), _ref(jam_observe_options, o), size)
 end
 
 """
-From now on jam_run and jam_compress record, over all calls, until jam_stop_observing. What was recorded before is
+    jam_observe(sys, o)
+
+From now on `jam_run` and `jam_compress` record, over all calls, until `jam_stop_observing`. What was recorded before is
 dropped. Recording does not change the dynamics. At a snapshot the views show the present state, and the progress
-callback is called with jam_progress.snapshot > 0: every const call works on that state there.
+callback is called with `jam_progress`.snapshot > 0: every const call works on that state there.
 """
 function jam_observe(sys, o)
     return ccall((:jam_observe, libjam), Int32, (Ptr{Cvoid}, Ref{jam_observe_options}), sys, _ref(jam_observe_options, o))
 end
 
 """
+    jam_stop_observing(sys)
+
 Stops recording; what was recorded can still be read.
 """
 function jam_stop_observing(sys)
@@ -1438,392 +1599,488 @@ function jam_stop_observing(sys)
 end
 
 """
+    jam_observed_series(sys, table, table_len, needed)
+
 Series of samples.
-Shapes: table (samples, jam_series_column).
-Errors: JAM_E_STATE (nothing observed).
+Shapes: table (samples, `jam_series_column`).
+Errors: `JAM_E_STATE` (nothing observed).
 """
 function jam_observed_series(sys, table, table_len, needed)
     return ccall((:jam_observed_series, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-Collisions of each sphere, and its displacement since jam_observe, unwrapped. *rows = n.
+    jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, rows)
+
+Collisions of each sphere, and its displacement since `jam_observe`, unwrapped. `*rows` = n.
 Shapes: collisions (n), displacement (n, d).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_observed_spheres(sys, collisions, collisions_len, displacement, displacement_len, rows)
     return ccall((:jam_observed_spheres, libjam), Int32, (Ptr{Cvoid}, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(collisions), collisions_len, _ptr(displacement), displacement_len, _ref(Csize_t, rows))
 end
 
 """
+    jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, rows)
+
 Pairs that have collided, their collisions, and the momentum exchanged in units of sqrt(m kT), without the part of
-the growth. momentum over *time, the simulated time, is the mean force.
+the growth. momentum over `*time`, the simulated time, is the mean force.
 Shapes: pair (m, 2), collisions (m), momentum (m).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_observed_pairs(sys, pair, pair_len, collisions, collisions_len, momentum, momentum_len, time, rows)
     return ccall((:jam_observed_pairs, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ptr{Int64}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(pair), pair_len, _ptr(collisions), collisions_len, _ptr(momentum), momentum_len, _ref(Cdouble, time), _ref(Csize_t, rows))
 end
 
 """
-Histogram of gaps h, *rows = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
+    jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
+
+Histogram of gaps h, `*rows` = bins: density is pairs over those of an ideal gas, error is over samples. Samples are
 taken between collisions: at one, a pair more would touch. At h = 0 density tends to g(sigma), which is (p - 1) / (4
 phi) for equal spheres in d = 3.
 Shapes: edge (bins + 1), density (bins), error (bins).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_observed_gaps(sys, edge, edge_len, density, density_len, error, error_len, rows)
     return ccall((:jam_observed_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(edge), edge_len, _ptr(density), density_len, _ptr(error), error_len, _ref(Csize_t, rows))
 end
 
 """
-g(r), sampled likewise, *rows = bins: r is the middle of each, mean diameters.
+    jam_observed_correlation(sys, r, r_len, g, g_len, rows)
+
+g(r), sampled likewise, `*rows` = bins: r is the middle of each, mean diameters.
 Shapes: r (bins), g (bins).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_observed_correlation(sys, r, r_len, g, g_len, rows)
     return ccall((:jam_observed_correlation, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(r), r_len, _ptr(g), g_len, _ref(Csize_t, rows))
 end
 
 """
-pressure of an equation of state at a packing fraction; jammed_fraction is used by FREE_VOLUME only.
-Errors: JAM_E_DIMENSION, JAM_E_UNSUPPORTED (form not of this dim).
+    jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
+
+pressure of an equation of state at a packing fraction; `jammed_fraction` is used by `FREE_VOLUME` only.
+Errors: `JAM_E_DIMENSION`, `JAM_E_UNSUPPORTED` (form not of this dim).
 """
 function jam_eos(form, dim, packing_fraction, jammed_fraction, pressure)
     return ccall((:jam_eos, libjam), Int32, (Int32, Int32, Cdouble, Cdouble, Ref{Cdouble}), form, dim, packing_fraction, jammed_fraction, _ref(Cdouble, pressure))
 end
 
 """
+    jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
+
 Least squares on 1/pressure against fraction, at least 3 points; the line must fall.
 Shapes: fraction (m), pressure (m).
-Errors: JAM_E_TOO_FEW.
+Errors: `JAM_E_TOO_FEW`.
 """
 function jam_glass_fit(fraction, fraction_len, pressure, pressure_len, fit)
     return ccall((:jam_glass_fit, libjam), Int32, (Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{jam_glass}), _ptr(fraction), fraction_len, _ptr(pressure), pressure_len, _ref(jam_glass, fit))
 end
 
+"""
+    jam_monte_carlo_options_init(o, size)
+"""
 function jam_monte_carlo_options_init(o, size)
     return ccall((:jam_monte_carlo_options_init, libjam), Int32, (Ref{jam_monte_carlo_options}, Csize_t), _ref(jam_monte_carlo_options, o), size)
 end
 
 """
+    jam_monte_carlo(sys, o, report)
+
 Metropolis Monte Carlo (J. Chem. Phys. 21, 1087 (1953)) of hard or soft spheres. A step of 0 is tuned in a
-preliminary run and then frozen; JAM_E_ARGUMENT when no step is accepted. After soft spheres the system allows
-overlaps, as by JAM_OVERLAP_ALLOW. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
-dropped. jam_observed_spheres gives the displacements. An early stop can be resumed, also from jam_write_checkpoint.
-Errors: JAM_E_STATE, JAM_E_UNSUPPORTED (Mari-Kurchan model).
+preliminary run and then frozen; `JAM_E_ARGUMENT` when no step is accepted. After soft spheres the system allows
+overlaps, as by `JAM_OVERLAP_ALLOW`. Random numbers depend on seed, run, sweep and sphere alone. Velocities are
+dropped. `jam_observed_spheres` gives the displacements. An early stop can be resumed, also from `jam_write_checkpoint`.
+Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED` (Mari-Kurchan model).
 """
 function jam_monte_carlo(sys, o, report)
     return ccall((:jam_monte_carlo, libjam), Int32, (Ptr{Cvoid}, Ref{jam_monte_carlo_options}, Ref{jam_monte_carlo_report}), sys, _ref(jam_monte_carlo_options, o), _ref(jam_monte_carlo_report, report))
 end
 
+"""
+    jam_isoconf_options_init(o, size)
+"""
 function jam_isoconf_options_init(o, size)
     return ccall((:jam_isoconf_options_init, libjam), Int32, (Ref{jam_isoconf_options}, Csize_t), _ref(jam_isoconf_options, o), size)
 end
 
 """
+    jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
+
 Isoconfigurational ensemble (Widmer-Cooper et al., Phys. Rev. Lett. 93, 135701 (2004)): runs from the packing as it
-is, with all diameters scaled to density_ratio; one whose gaps are rounding is refused. Run k draws its velocities
-from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, first_sweep,
-resume and wall_time are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
+is, with all diameters scaled to `density_ratio`; one whose gaps are rounding is refused. Run k draws its velocities
+from a stream of its own. m NULL: molecular dynamics; else Monte Carlo by these options (sweeps, run, `first_sweep`,
+resume and `wall_time` are not used). instant: ascending, > 0. kept: indices of instants whose displacements are kept
 of every run, or NULL. The packing does not change; the handle holds the sums until the next call. Runs enter the
 sums in the order of their numbers. An early stop keeps the runs that were made; resume continues, also after
-jam_read_checkpoint. Status: JAM_NOT_CONVERGED (a run cannot move).
+`jam_read_checkpoint`. Status: `JAM_NOT_CONVERGED` (a run cannot move).
 Shapes: instant (instants), kept (k).
-Errors: JAM_E_STATE (nothing to resume, or not the same), JAM_E_OVERLAP, JAM_E_UNSUPPORTED.
+Errors: `JAM_E_STATE` (nothing to resume, or not the same), `JAM_E_OVERLAP`, `JAM_E_UNSUPPORTED`.
 """
 function jam_isoconfigurational(sys, o, m, instant, instant_len, kept, kept_len, report)
     return ccall((:jam_isoconfigurational, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_options}, Ref{jam_monte_carlo_options}, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_options, o), _ref(jam_monte_carlo_options, m), _ptr(instant), instant_len, _ptr(kept), kept_len, _ref(jam_isoconf_report, report))
 end
 
 """
+    jam_get_isoconf_report(sys, report)
+
 The report of these runs as they are now.
-Errors: JAM_E_STATE (no runs).
+Errors: `JAM_E_STATE` (no runs).
 """
 function jam_get_isoconf_report(sys, report)
     return ccall((:jam_get_isoconf_report, libjam), Int32, (Ptr{Cvoid}, Ref{jam_isoconf_report}), sys, _ref(jam_isoconf_report, report))
 end
 
 """
-Sums over the runs of one block, or of all for block = -1: displacement and square of dr_c, unit of the box;
-distance2 and distance4 of |dr|^2 and |dr|^4; *runs in them. *needed = instants n.
+    jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, distance2_len, distance4, distance4_len, runs, needed)
+
+Sums over the runs of one block, or of all for block = -1: displacement and square of `dr_c`, unit of the box;
+distance2 and distance4 of |dr|^2 and |dr|^4; `*runs` in them. `*needed` = instants n.
 Shapes: displacement (instants, n, d), square (instants, n, d), distance2 (instants, n), distance4 (instants, n).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_sums(sys, block, displacement, displacement_len, square, square_len, distance2, distance2_len, distance4, distance4_len, runs, needed)
     return ccall((:jam_isoconf_sums, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Int64}, Ref{Csize_t}), sys, block, _ptr(displacement), displacement_len, _ptr(square), square_len, _ptr(distance2), distance2_len, _ptr(distance4), distance4_len, _ref(Int64, runs), _ref(Csize_t, needed))
 end
 
 """
+    jam_isoconf_series(sys, block, column, out, out_len, needed)
+
 One column of that block (or -1: all), a sum over runs at each instant.
 Shapes: out (instants).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_series(sys, block, column, out, out_len, needed)
     return ccall((:jam_isoconf_series, libjam), Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, block, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_isoconf_kept(sys, instant, out, out_len, needed)
+
 Displacements at one kept instant, given by its index.
 Shapes: out (runs, n, d).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_isoconf_kept(sys, instant, out, out_len, needed)
     return ccall((:jam_isoconf_kept, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, instant, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
+"""
+    jam_crunch_options_init(o, size)
+"""
 function jam_crunch_options_init(o, size)
     return ccall((:jam_crunch_options_init, libjam), Int32, (Ref{jam_crunch_options}, Csize_t), _ref(jam_crunch_options, o), size)
 end
 
 """
+    jam_crunch(sys, o, report)
+
 Brings the packing to its jamming point by iterated linear programming (Artiaco et al., Phys. Rev. E 106, 055310
 (2022)) and keeps the contact network. No step creates an overlap. An interrupted crunch returns a valid packing:
-call it again to continue, also after jam_write_checkpoint and jam_read_checkpoint. On the barrier path it then goes
+call it again to continue, also after `jam_write_checkpoint` and `jam_read_checkpoint`. On the barrier path it then goes
 on at the mu that was reached. Bits may differ from those of one call. Steps and times of the report count from the
-last call. Status: JAM_OK jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
-along the path); JAM_NOT_CONVERGED, JAM_NOT_JAMMED: the state is the last valid one and the report says why.
-Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW (one sphere in a fixed cell), JAM_E_SOLVER (last good state kept).
+last call. Status: `JAM_OK` jammed, or at the duality gap of the options (`jammed` is 0 then, and another call goes on
+along the path); `JAM_NOT_CONVERGED`, `JAM_NOT_JAMMED`: the state is the last valid one and the report says why.
+Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW` (one sphere in a fixed cell), `JAM_E_SOLVER` (last good state kept).
 """
 function jam_crunch(sys, o, report)
     return ccall((:jam_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_options, o), _ref(jam_crunch_report, report))
 end
 
 """
-Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
-same at JAM_LOG_INFO. Takes as long as a few steps.
-Errors: JAM_E_OVERLAP, JAM_E_TOO_FEW.
+    jam_estimate_crunch(sys, o, estimated)
+
+Estimates memory and time of `jam_crunch` with these options (NULL: defaults) without running it; `jam_crunch` logs the
+same at `JAM_LOG_INFO`. Takes as long as a few steps.
+Errors: `JAM_E_OVERLAP`, `JAM_E_TOO_FEW`.
 """
 function jam_estimate_crunch(sys, o, estimated)
     return ccall((:jam_estimate_crunch, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_options}, Ref{jam_estimate}), sys, _ref(jam_crunch_options, o), _ref(jam_estimate, estimated))
 end
 
 """
+    jam_get_crunch_report(sys, report)
+
 The report of the last crunch.
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_get_crunch_report(sys, report)
     return ccall((:jam_get_crunch_report, libjam), Int32, (Ptr{Cvoid}, Ref{jam_crunch_report}), sys, _ref(jam_crunch_report, report))
 end
 
 """
+    jam_crunch_history(sys, column, out, out_len, needed)
+
 One column of the last crunch, a value a step.
 Shapes: out (steps).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_crunch_history(sys, column, out, out_len, needed)
     return ccall((:jam_crunch_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_crunch_step_displacements(sys, out, out_len, needed)
+
 Displacements of all spheres in the step that has just ended, unit of box, images followed. Their sum over the steps
-leads from the start to the end. This call and the next three work only in the progress callback of jam_crunch with
+leads from the start to the end. This call and the next three work only in the progress callback of `jam_crunch` with
 steps = 1, when a step has just ended.
 Shapes: out (n, d).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_displacements(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_displacements, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_crunch_step_contacts(sys, out, out_len, needed)
+
 Linear contact network of an LP step: pairs of rows with a positive dual, rattlers included. Other steps have none.
 Shapes: out (m, 2).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_contacts(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-r_ij of these pairs before the step, unit of box.
+    jam_crunch_step_vectors(sys, out, out_len, needed)
+
+`r_ij` of these pairs before the step, unit of box.
 Shapes: out (m, d).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_vectors(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Duals lambda of these pairs: sum_j lambda_ij r_ij = 0 on every sphere that no step bound holds, and sum lambda_ij
-sigma_ij^2 = 1 with the diameters before the step.
+    jam_crunch_step_duals(sys, out, out_len, needed)
+
+Duals lambda of these pairs: `sum_j` `lambda_ij` `r_ij` = 0 on every sphere that no step bound holds, and sum `lambda_ij`
+`sigma_ij`^2 = 1 with the diameters before the step.
 Shapes: out (m).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_crunch_step_duals(sys, out, out_len, needed)
     return ccall((:jam_crunch_step_duals, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
+"""
+    jam_relax_options_init(o, size)
+"""
 function jam_relax_options_init(o, size)
     return ccall((:jam_relax_options_init, libjam), Int32, (Ref{jam_relax_options}, Csize_t), _ref(jam_relax_options, o), size)
 end
 
 """
+    jam_relax(sys, o, report)
+
 Minimises the energy of overlapping spheres at fixed diameters, and at a fixed cell unless `strain` frees it. Then
-the minimum of the fixed cell comes first. A free cell ends when stresses too are below force_tolerance. Keeps the
-contact network with its forces and stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and
-the like. The system must have been made with JAM_OVERLAP_ALLOW. Positions are rounded to doubles at the end; the
-network holds the digits beyond. Status: JAM_OK converged. JAM_NOT_JAMMED converged to energy 0: no overlaps.
-JAM_PRECISION converged, but overlaps are smaller than the rounding of the positions. JAM_NOT_CONVERGED. Example:
+the minimum of the fixed cell comes first. A free cell ends when stresses too are below `force_tolerance`. Keeps the
+contact network with its forces and stiffnesses for `jam_contacts`, `jam_forces`, `jam_hessian` (`JAM_STIFFNESS_SOFT`) and
+the like. The system must have been made with `JAM_OVERLAP_ALLOW`. Positions are rounded to doubles at the end; the
+network holds the digits beyond. Status: `JAM_OK` converged. `JAM_NOT_JAMMED` converged to energy 0: no overlaps.
+`JAM_PRECISION` converged, but overlaps are smaller than the rounding of the positions. `JAM_NOT_CONVERGED`. Example:
 examples/c/soft.c
-Errors: JAM_E_STATE (made without JAM_OVERLAP_ALLOW).
+Errors: `JAM_E_STATE` (made without `JAM_OVERLAP_ALLOW`).
 """
 function jam_relax(sys, o, report)
     return ccall((:jam_relax, libjam), Int32, (Ptr{Cvoid}, Ref{jam_relax_options}, Ref{jam_relax_report}), sys, _ref(jam_relax_options, o), _ref(jam_relax_report, report))
 end
 
+"""
+    jam_decompress_options_init(o, size)
+"""
 function jam_decompress_options_init(o, size)
     return ccall((:jam_decompress_options_init, libjam), Int32, (Ref{jam_decompress_options}, Csize_t), _ref(jam_decompress_options, o), size)
 end
 
 """
+    jam_decompress(sys, o, report)
+
 From overlapping spheres down to jamming. Minimises, shrinks all diameters by one factor so that the energy falls by
-energy_factor, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
-taken back and its square root is tried. Status: JAM_OK a target was reached; with isostatic and crunch, both ways
-lead to one network. JAM_NOT_JAMMED the start has no overlaps at its minimum. JAM_PRECISION overlaps came down to the
-rounding of positions before a target. JAM_NOT_CONVERGED: the last minimum is kept.
-Errors: JAM_E_STATE, JAM_E_TOO_FEW, JAM_E_SOLVER.
+`energy_factor`, and again (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few contacts is
+taken back and its square root is tried. Status: `JAM_OK` a target was reached; with isostatic and crunch, both ways
+lead to one network. `JAM_NOT_JAMMED` the start has no overlaps at its minimum. `JAM_PRECISION` overlaps came down to the
+rounding of positions before a target. `JAM_NOT_CONVERGED`: the last minimum is kept.
+Errors: `JAM_E_STATE`, `JAM_E_TOO_FEW`, `JAM_E_SOLVER`.
 """
 function jam_decompress(sys, o, report)
     return ccall((:jam_decompress, libjam), Int32, (Ptr{Cvoid}, Ref{jam_decompress_options}, Ref{jam_decompress_report}), sys, _ref(jam_decompress_options, o), _ref(jam_decompress_report, report))
 end
 
 """
+    jam_decompress_history(sys, column, out, out_len, needed)
+
 One column of the last decompression.
 Shapes: out (steps).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_decompress_history(sys, column, out, out_len, needed)
     return ccall((:jam_decompress_history, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, column, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_contacts(sys, out, out_len, needed)
+
 Contact pairs, i < j save for images of one sphere (i = j). Hard spheres have those only after a crunch with a free
 cell. Each stands for both opposite images, so it adds 2 to the coordination.
 Shapes: out (contacts, 2).
-Errors: JAM_E_STATE (no crunch yet).
+Errors: `JAM_E_STATE` (no crunch yet).
 """
 function jam_contacts(sys, out, out_len, needed)
     return ccall((:jam_contacts, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Unit vectors n = (r_i - r_j)/|r_i - r_j| of each pair.
+    jam_contact_vectors(sys, out, out_len, needed)
+
+Unit vectors n = (`r_i` - `r_j`)/|`r_i` - `r_j`| of each pair.
 Shapes: out (contacts, d).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_contact_vectors(sys, out, out_len, needed)
     return ccall((:jam_contact_vectors, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_contact_gaps(sys, out, out_len, needed)
+
 Gaps h of the contacts. After a polish they are at rounding, 1e-14. Of tens of thousands of spheres a few of the
 weakest contacts may stay open by up to 2e-6. A log line reports it; sum f h is then below 3e-14 of sum f.
 Shapes: out (contacts).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_contact_gaps(sys, out, out_len, needed)
     return ccall((:jam_contact_gaps, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Contact forces, mean 1; times report.force_scale they are lambda r. With more than one state of self-stress
-(excess_contacts > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
-middle of all non-negative states, as jam_stress_states gives.
+    jam_forces(sys, out, out_len, needed)
+
+Contact forces, mean 1; times `report.force_scale` they are lambda r. With more than one state of self-stress
+(`excess_contacts` > 0: crystals, disks of two sizes) they are not unique. A jammed packing then has those in the
+middle of all non-negative states, as `jam_stress_states` gives.
 Shapes: out (contacts).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_forces(sys, out, out_len, needed)
     return ccall((:jam_forces, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_coordination(sys, out, out_len, needed)
+
 Number of contacts of each sphere; 0 for rattlers.
 Shapes: out (n).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_coordination(sys, out, out_len, needed)
     return ccall((:jam_coordination, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
+"""
+    jam_hessian_options_init(o, size)
+"""
 function jam_hessian_options_init(o, size)
     return ccall((:jam_hessian_options_init, libjam), Int32, (Ref{jam_hessian_options}, Csize_t), _ref(jam_hessian_options, o), size)
 end
 
+"""
+    jam_modes_options_init(o, size)
+"""
 function jam_modes_options_init(o, size)
     return ccall((:jam_modes_options_init, libjam), Int32, (Ref{jam_modes_options}, Csize_t), _ref(jam_modes_options, o), size)
 end
 
 """
+    jam_hessian_map(sys, out, out_len, needed)
+
 The N' stable spheres, ascending: row d k + c of the Hessian is component c of sphere out[k].
 Shapes: out (N').
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_hessian_map(sys, out, out_len, needed)
     return ccall((:jam_hessian_map, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Hessian in compressed rows, both triangles, *rows = entries. Unit: stiffness at the mean force.
-Shapes: row_start (d N' + 1), column (entries), value (entries).
-Errors: JAM_E_STATE.
+    jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, rows)
+
+Hessian in compressed rows, both triangles, `*rows` = entries. Unit: stiffness at the mean force.
+Shapes: `row_start` (d N' + 1), column (entries), value (entries).
+Errors: `JAM_E_STATE`.
 """
 function jam_hessian(sys, h, row_start, row_start_len, column, column_len, value, value_len, rows)
     return ccall((:jam_hessian, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Int32}, Csize_t, Ptr{Int32}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(row_start), row_start_len, _ptr(column), column_len, _ptr(value), value_len, _ref(Csize_t, rows))
 end
 
 """
-Modes of the Hessian, *rows = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
-|v_i|^4 / (sum |v_i|^2)^2. When fewer converge the rest is NaN. Status: JAM_NOT_CONVERGED.
+    jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, rows)
+
+Modes of the Hessian, `*rows` = their number m: lambda = omega^2 ascending, vector of unit length, participation = sum
+|`v_i`|^4 / (sum |`v_i`|^2)^2. When fewer converge the rest is NaN. Status: `JAM_NOT_CONVERGED`.
 Shapes: lambda (m), vector (m, N', d), participation (m).
-Errors: JAM_E_STATE, JAM_E_SOLVER.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_modes(sys, h, o, lambda, lambda_len, vector, vector_len, participation, participation_len, rows)
     return ccall((:jam_modes, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_modes_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_modes_options, o), _ptr(lambda), lambda_len, _ptr(vector), vector_len, _ptr(participation), participation_len, _ref(Csize_t, rows))
 end
 
+"""
+    jam_geometry_options_init(o, size)
+"""
 function jam_geometry_options_init(o, size)
     return ccall((:jam_geometry_options_init, libjam), Int32, (Ref{jam_geometry_options}, Csize_t), _ref(jam_geometry_options, o), size)
 end
 
 """
-Contact network and forces from positions, diameters and box alone, kept as jam_crunch keeps its own; no sphere
+    jam_contacts_from_geometry(sys, o, report)
+
+Contact network and forces from positions, diameters and box alone, kept as `jam_crunch` keeps its own; no sphere
 moves. Rattlers are the spheres that carry no force. Contacts between the others stay, some with force 0. Forces
 are the null vector of S^T, or the analytic centre of the non-negative ones where there are several states of
-self-stress. The stored report's `jammed` is the verdict of jam_rigidity, whatever the tolerance. Status, with the
-network kept each time: JAM_OK: one jump stands out, or only this candidate has a single state of self-stress.
-JAM_AMBIGUOUS: another candidate fits too (see second_*), or there are several states of self-stress. Also where gaps
-above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. JAM_NOT_JAMMED: not
+self-stress. The stored report's `jammed` is the verdict of `jam_rigidity`, whatever the tolerance. Status, with the
+network kept each time: `JAM_OK`: one jump stands out, or only this candidate has a single state of self-stress.
+`JAM_AMBIGUOUS`: another candidate fits too (see second_×), or there are several states of self-stress. Also where gaps
+above 1e-7 leave the verdict open, or where coordinates have too few digits for a no. `JAM_NOT_JAMMED`: not
 collectively jammed even with these contacts closed.
-Errors: JAM_E_SOLVER.
+Errors: `JAM_E_SOLVER`.
 """
 function jam_contacts_from_geometry(sys, o, report)
     return ccall((:jam_contacts_from_geometry, libjam), Int32, (Ptr{Cvoid}, Ref{jam_geometry_options}, Ref{jam_geometry_report}), sys, _ref(jam_geometry_options, o), _ref(jam_geometry_report, report))
 end
 
 """
+    jam_contact_candidates(sys, window, table, table_len, needed)
+
 Candidates for the contact tolerance, for packings where no jump is clear; m is at most 12. A candidate is a jump of
-the sorted gaps below window, as in jam_geometry_options, with enough contacts for a rigid network below it. The
+the sorted gaps below window, as in `jam_geometry_options`, with enough contacts for a rigid network below it. The
 largest jump comes first.
-Shapes: table (m, jam_candidate_column).
+Shapes: table (m, `jam_candidate_column`).
 """
 function jam_contact_candidates(sys, window, table, table_len, needed)
     return ccall((:jam_contact_candidates, libjam), Int32, (Ptr{Cvoid}, Cdouble, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, window, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-States of self-stress of the network: *rows = their number m; force, mean 1, from the null space of S^T, not from LP
-duals; basis orthonormal; residual: one number, as force_residual. Status: JAM_AMBIGUOUS (m > 1: force is the centre
-of the non-negative ones), JAM_NOT_JAMMED (m = 0 or no force of one sign).
-Shapes: force (n_c), basis (m, n_c).
-Errors: JAM_E_STATE, JAM_E_SOLVER.
+    jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
+
+States of self-stress of the network: `*rows` = their number m; force, mean 1, from the null space of S^T, not from LP
+duals; basis orthonormal; residual: one number, as `force_residual`. Status: `JAM_AMBIGUOUS` (m > 1: force is the centre
+of the non-negative ones), `JAM_NOT_JAMMED` (m = 0 or no force of one sign).
+Shapes: force (`n_c`), basis (m, `n_c`).
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_stress_states(sys, force, force_len, basis, basis_len, residual, rows)
     return ccall((:jam_stress_states, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Cdouble}, Ref{Csize_t}), sys, _ptr(force), force_len, _ptr(basis), basis_len, _ref(Cdouble, residual), _ref(Csize_t, rows))
 end
 
 """
-Tests whether the packing is jammed. Nothing changes but strictly_jammed in the stored crunch report. Contacts are
+    jam_rigidity(sys, kind, report)
+
+Tests whether the packing is jammed. Nothing changes but `strictly_jammed` in the stored crunch report. Contacts are
 pairs with gaps below 1e-10, whether a network lists them or not: none is needed, and the check answers the same.
 Where coordinates have few digits, pairs within their rounding are undecided, and the answer is a no only where
 spheres have too few of them. A sphere and its own image are a contact in the strict test, and in the collective one
@@ -1832,75 +2089,90 @@ opening of contacts by a motion v, and E eps that by a strain eps. Collectively 
 translations of B. Strictly jammed: S v + E eps >= 0 with tr eps <= 0 only for those and eps = 0. Sources: Donev,
 Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139 (2004); Connelly 1988; Connelly, Shen, Smith,
 arXiv:1301.0664; Roth and Whiteley 1981. Both hold for this cell: several copies of it together may unjam. Status:
-JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided.
-Errors: JAM_E_SOLVER.
+`JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided.
+Errors: `JAM_E_SOLVER`.
 """
 function jam_rigidity(sys, kind, report)
     return ccall((:jam_rigidity, libjam), Int32, (Ptr{Cvoid}, Int32, Ref{jam_rigidity_report}), sys, kind, _ref(jam_rigidity_report, report))
 end
 
 """
+    jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
+
 A motion that a packing which is not jammed can follow: out, unit of the box, and strain, 0 for the collective kind.
 The largest displacement is at most 1 mean diameter. Moving by a small part of both keeps all contacts or opens them.
 Where no pair is near contact, one sphere moves.
 Shapes: out (n, d), strain (d, d).
-Errors: JAM_E_SOLVER, JAM_E_STATE (jammed, or undecided without a motion).
+Errors: `JAM_E_SOLVER`, `JAM_E_STATE` (jammed, or undecided without a motion).
 """
 function jam_flex(sys, kind, out, out_len, strain, strain_len, needed)
     return ccall((:jam_flex, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, kind, _ptr(out), out_len, _ptr(strain), strain_len, _ref(Csize_t, needed))
 end
 
+"""
+    jam_check_options_init(o, size)
+"""
 function jam_check_options_init(o, size)
     return ccall((:jam_check_options_init, libjam), Int32, (Ref{jam_check_options}, Csize_t), _ref(jam_check_options, o), size)
 end
 
 """
+    jam_check_packing(sys, o, report)
+
 Judges a packing as it is: by positions, diameters and cell alone, whatever network the handle holds. Nothing on the
-handle changes. Runs both tests of jam_rigidity. Coordinates with few digits never give a no unless spheres have too
+handle changes. Runs both tests of `jam_rigidity`. Coordinates with few digits never give a no unless spheres have too
 few neighbours to be held. A system that may overlap is tested with its diameters reduced until no pair overlaps.
-Status: JAM_OK jammed, JAM_NOT_JAMMED, JAM_AMBIGUOUS undecided. jam_last_error() holds jam_check_text for every
+Status: `JAM_OK` jammed, `JAM_NOT_JAMMED`, `JAM_AMBIGUOUS` undecided. `jam_last_error()` holds `jam_check_text` for every
 status above 0.
-Errors: JAM_E_OVERLAP (above one half), JAM_E_SOLVER.
+Errors: `JAM_E_OVERLAP` (above one half), `JAM_E_SOLVER`.
 """
 function jam_check_packing(sys, o, report)
     return ccall((:jam_check_packing, libjam), Int32, (Ptr{Cvoid}, Ref{jam_check_options}, Ref{jam_check_report}), sys, _ref(jam_check_options, o), _ref(jam_check_report, report))
 end
 
 """
-The report of jam_check_packing as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
-for NULL or a wrong struct_size. Valid until this thread's next call of it.
+    jam_check_text(report)
+
+The report of `jam_check_packing` as one paragraph: the verdict, its figures, how sure it is, and what was proved. ""
+for NULL or a wrong `struct_size`. Valid until this thread's next call of it.
 """
 function jam_check_text(report)
     return ccall((:jam_check_text, libjam), Cstring, (Ref{jam_check_report},), _ref(jam_check_report, report))
 end
 
 """
+    jam_prove(sys, ratio, ratio_len, report)
+
 Proves, in spite of rounding, that the packing is jammed. Contacts and forces are those of the network. Newton's
-steps take the centres to two doubles (jam_refined_positions). A factorisation with a bound of its rounding gives the
+steps take the centres to two doubles (`jam_refined_positions`). A factorisation with a bound of its rounding gives the
 smallest singular value, and Kantorovich's theorem the rest: the guide's page "Proofs" has theorems and limits.
-ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: JAM_OK proved
-exact or trapped, JAM_AMBIGUOUS not proved (jam_last_error names the cause).
+ratio: the exact ratios of the diameters, in any unit; NULL takes the diameters as they are. Status: `JAM_OK` proved
+exact or trapped, `JAM_AMBIGUOUS` not proved (`jam_last_error` names the cause).
 Shapes: ratio (n).
-Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED (Mari-Kurchan model).
+Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED` (Mari-Kurchan model).
 """
 function jam_prove(sys, ratio, ratio_len, report)
     return ccall((:jam_prove, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{jam_proof_report}), sys, _ptr(ratio), ratio_len, _ref(jam_proof_report, report))
 end
 
 """
+    jam_prove_strict(sys, report)
+
 The same where the cell deforms too: the diameters are fixed, and the cell vectors are unknowns. EXACT: strictly
 jammed, and the volume is a strict local minimum. TRAPPED: of all motions and strains that do not enlarge the volume.
-Lengths of the report count displacements and entries of the cell vectors alike, packing_fraction is that of the
-exact cell. There is no proof file. Status: JAM_AMBIGUOUS not proved.
-Errors: JAM_E_STATE (no network), JAM_E_UNSUPPORTED.
+Lengths of the report count displacements and entries of the cell vectors alike, `packing_fraction` is that of the
+exact cell. There is no proof file. Status: `JAM_AMBIGUOUS` not proved.
+Errors: `JAM_E_STATE` (no network), `JAM_E_UNSUPPORTED`.
 """
 function jam_prove_strict(sys, report)
     return ccall((:jam_prove_strict, libjam), Int32, (Ptr{Cvoid}, Ref{jam_proof_report}), sys, _ref(jam_proof_report, report))
 end
 
 """
+    jam_proof_text(theorem, cause, radius, value, bound)
+
 What was proved, in a few words: "proved, radius 4e-31", "trapped within 3e-28, excess 130, 129", "not proved, force
-1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no jam_theorem or jam_proof_cause. Valid until
+1e-12, 3e-11". Arguments as in the reports; "" for numbers that are no `jam_theorem` or `jam_proof_cause`. Valid until
 this thread's next call of it.
 """
 function jam_proof_text(theorem, cause, radius, value, bound)
@@ -1908,84 +2180,102 @@ function jam_proof_text(theorem, cause, radius, value, bound)
 end
 
 """
+    jam_write_proof(sys, path, ratio, ratio_len)
+
 Writes the exact numbers of the proof: refined centres, contacts, forces. bindings/proof/jamproof.py checks such a
-file with integers alone, without libjam. ratio: as for jam_prove. The file appears whole or not at all. Status:
-JAM_AMBIGUOUS (dependent contacts: centres are not refined).
+file with integers alone, without libjam. ratio: as for `jam_prove`. The file appears whole or not at all. Status:
+`JAM_AMBIGUOUS` (dependent contacts: centres are not refined).
 Shapes: ratio (n).
-Errors: JAM_E_STATE, JAM_E_UNSUPPORTED, JAM_E_IO.
+Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`, `JAM_E_IO`.
 """
 function jam_write_proof(sys, path, ratio, ratio_len)
     return ccall((:jam_write_proof, libjam), Int32, (Ptr{Cvoid}, Cstring, Ptr{Cdouble}, Csize_t), sys, path, _ptr(ratio), ratio_len)
 end
 
 """
+    jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed)
+
 Centres of the jammed packing as sums of two doubles, high + low, unit of the box: about 31 digits. Rattlers stay
-where they are. ratio: as for jam_prove. Status: JAM_AMBIGUOUS (dependent contacts, nothing is written).
+where they are. ratio: as for `jam_prove`. Status: `JAM_AMBIGUOUS` (dependent contacts, nothing is written).
 Shapes: ratio (n), high (n, d), low (n, d).
-Errors: JAM_E_STATE, JAM_E_UNSUPPORTED.
+Errors: `JAM_E_STATE`, `JAM_E_UNSUPPORTED`.
 """
 function jam_refined_positions(sys, ratio, ratio_len, high, high_len, low, low_len, needed)
     return ccall((:jam_refined_positions, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(ratio), ratio_len, _ptr(high), high_len, _ptr(low), low_len, _ref(Csize_t, needed))
 end
 
 """
-Gaps h of all pairs below h_max (every image), contacts left out, ascending; *rows = gaps. With stable_only = 0
+    jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
+
+Gaps h of all pairs below `h_max` (every image), contacts left out, ascending; `*rows` = gaps. With `stable_only` = 0
 rattlers count too and no network is needed.
 Shapes: gap (gaps), pair (gaps, 2).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_gaps(sys, h_max, stable_only, gap, gap_len, pair, pair_len, rows)
     return ccall((:jam_gaps, libjam), Int32, (Ptr{Cvoid}, Cdouble, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, h_max, stable_only, _ptr(gap), gap_len, _ptr(pair), pair_len, _ref(Csize_t, rows))
 end
 
 """
-Flags (jam_contact_class) of every contact.
-Shapes: out (n_c).
-Errors: JAM_E_STATE.
+    jam_contact_classes(sys, out, out_len, needed)
+
+Flags (`jam_contact_class`) of every contact.
+Shapes: out (`n_c`).
+Errors: `JAM_E_STATE`.
 """
 function jam_contact_classes(sys, out, out_len, needed)
     return ccall((:jam_contact_classes, libjam), Int32, (Ptr{Cvoid}, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-c: C_i = sum_j n_ij, s: S_i = sum_{j<k} n_ij . n_ik, with f n for n when weighted; 0 for rattlers. *rows = n.
+    jam_sphere_structure(sys, weighted, c, c_len, s, s_len, rows)
+
+c: `C_i` = `sum_j` `n_ij`, s: `S_i` = sum_{j<k} `n_ij` . `n_ik`, with f n for n when weighted; 0 for rattlers. `*rows` = n.
 Shapes: c (n, d), s (n).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_sphere_structure(sys, weighted, c, c_len, s, s_len, rows)
     return ccall((:jam_sphere_structure, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(c), c_len, _ptr(s), s_len, _ref(Csize_t, rows))
 end
 
 """
-n_ij . n_ik (f_ij f_ik times it when weighted) of every pair of contacts of a sphere, and that sphere; *rows = pairs.
+    jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
+
+`n_ij` . `n_ik` (`f_ij` `f_ik` times it when weighted) of every pair of contacts of a sphere, and that sphere; `*rows` = pairs.
 Shapes: dot (pairs), sphere (pairs).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_contact_dots(sys, weighted, dot, dot_len, sphere, sphere_len, rows)
     return ccall((:jam_contact_dots, libjam), Int32, (Ptr{Cvoid}, Int32, Ptr{Cdouble}, Csize_t, Ptr{Int32}, Csize_t, Ref{Csize_t}), sys, weighted, _ptr(dot), dot_len, _ptr(sphere), sphere_len, _ref(Csize_t, rows))
 end
 
 """
-Values of a quantity in a population, in the order of contacts, spheres or jam_contact_dots.
+    jam_local_values(sys, quantity, population, out, out_len, needed)
+
+Values of a quantity in a population, in the order of contacts, spheres or `jam_contact_dots`.
 Shapes: out (values).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_local_values(sys, quantity, population, out, out_len, needed)
     return ccall((:jam_local_values, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-Histogram of the values of jam_local_values: density in `bins` equal bins of [low, high), its integral the share of
+    jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed)
+
+Histogram of the values of `jam_local_values`: density in `bins` equal bins of [low, high), its integral the share of
 values there.
 Shapes: out (bins).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_histogram(sys, quantity, population, low, high, bins, out, out_len, needed)
     return ccall((:jam_histogram, libjam), Int32, (Ptr{Cvoid}, Int32, Int32, Cdouble, Cdouble, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, quantity, population, low, high, bins, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
-g_ab(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to r_max mean
+    jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_len, needed)
+
+`g_ab`(r) of spheres with labels a and b (-1: any; kind: the labels, or NULL), in `bins` equal bins up to `r_max` mean
 diameters.
 Shapes: kind (n), out (bins).
 """
@@ -1994,7 +2284,9 @@ function jam_pair_correlation(sys, kind, kind_len, a, b, r_max, bins, out, out_l
 end
 
 """
-S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= q_max; q per mean diameter,
+    jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows)
+
+S(q) on the wave vectors of the cell (in a cube 2 pi n / box), averaged over each |q| <= `q_max`; q per mean diameter,
 ascending. Lengths that differ by less than 5e-13 of |q| are one.
 Shapes: q (m), s (m).
 """
@@ -2003,7 +2295,9 @@ function jam_structure_factor(sys, q_max, q, q_len, s, s_len, rows)
 end
 
 """
-Bond order Q_l of each sphere (d = 2: |psi_l|) over neighbours with |r| < cutoff sigma_ij; l in 1..64, cutoff in (0,
+    jam_bond_order(sys, l, cutoff, out, out_len, needed)
+
+Bond order `Q_l` of each sphere (d = 2: |`psi_l`|) over neighbours with |r| < cutoff `sigma_ij`; l in 1..64, cutoff in (0,
 3] (1.2 is usual).
 Shapes: out (n).
 """
@@ -2012,6 +2306,8 @@ function jam_bond_order(sys, l, cutoff, out, out_len, needed)
 end
 
 """
+    jam_crystal_score(sys, score)
+
 Crystal score: g at sqrt 2 over its mean in 1.2..1.6 (mean diameters); below 1 in a good glass of equal spheres,
 about 10 in a perfect FCC crystal.
 """
@@ -2020,90 +2316,111 @@ function jam_crystal_score(sys, score)
 end
 
 """
+    jam_local_fraction(sys, out, out_len, needed)
+
 Packing fraction of each sphere in its radical Voronoi cell, d = 3.
 Shapes: out (n).
-Errors: JAM_E_UNSUPPORTED (d, or built without voro++).
+Errors: `JAM_E_UNSUPPORTED` (d, or built without voro++).
 """
 function jam_local_fraction(sys, out, out_len, needed)
     return ccall((:jam_local_fraction, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_floppy_mode(sys, contact, out, out_len, needed)
+
 Floppy mode: displacement over s when a contact opens by s. To first order all other contacts stay closed, all
-diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..n_c-1. Needs a
-single state of self-stress (JAM_E_STATE says how many there are).
+diameters change by the factor 1 - s f / sum f sigma, and there is no net translation. contact in 0..`n_c`-1. Needs a
+single state of self-stress (`JAM_E_STATE` says how many there are).
 Shapes: out (N', d).
-Errors: JAM_E_STATE, JAM_E_SOLVER.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_floppy_mode(sys, contact, out, out_len, needed)
     return ccall((:jam_floppy_mode, libjam), Int32, (Ptr{Cvoid}, Int64, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, contact, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_floppy_modes(sys, table, table_len, needed)
+
 The floppy mode of every contact, measured.
-Shapes: table (n_c, jam_floppy_column).
-Errors: JAM_E_STATE, JAM_E_SOLVER.
+Shapes: table (`n_c`, `jam_floppy_column`).
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_floppy_modes(sys, table, table_len, needed)
     return ccall((:jam_floppy_modes, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
+"""
+    jam_dos_options_init(o, size)
+"""
 function jam_dos_options_init(o, size)
     return ccall((:jam_dos_options_init, libjam), Int32, (Ref{jam_dos_options}, Csize_t), _ref(jam_dos_options, o), size)
 end
 
 """
+    jam_density_of_states(sys, h, o, table, table_len, needed)
+
 Density of states D(omega) and its integral by the kernel polynomial method: no modes are computed, translations are
 left out. With prestress omega starts below 0: unstable modes stand at -sqrt(-lambda), and resolution is lower near
 0.
-Shapes: table (points, jam_dos_column).
-Errors: JAM_E_STATE, JAM_E_SOLVER, JAM_E_TOO_FEW.
+Shapes: table (points, `jam_dos_column`).
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`, `JAM_E_TOO_FEW`.
 """
 function jam_density_of_states(sys, h, o, table, table_len, needed)
     return ccall((:jam_density_of_states, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_dos_options}, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ref(jam_dos_options, o), _ptr(table), table_len, _ref(Csize_t, needed))
 end
 
 """
-Projections u . v of a displacement u on the modes `vector` of jam_modes. Over all d N' modes their squares add up to
+    jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
+
+Projections u . v of a displacement u on the modes `vector` of `jam_modes`. Over all d N' modes their squares add up to
 |u|^2.
 Shapes: vector (m, N', d), u (N', d), out (m).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_project(sys, vector, vector_len, u, u_len, out, out_len, needed)
     return ccall((:jam_project, libjam), Int32, (Ptr{Cvoid}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ptr(vector), vector_len, _ptr(u), u_len, _ptr(out), out_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_curvature(sys, h, u, u_len, value)
+
 value = u . H . u for a displacement u.
 Shapes: u (N', d).
-Errors: JAM_E_STATE.
+Errors: `JAM_E_STATE`.
 """
 function jam_curvature(sys, h, u, u_len, value)
     return ccall((:jam_curvature, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ref{Cdouble}), sys, _ref(jam_hessian_options, h), _ptr(u), u_len, _ref(Cdouble, value))
 end
 
 """
-Elastic moduli; JAM_E_STATE also when prestress makes the network unstable.
-Errors: JAM_E_STATE, JAM_E_SOLVER.
+    jam_moduli(sys, h, moduli)
+
+Elastic moduli; `JAM_E_STATE` also when prestress makes the network unstable.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_moduli(sys, h, moduli)
     return ccall((:jam_moduli, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ref{jam_moduli_report}), sys, _ref(jam_hessian_options, h), _ref(jam_moduli_report, moduli))
 end
 
 """
-Elastic tensor c_abcd: second derivative of the energy a volume by E_ab and E_cd of x -> (1 + E) x. Unit as
-jam_moduli, *needed = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress c_abcd and
-c_bacd differ: a rotation of stressed contacts counts.
+    jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
+
+Elastic tensor `c_abcd`: second derivative of the energy a volume by `E_ab` and `E_cd` of x -> (1 + E) x. Unit as
+`jam_moduli`, `*needed` = d^4. affine: spheres move by E alone; relaxed: then forces balance. With prestress `c_abcd` and
+`c_bacd` differ: a rotation of stressed contacts counts.
 Shapes: affine (d, d, d, d), relaxed (d, d, d, d).
-Errors: JAM_E_STATE, JAM_E_SOLVER.
+Errors: `JAM_E_STATE`, `JAM_E_SOLVER`.
 """
 function jam_elastic_tensor(sys, h, affine, affine_len, relaxed, relaxed_len, needed)
     return ccall((:jam_elastic_tensor, libjam), Int32, (Ptr{Cvoid}, Ref{jam_hessian_options}, Ptr{Cdouble}, Csize_t, Ptr{Cdouble}, Csize_t, Ref{Csize_t}), sys, _ref(jam_hessian_options, h), _ptr(affine), affine_len, _ptr(relaxed), relaxed_len, _ref(Csize_t, needed))
 end
 
 """
+    jam_compare(sys, other, comparison, out, out_len, needed)
+
 Compares two packings sphere by sphere. out is the displacement from sys to other by nearest images. Its mean over
-spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. JAM_AMBIGUOUS:
+spheres stable in both, or over all when none is, is taken out. n, dim, cell and model must agree. `JAM_AMBIGUOUS`:
 ratios of diameters differ, or one of the two has no network.
 Shapes: out (n, d).
 """

@@ -1,0 +1,54 @@
+# The linear programs of CALiPPSO.jl (Artiaco et al., Phys. Rev. E 106, 055310 (2022)) one by one.
+
+"""
+    calippso!(s; l0, sqrΓ0, thresholds_bounds, sbound, tol_Γ_convergence, tol_S_convergence, max_iters, on_lp, options...)
+
+Solves the linear programs of CALiPPSO.jl stage by stage, with its parameters, in its units and with its defaults: `l0` (or
+`ℓ0`) in the unit of the box, `sbound` in radii, `tol_S_convergence` in the unit of the box. Radius of influence and bound on
+displacements follow its three stages. Each LP is solved to its optimum. `on_lp`: a function of the row that was just made;
+`true` stops. Other keywords are options of `crunch!`, such as `lp_solver`.
+
+Returns a table with a row for each LP: gain (√Γ - 1), phi, step_max (largest displacement of a stable sphere, unit of the box),
+contacts, excess, rattlers, pairs (rows of the LP), radius and bound (unit of the box), seconds. Equal spheres only, as R is
+one number there; for mixtures the mean radius stands for R. Call `crunch!(s)` after it for contacts, forces and certificate.
+
+```jldoctest
+julia> s = System(n = 64, dim = 3, seed = 1); compress!(s; growth_rate = 0.1, pressure = 1000);
+
+julia> lps = calippso!(s; max_iters = 3); length(lps)
+3
+
+julia> issorted(lps.phi)
+true
+```
+"""
+function calippso!(s::System; l0 = nothing, ℓ0 = l0, sqrGamma0 = 1.01, sqrΓ0 = sqrGamma0, thresholds_bounds = (5e-4, 1e-5), sbound = 0.01,
+                   tol_Gamma_convergence = 1e-12, tol_Γ_convergence = tol_Gamma_convergence, tol_S_convergence = 1e-9,
+                   max_iters = 1000, on_lp = nothing, given...)
+    refuse(given, (:method, :max_lps, :full_lps, :polish, :neighbour_radius, :step_bound), "calippso! sets it")
+    gain, d = sqrΓ0 - 1, Int(info(s).dim)
+    cutoff = ℓ0 === nothing ? 2 * info(s).diameter_mean : Float64(ℓ0)  # 4 R
+    rows = NamedTuple[]
+    for _ in 1:max_iters
+        sigma = info(s).diameter_mean
+        radius, bound = stage(gain, cutoff, sigma / 2, d, thresholds_bounds, sbound)
+        r = crunch!(s; method = :sequential_lp, max_lps = 1, full_lps = true, polish = false, neighbour_radius = radius / sigma,
+                step_bound = bound / sigma, given...)
+        last = history(s)[end]
+        now = info(s).diameter_mean
+        push!(rows, (gain = last.gain, phi = last.phi, step_max = r.max_step * now, contacts = last.contacts, excess = last.excess,
+                     rattlers = last.rattlers, pairs = last.pairs, radius = radius, bound = bound, seconds = last.seconds))
+        on_lp !== nothing && on_lp(rows[end]) === true && break
+        gain = last.gain
+        gain <= tol_Γ_convergence && r.max_step * now <= tol_S_convergence && break
+    end
+    names = (:gain, :phi, :step_max, :contacts, :excess, :rattlers, :pairs, :radius, :bound, :seconds)
+    return Table(NamedTuple{names}(Tuple(Float64[row[name] for row in rows] for name in names)))
+end
+
+"Radius of influence and bound of the displacements of one of the three stages, by the gain of the LP before (their bounds_and_cutoff)."
+function stage(gain, l0, R, d, thresholds, sbound)
+    gain > thresholds[1] && return l0, (l0 - max(1.5, 1 + gain) * 2R) / (2 * sqrt(d))
+    gain > thresholds[2] && return min(4R, l0), 0.1R
+    return min(2.7R, l0), sbound * R
+end

@@ -1,0 +1,111 @@
+# The jammed network: contacts, forces, stiffness, modes.
+
+"2-by-contacts matrix of sphere indices, from 1."
+contacts(s::System) = call(s, :jam_contacts, ())
+"Contact forces, mean 1; times `report(s).force_scale` they are lambda r of the LP."
+forces(s::System) = call(s, :jam_forces, ())
+"Contacts of each sphere, 0 for rattlers."
+coordination(s::System) = call(s, :jam_coordination, ())
+"Which spheres are rattlers: no contact with a force touches them."
+rattlers(s::System) = coordination(s) .== 0
+"Which spheres are bucklers, with exactly d + 1 contacts."
+bucklers(s::System) = coordination(s) .== info(s).dim + 1
+
+"""
+    contact_table(s)
+
+The contacts as a table: i, j, force, gap, and the unit vector from j to i (x, y, ...).
+
+```jldoctest
+julia> s = System(n = 64, dim = 2, seed = 1, diameters = repeat([1.0, 1.4], 32)); crunch!(s);
+
+julia> t = contact_table(s); length(t) == report(s).contacts
+true
+
+julia> propertynames(t)
+(:i, :j, :force, :gap, :x, :y)
+```
+"""
+function contact_table(s::System)
+    pairs, v = contacts(s), contact_vectors(s)
+    return Table(merge((i = pairs[1, :], j = pairs[2, :], force = forces(s), gap = contact_gaps(s)), axes_of(v)))
+end
+
+"""
+    sphere_table(s)
+
+The spheres as a table: position (x, y, ...), diameter and, after a crunch, contacts.
+"""
+function sphere_table(s::System)
+    t = merge(axes_of(positions(s)), (diameter = diameters(s),))
+    known = try
+        (contacts = coordination(s),)
+    catch e
+        e isa JamError && e.status === :state || rethrow()
+        (;)
+    end
+    return Table(merge(t, known))
+end
+
+function axes_of(x)
+    names = size(x, 1) <= 3 ? (:x, :y, :z)[1:size(x, 1)] : Tuple(Symbol("x", k) for k in 1:size(x, 1))
+    return NamedTuple{names}(Tuple(x[k, :] for k in 1:size(x, 1)))
+end
+
+"All pairs with gaps below 1, of stable spheres: `gaps(s, h_max, stable_only)`."
+gaps(s::System) = gaps(s, 1.0, true)
+"The test of collective jamming: `rigidity(s, :collective)`."
+rigidity(s::System; progress = nothing) = rigidity(s, :collective; progress = progress)
+"A motion of all spheres in the fixed cell: `flex(s, :collective)`."
+flex(s::System; progress = nothing) = flex(s, :collective; progress = progress)
+
+"""
+    hessian(s; stiffness, alpha, prestress)
+
+The Hessian of the network, a sparse symmetric matrix of size d N': rows d (k - 1) + 1 to d k belong to sphere
+`hessian_map(s)[k]`. `stiffness`: `:harmonic`, `:power` (with `alpha`), `:hard` or `:soft`.
+
+```jldoctest
+julia> using LinearAlgebra
+
+julia> s = System(n = 64, dim = 2, seed = 1, diameters = repeat([1.0, 1.4], 32)); crunch!(s);
+
+julia> h = hessian(s); issymmetric(h)
+true
+
+julia> m = modes(s, 3); u = m.vectors[:, 1]; isapprox(u' * h * u, m.values[1]; rtol = 1e-8)
+true
+```
+"""
+function hessian(s::System; given...)
+    made = call(s, :jam_hessian, (); given...)
+    start = Int.(made.row_start)
+    m = length(start) - 1
+    # compressed rows of a symmetric matrix are its compressed columns
+    return SparseMatrixCSC(m, m, start, Int.(made.column), made.value)
+end
+
+"""
+    modes(s, k = 10; which, frequency, stiffness, alpha, prestress, tolerance, memory_limit, progress)
+
+Vibrational modes: a NamedTuple of `values` (omega^2, ascending), `vectors` (a column a mode, of unit length), `participation`,
+`frequencies` (negative where the value is) and `spheres`, those that move. `which`: `:lowest`, `:highest`, `:near` (a
+`frequency`) or `:all`. `reshape(m.vectors[:, 1], d, :)` has a column for each of the `spheres`.
+"""
+function modes(s::System, k::Integer = 10; progress = nothing, given...)
+    made = call(s, :jam_modes, (); progress = progress, count = k, given...)
+    omega(x) = x < 0 ? -sqrt(-x) : sqrt(x)
+    vectors = reshape(made.vector, :, length(made.lambda))
+    return (values = made.lambda, vectors = vectors, participation = made.participation, frequencies = omega.(made.lambda),
+            spheres = hessian_map(s))
+end
+
+"""
+    pair_correlation(s, r_max = 4, bins = 200; labels, a, b) -> (r, g)
+
+g(r) in equal bins up to `r_max` mean diameters; with `labels`, a whole number a sphere, that of spheres `a` around `b`.
+"""
+function pair_correlation(s::System, r_max = 4.0, bins = 200; labels = nothing, a = -1, b = -1)
+    g = call(s, :jam_pair_correlation, (labels, a, b, r_max, bins))
+    return (r = (collect(1:bins) .- 0.5) .* (r_max / bins), g = g)
+end

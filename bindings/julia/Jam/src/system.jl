@@ -1,0 +1,177 @@
+# The system of spheres: how one is made, copied and freed; its state.
+
+"""
+    System
+
+N spheres in a periodic cube, or in any periodic cell.
+
+`compress!` and `crunch!` move the spheres; `report`, `contacts`, `forces`, `gaps`, `hessian` and `modes` describe the jammed
+network. Arrays are d-by-n matrices, a column for each sphere. Lengths are in the unit of `box`, sizes are diameters, kT/m = 1.
+After a call `s.status` is `:ok`, or says that it stopped early or found no certain answer, and `s.why` gives the reason.
+Only one call at a time may run on a system.
+
+    System(; n, dim, seed, packing_fraction, porosity, diameters, radii, box, cell, model, mk_zeta, masses, non_additivity,
+           wall_time, memory_limit, progress)
+
+Random sequential start; of `diameters` only the ratios count. With `overlap = :allow` spheres are independent points.
+
+    System(positions, diameters; box, cell, dim, overlap, seed, model, mk_zeta, masses, non_additivity)
+    System(positions; radii, ...)
+
+From a d-by-n matrix, or a vector of points, and n diameters or one. Positions are wrapped into the cube of side `box`, or the
+cell whose vectors are the columns of `cell`; d sides make a brick. Without both, positions must lie in [0, 1]. A last row that
+equals the sizes is refused unless `dim` confirms that it is a coordinate. `overlap`: `:refuse`, `:shrink` or `:allow`.
+
+    System(path; box, frame, overlap, shrink_min, seed, model, mk_zeta)
+
+From a file: plain text, extended XYZ, LAMMPS data and dumps, tables, each also compressed. `notes` has what was changed.
+
+```jldoctest
+julia> System(n = 100, dim = 2, seed = 7)
+System(n = 100, dim = 2, packing_fraction = 0.2, box = 1, seed = 7)
+
+julia> diameters(System([1.0 3.0; 1.0 3.0]; radii = 0.5, box = 4))
+2-element Vector{Float64}:
+ 1.0
+ 1.0
+```
+"""
+mutable struct System
+    handle::Ptr{Cvoid}  # of C; the finalizer frees it
+    status::Symbol      # of the last call
+    why::String         # a sentence, where the status is not :ok
+    function System(handle::Ptr{Cvoid})
+        s = new(handle, :ok, "")
+        finalizer(close, s)
+        return s
+    end
+end
+
+function System(; diameters = nothing, radii = nothing, porosity = nothing, progress = nothing, given...)
+    diameters === nothing || radii === nothing || throw(ArgumentError("give either diameters or radii"))
+    sizes = diameters === nothing ? radii : diameters  # of a random start only ratios count
+    sizes = sizes === nothing ? nothing : vec(dense(sizes))
+    count = sizes === nothing ? 1024 : length(sizes)
+    return create((; n = count, with_density((; given...), porosity)...), nothing, sizes; progress = progress)
+end
+
+function System(positions::Union{AbstractMatrix, AbstractVector}, diameters = nothing; radii = nothing, progress = nothing, given...)
+    refuse(given, (:packing_fraction, :porosity), "the diameters are given")
+    x = positions_of(positions)
+    sizes, count = radii === nothing ? diameters : radii, length(something(diameters, radii, 0.0))
+    sizes === nothing && throw(ArgumentError("give either diameters or radii" *
+        (size(x, 1) > 2 ? ". If the last row holds radii, pass positions[1:$(size(x, 1) - 1), :]; radii = positions[end, :]" : "")))
+    check_positions(x, count, sizes isa Number ? sizes : vec(collect(sizes)), given)
+    return create((; n = size(x, 2), dim = size(x, 1), given...), x, sizes_of(diameters, radii, size(x, 2)); progress = progress)
+end
+
+function System(path::AbstractString; given...)
+    refuse(given, (:packing_fraction, :porosity), "the file holds it")
+    refuse(given, (:diameters, :radii, :cell), "files give sizes and cell")
+    out = Ref{Ptr{Cvoid}}(C_NULL)
+    written(jam_read(path, options(jam_create_options, given), nothing, nothing, out))
+    return System(out[])
+end
+
+"Frees the system; any other use is then an error."
+function Base.close(s::System)
+    s.handle == C_NULL && return nothing
+    jam_destroy(s.handle)
+    s.handle = C_NULL
+    return nothing
+end
+
+function handle(s::System)
+    s.handle == C_NULL && throw(ArgumentError("the system is closed"))
+    return s.handle
+end
+
+# Keeps the status of a call that has just returned, and why it is not :ok.
+function note!(s::System, status::Integer)
+    s.status, s.why = word(:status_code, check(status)), status > 0 ? last_text() : ""
+    return s.status
+end
+
+"Deep copy with results. It has the same seed: set velocities to make its dynamics differ."
+function Base.copy(s::System)
+    out = Ref{Ptr{Cvoid}}(C_NULL)
+    check(jam_copy(handle(s), out))
+    return System(out[])
+end
+
+"""
+    info(s)
+
+What the system is now: n, dim, box, packing_fraction, pressure, ...
+"""
+function info(s::System)
+    made = jam_info()
+    check(jam_get_info(handle(s), made))
+    return Report(made)
+end
+
+"Packing fraction: the sum of the volumes of the spheres over that of the cell."
+packing_fraction(s::System) = info(s).packing_fraction
+
+"What was changed or assumed when the system was made, a sentence a line."
+notes(s::System) = unsafe_string(jam_notes(handle(s)))
+
+function Base.show(io::IO, s::System)
+    s.handle == C_NULL && return print(io, "System(closed)")
+    i = info(s)
+    print(io, "System(n = ", i.n, ", dim = ", i.dim, ", packing_fraction = ", @sprintf("%.8g", i.packing_fraction), ", box = ",
+          @sprintf("%g", i.box), ", seed = ", i.seed, ")")
+end
+
+# ---- state
+
+function view_of(s::System, f)
+    p, count = Ref{Ptr{Cdouble}}(C_NULL), Ref{Csize_t}(0)
+    check(f(handle(s), p, count))
+    return GC.@preserve s copy(unsafe_wrap(Array, p[], Int(count[])))
+end
+
+"d-by-n copy of the positions, in [0, box) of a cube, in other cells in the brick of the cell's diagonal."
+positions(s::System) = reshape(view_of(s, jam_view_positions), Int(info(s).dim), :)
+"d-by-n copy of the velocities, kT/m = 1; zero until a first run draws them."
+velocities(s::System) = reshape(view_of(s, jam_view_velocities), Int(info(s).dim), :)
+"Copy of the n diameters."
+diameters(s::System) = view_of(s, jam_view_diameters)
+"Copy of the n radii."
+radii(s::System) = diameters(s) ./ 2
+
+function check_shape(s::System, x, name)
+    wanted = (Int(info(s).dim), Int(info(s).n))
+    size(x) == wanted && return dense(x)
+    turned = size(x) == reverse(wanted) ? ": transposed? Pass permutedims($name)" : ""
+    throw(ArgumentError("$name must be a $(wanted[1])-by-$(wanted[2]) matrix, not $(join(size(x), "-by-"))$turned"))
+end
+
+"""
+    set_positions!(s, x)
+
+Replaces the positions, wrapped into the cell; results of a crunch are dropped.
+"""
+function set_positions!(s::System, x::AbstractMatrix)
+    y = check_shape(s, x, "positions")
+    written(jam_set_positions(handle(s), y, length(y)))
+    return s
+end
+
+"""
+    set_velocities!(s, v)
+
+Replaces the velocities; results of a crunch are kept.
+"""
+function set_velocities!(s::System, v::AbstractMatrix)
+    y = check_shape(s, v, "velocities")
+    written(jam_set_velocities(handle(s), y, length(y)))
+    return s
+end
+
+"""
+    scale_diameters!(s, factor)
+
+Multiplies all diameters by `factor`; results of a crunch are dropped.
+"""
+scale_diameters!(s::System, factor) = (written(jam_scale_diameters(handle(s), factor)); s)

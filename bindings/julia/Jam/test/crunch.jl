@@ -1,0 +1,41 @@
+# The way to the jamming point, its words, what it reports, and the stages of CALiPPSO.
+s = System(n = 60, dim = 2, seed = 3, diameters = repeat([1.4, 1.0], 30))
+r = crunch!(s; method = :sequential_lp, lp_solver = "ipm")
+@test r.jammed === true && r.status === :ok && s.status === :ok && r.method === :sequential_lp && r.stop_reason === :converged
+@test report(s).packing_fraction == r.packing_fraction == packing_fraction(s)
+@test occursin("sequential_lp", failure(() -> crunch!(s; method = :sequential)))
+@test occursin("did you mean gain_tolerance", failure(() -> crunch!(s; gain_tolerence = 1e-9)))
+@test occursin("neighbour_radius", failure(() -> crunch!(s; l0 = 0.4))) && occursin("calippso!(s; l0 = 0.4)", failure(() -> crunch!(s; l0 = 0.4)))
+@test all(name -> occursin("CALiPPSO", failure(() -> crunch!(s; (name => 1,)...))), keys(Jam.CALIPPSO))
+@test occursin("true or false", failure(() -> crunch!(s; polish = 7.5)))
+rows = history(s)
+@test rows isa AbstractVector && rows[end].phase === :polish && rows.phi[end] ≈ r.packing_fraction
+@test count(==(:lp), rows.phase) == r.lp_solves
+@test occursin("packing_fraction", sprint(show, MIME"text/plain"(), r)) && occursin("phi", sprint(show, MIME"text/plain"(), rows))
+@test NamedTuple(r).contacts == r.contacts && :contacts in propertynames(r)
+@test occursin("did you mean contacts", failure(() -> r.contact))
+
+# Displacements of the steps lead from the start to the end.
+t = System(n = 40, dim = 2, seed = 5, diameters = repeat([1.4, 1.0], 20))
+x, lps = positions(t), Ref(0)
+crunch!(t; method = :sequential_lp, on_step = step -> (x .+= step.displacements; lps[] += length(step.duals) > 0; false))
+@test lps[] > 1
+@test maximum(abs, mod.(x .- positions(t) .+ 0.5, 1) .- 0.5) < 1e-12
+@test crunch!(System(n = 40, dim = 2); on_step = step -> true).status === :cancelled
+
+# Their stages: the density never falls, and the same packing is jammed for crunch!, which then moves nothing.
+u = System(n = 64, dim = 3, seed = 1, packing_fraction = 0.3)
+lps = calippso!(u; l0 = 0.5)
+@test all(diff(lps.phi) .> -1e-15) && length(lps) < 100 && lps.gain[end] <= 1e-12 && lps.step_max[end] <= 1e-9
+@test lps.radius[1] == 0.5
+@test lps.bound[end] ≈ 0.005 * info(u).diameter_mean rtol = 1e-3
+@test all(lps.step_max[2:end] .<= sqrt(3) .* 2 .* lps.bound[2:end])  # without the mean of all spheres
+certificate = crunch!(u)
+@test certificate.jammed && certificate.displacement_max_stable < 1e-6
+@test occursin("calippso! sets it", failure(() -> calippso!(u; step_bound = 0.1)))
+
+# The packing as it is.
+@test judge(s).status === :ok && startswith(judge(s).text, "Collectively jammed")
+@test sprint(show, MIME"text/plain"(), judge(s)) == judge(s).text
+scale_diameters!(s, 0.9)
+@test judge(s).status === :not_jammed && judge(s).jammed === :no

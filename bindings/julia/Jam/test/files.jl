@@ -1,0 +1,24 @@
+# Files come back with the bits that were written; Julia's own read stays what it is.
+s = disks()
+folder = mktempdir()
+file = joinpath(folder, "packing.xyz")
+write(file, s)
+@test positions(System(file)) == positions(Jam.read(file)) == positions(Base.read(file, System)) == positions(s)
+@test Base.read(file, String)[1:2] == "60" && read(file, String)[1:2] == "60"
+@test occursin("without effect", failure(() -> System(file; packing_fraction = 0.3)))
+write(joinpath(folder, "plain.gz"), s; format = :plain)
+@test diameters(System(joinpath(folder, "plain.gz"))) == diameters(s)
+@test occursin(":lammps", failure(() -> write(file, s; format = :lamps)))
+@test occursin("no/such", failure(() -> System("no/such/file.xyz"))) && occursin("JamError (:io)", failure(() -> System("no/such/file.xyz")))
+write_contacts(joinpath(folder, "contacts.csv"), s)
+@test countlines(joinpath(folder, "contacts.csv")) == report(s).contacts + 1
+page(joinpath(folder, "page.html"), s; title = "Sixty disks", values = (z = coordination(s), size = diameters(s)))
+@test occursin("Sixty disks", read(joinpath(folder, "page.html"), String))
+@test occursin("3, and there are 60", failure(() -> page(joinpath(folder, "page.html"), s; values = (z = [1, 2, 3],))))
+picture(joinpath(folder, "disks.svg"), s)
+drawn = read(joinpath(folder, "disks.svg"), String)
+@test count("<circle", drawn) == 60 && count("stroke=\"#222\"", drawn) == report(s).contacts
+@test showable("image/svg+xml", s) && !showable("image/svg+xml", System(n = 8, dim = 3))
+@test occursin("d = 2", failure(() -> picture(joinpath(folder, "x.svg"), System(n = 8, dim = 3))))
+write_proof(s, joinpath(folder, "proof.txt"))
+@test filesize(joinpath(folder, "proof.txt")) > 0
